@@ -148,6 +148,15 @@ look(struct rc_model *m, struct rc_point *at, struct rc_err *err)
     return RC_OK;
 }
 
+/* Makes the map of the dents where it is missing; false: memory is short. */
+static bool
+has_dent(struct adhesive *a)
+{
+    if (a->dent == NULL)
+        a->dent = rc_store_zeros(&a->base.own, a->n, sizeof *a->dent);
+    return a->dent != NULL;
+}
+
 static enum rc_status
 keep(struct rc_model *m, struct rc_err *err)
 {
@@ -156,7 +165,7 @@ keep(struct rc_model *m, struct rc_err *err)
     a->pulls = false;
     if (a->figures.adhesion.plastic_nodes == 0)
         return RC_OK;
-    if (a->dent == NULL && (a->dent = calloc(a->n, sizeof *a->dent)) == NULL)
+    if (!has_dent(a))
         return rc_err_set(err, "out of memory for the shape after yield");
     for (size_t k = 0; k < a->n; k++)
         a->dent[k] -= a->h[k];
@@ -205,23 +214,20 @@ set_heights(struct rc_model *m, const double *h, struct rc_err *err)
 static void
 read_dent(struct adhesive *a, struct rc_state *s, bool some)
 {
-    double *now = calloc(a->n, sizeof *now);
+    const double *now = some ? rc_state_read_map(s, a->n) : NULL;
     bool differ = false;
     struct rc_err err;
 
-    if (now == NULL) {
+    if (!has_dent(a)) {
         rc_state_refuse(s, "memory is short");
         return;
     }
-    if (some)
-        rc_state_map(s, a->n, now);
     for (size_t k = 0; k < a->n; k++) {
-        const double more = now[k] - (a->dent != NULL ? a->dent[k] : 0);
+        const double dent = now != NULL ? now[k] : 0, more = dent - a->dent[k];
         differ |= more != 0;
         a->h[k] += more;
+        a->dent[k] = dent;
     }
-    free(a->dent);
-    a->dent = now;
     if (rc_state_reads(s) && differ && pass_heights(a, &err) != RC_OK)
         rc_state_refuse(s, "its shape is not finite");
 }
@@ -231,19 +237,15 @@ static void
 read_path(struct adhesive *a, struct rc_state *s, double approach,
           const struct rc_adhesion_past *past)
 {
-    double *p = rc_alloc(a->n, sizeof *p);
-    struct rc_err err = {"memory is short"};
+    const double *p = rc_state_read_map(s, a->n);
+    struct rc_err err;
 
-    if (p != NULL)
-        rc_state_map(s, a->n, p);
     if (p == NULL)
+        return;
+    if (make_path(a, &err) != RC_OK || rc_adhesion_start(a->path, p, approach, &err) != RC_OK)
         rc_state_refuse(s, err.text);
-    else if (rc_state_reads(s) && (make_path(a, &err) != RC_OK ||
-                                   rc_adhesion_start(a->path, p, approach, &err) != RC_OK))
-        rc_state_refuse(s, err.text);
-    else if (rc_state_reads(s))
+    else
         *rc_adhesion_past(a->path) = *past;
-    free(p);
 }
 
 /* Reads the state at the last kept point, from which a retraction or a separation is repeated. */
@@ -269,14 +271,13 @@ state(struct rc_model *m, struct rc_state *s)
 {
     struct adhesive *a = (struct adhesive *)m;
     struct rc_adhesion_past past = {{0, 0}, false};
-    size_t started = a->started, dented = a->dent != NULL, begun,
-           anew = m->moved && started && (a->pulls || rc_adhesion_result(a->path)->separated);
+    bool started = a->started, dented = a->dent != NULL,
+         anew = m->moved && started && (a->pulls || rc_adhesion_result(a->path)->separated);
     double approach = started ? rc_adhesion_approach(a->path) : 0, *to;
 
     if (started)
         past = *rc_adhesion_past(a->path);
-    begun = past.begun;
-    rc_state_count(s, &anew, 1);
+    RC_STATE_FLAGS(s, &anew);
     if (rc_state_reads(s) && m->moved && m->status != RC_FAIL)
         m->status = RC_MORE; /* the next step decides whether it is the solution */
     if (anew) {
@@ -284,12 +285,8 @@ state(struct rc_model *m, struct rc_state *s)
             read_start(a, s);
         return;
     }
-    rc_state_count(s, &started, 1);
-    rc_state_count(s, &begun, 1);
-    rc_state_count(s, &dented, 1);
-    rc_state_numbers(s, 1, &approach);
-    rc_state_numbers(s, 2, past.dents);
-    past.begun = begun;
+    RC_STATE_FLAGS(s, &started, &past.begun, &dented);
+    RC_STATE_NUMBERS(s, &approach, &past.dents[0], &past.dents[1]);
     if (!rc_state_reads(s)) {
         if (dented)
             rc_state_map(s, a->n, a->dent);
@@ -345,8 +342,6 @@ release(struct rc_model *m)
     struct adhesive *a = (struct adhesive *)m;
 
     rc_adhesion_free(a->path);
-    free(a->h);
-    free(a->dent);
 }
 
 const struct rc_model_row rc_model_adhesive = {
@@ -373,7 +368,7 @@ rc_adhesive_new(const struct rc_shape *shape, const double *h,
                 const struct rc_adhesion_problem *problem, struct rc_err *err)
 {
     struct rc_adhesion_scales scales;
-    struct rc_model *m;
+    RC_OWN(rc_model, m) = NULL;
     struct adhesive *a;
 
     if (rc_adhesion_check(shape, problem, &scales, err) != RC_OK ||
@@ -382,13 +377,8 @@ rc_adhesive_new(const struct rc_shape *shape, const double *h,
     a = (struct adhesive *)m;
     a->problem = *problem;
     a->n = shape->nx * shape->ny;
-    if ((a->h = rc_alloc(a->n, sizeof *a->h)) == NULL) {
-        rc_err_set(err, "out of memory for the heights");
-        rc_model_free(m);
-        return NULL;
-    }
-    memcpy(a->h, h, a->n * sizeof *h);
-    return m;
+    a->h = rc_store_copy(&m->own, a->n, sizeof *h, h);
+    return rc_model_room(m, err) == RC_OK ? rc_give(&m) : NULL;
 }
 
 const struct rc_adhesive_figures *

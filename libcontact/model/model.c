@@ -366,6 +366,14 @@ rc_model_make(const struct rc_model_row *row, size_t size, const struct rc_shape
     return m;
 }
 
+enum rc_status
+rc_model_room(const struct rc_model *m, struct rc_err *err)
+{
+    return !m->own.failed ? RC_OK
+                          : rc_err_set(err, "out of memory for the %s model of %zu x %zu nodes",
+                                       m->row->name, m->shape.nx, m->shape.ny);
+}
+
 struct rc_model *
 rc_model_make_outer(const struct rc_model_row *row, size_t size, struct rc_model *inner,
                     struct rc_err *err)

@@ -16,11 +16,20 @@ void rc_state_numbers(struct rc_state *s, size_t n, double *v);
 void rc_state_finite(struct rc_state *s, size_t n, double *v);
 /* The same for one number of at least `least`. */
 void rc_state_number(struct rc_state *s, double *v, double least);
-/* A size or a boolean, at most `most`, as one number. */
+/* A size, at most `most`, as one number. */
 void rc_state_count(struct rc_state *s, size_t *n, size_t most);
+/* Members one after the other, each by its address: numbers, sizes of any value, booleans. */
+#define RC_STATE_NUMBERS(s, ...) rc_state_each_number(s, (double *const[]){__VA_ARGS__, NULL})
+#define RC_STATE_COUNTS(s, ...) rc_state_each_count(s, (size_t *const[]){__VA_ARGS__, NULL})
+#define RC_STATE_FLAGS(s, ...) rc_state_each_flag(s, (bool *const[]){__VA_ARGS__, NULL})
+void rc_state_each_number(struct rc_state *s, double *const *v);
+void rc_state_each_count(struct rc_state *s, size_t *const *n);
+void rc_state_each_flag(struct rc_state *s, bool *const *flag);
 /* A map: the n nodes of this rank. In a state all maps follow all numbers. Returns the place of the map in a
  * state that is being written, else NULL; v NULL: the caller writes to that place. */
 double *rc_state_map(struct rc_state *s, size_t n, double *v);
+/* The next map of the state that is being read, as long as that state stays; NULL: it is refused. */
+const double *rc_state_read_map(struct rc_state *s, size_t n);
 /* True if n numbers are left in the state that is being read; otherwise refuses the state. */
 bool rc_state_holds(struct rc_state *s, size_t n);
 /* True if the state is being read and was not refused. */
@@ -126,6 +135,8 @@ struct rc_model *rc_model_make(const struct rc_model_row *row, size_t size,
                                const struct rc_shape *shape, struct rc_err *err);
 struct rc_model *rc_model_make_outer(const struct rc_model_row *row, size_t size,
                                      struct rc_model *inner, struct rc_err *err);
+/* RC_FAIL, with a sentence, if memory was short for a block of m->own. */
+enum rc_status rc_model_room(const struct rc_model *m, struct rc_err *err);
 /* The figures of this table of the first model of the chain that has them; NULL: none has. */
 const void *rc_model_result(const struct rc_model *m, const struct rc_figure *table);
 /* The model of this row in a chain of models; NULL: there is none. */

@@ -77,6 +77,18 @@ rc_state_map(struct rc_state *s, size_t n, double *v)
     return s->mode == WRITES ? s->to + s->map_at - n : NULL;
 }
 
+const double *
+rc_state_read_map(struct rc_state *s, size_t n)
+{
+    if (n > s->n - s->map_at)
+        rc_state_refuse(s, "numbers are missing");
+    if (s->bad)
+        return NULL;
+    s->map_at += n;
+    s->maps++;
+    return s->from + s->map_at - n;
+}
+
 void
 rc_state_count(struct rc_state *s, size_t *n, size_t most)
 {
@@ -89,6 +101,30 @@ rc_state_count(struct rc_state *s, size_t *n, size_t most)
         *n = (size_t)v;
     else
         rc_state_refuse(s, "a size is out of range");
+}
+
+void
+rc_state_each_number(struct rc_state *s, double *const *v)
+{
+    for (; *v != NULL; v++)
+        rc_state_numbers(s, 1, *v);
+}
+
+void
+rc_state_each_count(struct rc_state *s, size_t *const *n)
+{
+    for (; *n != NULL; n++)
+        rc_state_count(s, *n, SIZE_MAX / 4096);
+}
+
+void
+rc_state_each_flag(struct rc_state *s, bool *const *flag)
+{
+    for (; *flag != NULL; flag++) {
+        size_t v = **flag;
+        rc_state_count(s, &v, 1);
+        **flag = v;
+    }
 }
 
 void

@@ -285,11 +285,19 @@ compare_runs(struct yielding *y)
     rc_plastic_judge(y->plastic, own, before);
 }
 
+static bool
+has_other(struct yielding *y)
+{
+    if (y->other == NULL)
+        y->other = rc_store_take(&y->base.own, y->n, sizeof *y->other);
+    return y->other != NULL;
+}
+
 /* Keeps the pressure of the first try, and returns to the state before it. */
 static enum rc_status
 try_again(struct yielding *y, size_t than, struct rc_err *err)
 {
-    if (y->other == NULL && (y->other = rc_alloc(y->n, sizeof *y->other)) == NULL)
+    if (!has_other(y))
         return rc_err_set(err, "out of memory for the pressure of a try");
     if (y->try == 0) {
         memcpy(y->other, rc_solver_pressure(y->plastic->solver), y->n * sizeof *y->other);
@@ -504,13 +512,12 @@ shape(const struct yielding *y, double *to)
 static enum rc_status
 look_apart(const struct yielding *y, double *gap, struct rc_contact *c, struct rc_err *err)
 {
-    double *left = rc_alloc(y->n, sizeof *left);
+    RC_OWNED double *left = rc_alloc(y->n, sizeof *left);
 
     if (left == NULL)
         return rc_err_set(err, "out of memory for the shape after yield");
     shape(y, left);
     rc_contact_apart(NULL, &y->base.shape, left, gap, c);
-    free(left);
     return RC_OK;
 }
 
@@ -669,7 +676,7 @@ forget_volume(struct yielding *y)
 static void
 exchange_elastic(struct yielding *y, struct rc_state *s, double solved)
 {
-    double *p = NULL;
+    RC_OWNED double *p = NULL;
     struct rc_err err;
 
     if (!rc_state_reads(s)) {
@@ -688,7 +695,6 @@ exchange_elastic(struct yielding *y, struct rc_state *s, double solved)
          (solved > 0 &&
           (y->elastic == NULL || rc_solver_warm_start(y->elastic, solved, p, &err) != RC_OK))))
         rc_state_refuse(s, "its load or its pressure is not finite or negative");
-    free(p);
 }
 
 static void
@@ -718,7 +724,7 @@ exchange_volume(struct yielding *y, struct rc_state *s, size_t slabs)
     rc_state_copy(s, &y->half);
     rc_state_count(s, &y->spent, SIZE_MAX / 4096);
     rc_state_count(s, &y->than, RC_YIELDING_INCREMENTS);
-    if (y->than > 0 && y->other == NULL && (y->other = rc_alloc(y->n, sizeof *y->other)) == NULL)
+    if (y->than > 0 && !has_other(y))
         rc_state_refuse(s, "memory is short");
     else if (y->than > 0)
         rc_state_finite(s, y->n, y->other);
@@ -758,8 +764,6 @@ release(struct rc_model *m)
 
     forget_volume(y);
     rc_solver_free(y->elastic);
-    free(y->h);
-    free(y->other);
 }
 
 /* ---- the maker ---- */
@@ -787,7 +791,7 @@ struct rc_model *
 rc_yielding_new(const struct rc_shape *shape, const double *h,
                 const struct rc_plastic_problem *problem, struct rc_err *err)
 {
-    struct rc_model *m;
+    RC_OWN(rc_model, m) = NULL;
     struct yielding *y;
 
     if (rc_shape_check(shape, err) != RC_OK || rc_plastic_check(problem, err) != RC_OK ||
@@ -796,14 +800,11 @@ rc_yielding_new(const struct rc_shape *shape, const double *h,
     y = (struct yielding *)m;
     y->problem = *problem;
     y->n = shape->nx * shape->ny;
-    if ((y->h = rc_alloc(y->n, sizeof *y->h)) == NULL) {
-        rc_err_set(err, "out of memory for the heights");
-        rc_model_free(m);
+    y->h = rc_store_copy(&m->own, y->n, sizeof *h, h);
+    if (rc_model_room(m, err) != RC_OK)
         return NULL;
-    }
-    memcpy(y->h, h, y->n * sizeof *h);
     y->first_top = highest(y);
-    return m;
+    return rc_give(&m);
 }
 
 static struct yielding *
@@ -826,9 +827,7 @@ rc_yielding_plan(struct rc_model *m, size_t loads, double largest)
 const struct rc_yielding_figures *
 rc_yielding_result(const struct rc_model *m)
 {
-    const struct yielding *y = yielding_of(m);
-
-    return y != NULL ? &y->figures : NULL;
+    return rc_model_result(m, rc_figures_yielding);
 }
 
 bool

@@ -28,8 +28,8 @@ enum stage {
 struct way {
     struct rc_model *inner; /* NULL: takes the pressure of the first way */
     struct rc_slip *slip;
-    double *maps, *less, *p, *gap; /* less: heights of the inner model */
-    double *before[2];             /* tractions of the previous pass   */
+    double *less, *p, *gap; /* less: heights of the inner model */
+    double *before[2];      /* tractions of the previous pass   */
     bool has_gap, contact_good;
     double tol;              /* tolerance of the tractions, with all passes */
     struct rc_point pressed; /* the point of p, in the axes of the inner model */
@@ -636,12 +636,10 @@ static void
 exchange_increment(struct friction *f, struct rc_state *s)
 {
     struct way *w = f->way;
-    double *numbers[] = {&w->pressure_change, &w->traction_change, &w->factor, &w->pressure_error};
     struct rc_err err;
 
     rc_state_count(s, &w->passes, SIZE_MAX / 2);
-    for (size_t k = 0; k < sizeof numbers / sizeof *numbers; k++)
-        rc_state_numbers(s, 1, numbers[k]);
+    RC_STATE_NUMBERS(s, &w->pressure_change, &w->traction_change, &w->factor, &w->pressure_error);
     for (int c = 0; c < 3 && f->alternates; c++) /* tractions of the previous pass */
         rc_state_numbers(s, f->n, c < 2 ? w->before[c] : w->p);
     for (int c = 0; c < 2 && f->problem.fewer > 0; c++)
@@ -679,25 +677,19 @@ static void
 state(struct rc_model *m, struct rc_state *s)
 {
     struct friction *f = (struct friction *)m;
-    double *numbers[] = {&f->dissipated, &f->lagging, &f->lag_before, &f->doubt};
-    size_t good = f->good, told = f->before.told, carries = f->before.carries;
+    size_t told = f->before.told;
 
     rc_state_count(s, &f->way->stage, THERE);
-    rc_state_count(s, &f->increment, SIZE_MAX / 2);
+    RC_STATE_COUNTS(s, &f->increment, &f->passes);
     rc_state_count(s, &f->fewer_done, f->problem.fewer);
-    rc_state_count(s, &f->passes, SIZE_MAX / 2);
-    rc_state_count(s, &good, 1);
+    RC_STATE_FLAGS(s, &f->good, &f->before.carries);
     rc_state_count(s, &told, RC_TOLD_UNKNOWN);
-    rc_state_count(s, &carries, 1);
     if (f->energy != NULL)
         rc_state_numbers(s, f->n, f->energy);
-    for (size_t k = 0; k < sizeof numbers / sizeof *numbers; k++)
-        rc_state_numbers(s, 1, numbers[k]);
+    RC_STATE_NUMBERS(s, &f->dissipated, &f->lagging, &f->lag_before, &f->doubt);
     exchange_ways(f, s);
     if (rc_state_reads(s)) {
-        f->good = good;
         f->before.told = (enum rc_told)told;
-        f->before.carries = carries;
         f->running = 0;
         f->again = false;
         f->convolutions =
@@ -722,13 +714,9 @@ release(struct rc_model *m)
 
     for (size_t j = 0; j <= RC_FEWER; j++) {
         rc_slip_free(f->way[j].slip);
-        free(f->way[j].maps);
         if (j > 0)
             rc_model_free(f->way[j].inner);
     }
-    free(f->h);
-    free(f->energy);
-    free(f->lag[0]); /* the second array is part of this block */
 }
 
 const struct rc_model_row rc_model_friction = {
@@ -751,13 +739,6 @@ const struct rc_model_row rc_model_friction = {
 
 /* ---- the maker ---- */
 
-static enum rc_status
-short_of_memory(const struct friction *f, struct rc_err *err)
-{
-    return rc_err_set(err, "out of memory for the friction of %zu x %zu nodes", f->base.shape.nx,
-                      f->base.shape.ny);
-}
-
 /* Begins with separated bodies, because the gap before contact shows which nodes came into contact later. */
 static enum rc_status
 begin(struct way *w, const double *gap, struct rc_err *err)
@@ -773,6 +754,19 @@ begin(struct way *w, const double *gap, struct rc_err *err)
     return status;
 }
 
+static enum rc_status
+make_maps(struct friction *f, struct way *w, struct rc_err *err)
+{
+    double **maps[] = {&w->p, &w->gap, &w->less, &w->before[0], &w->before[1]};
+    const bool own = w == f->way || f->alternates; /* this way has its own pressure */
+
+    w->p = f->way->p;
+    w->gap = f->way->gap;
+    for (size_t k = 0; k < (f->alternates ? 5 : 2) && own; k++)
+        *maps[k] = rc_store_zeros(&f->base.own, f->n, sizeof **maps[k]);
+    return rc_model_room(&f->base, err);
+}
+
 /* Makes way j. Half of its tolerance is for the passes. The error of a way with fewer increments enters the
  * estimate several times, so that its tolerance is a tenth. */
 static enum rc_status
@@ -781,29 +775,14 @@ make_way(struct friction *f, size_t j, const double *h, struct rc_err *err)
     static const double usual = 1e-4;
     struct way *w = &f->way[j];
     struct rc_slip_problem slip = f->problem.slip;
-    const bool own = j == 0 || f->alternates; /* this way has its own pressure */
-    const size_t maps = !own ? 0 : f->alternates ? 5 : 2;
     struct rc_contact contact;
 
     w->tol = (slip.tol > 0 ? slip.tol : usual) / (j > 0 ? 10 : 1);
     slip.tol = f->alternates ? w->tol / 2 : w->tol;
     w->approach = NAN;
-    if ((w->slip = rc_slip_new(&f->base.shape, &slip, err)) == NULL)
+    if ((w->slip = rc_slip_new(&f->base.shape, &slip, err)) == NULL ||
+        make_maps(f, w, err) != RC_OK)
         return RC_FAIL;
-    w->p = f->way->p;
-    w->gap = f->way->gap;
-    if (own) {
-        if ((w->maps = rc_alloc(maps * f->n, sizeof *w->maps)) == NULL)
-            return short_of_memory(f, err);
-        memset(w->maps, 0, maps * f->n * sizeof *w->maps);
-        w->p = w->maps;
-        w->gap = w->maps + f->n;
-    }
-    if (f->alternates) {
-        w->less = w->maps + 2 * f->n;
-        w->before[0] = w->maps + 3 * f->n;
-        w->before[1] = w->maps + 4 * f->n;
-    }
     if (h == NULL)
         return RC_OK;
     rc_contact_apart(NULL, &f->base.shape, h, w->gap, &contact);
@@ -839,18 +818,12 @@ make(struct friction *f, const double *h, struct rc_err *err)
         if (f->way[j].inner == NULL)
             return rc_err_set(err, "the bodies are dissimilar: each way with fewer increments "
                                    "needs its own inner model");
-    if (f->alternates) {
-        if ((f->h = rc_alloc(f->n, sizeof *f->h)) == NULL)
-            return short_of_memory(f, err);
-        memcpy(f->h, h, f->n * sizeof *h);
-    }
-    if (o->dissipation && (f->energy = calloc(f->n, sizeof *f->energy)) == NULL)
-        return short_of_memory(f, err);
-    if (o->fewer > 0) {
-        if ((f->lag[0] = rc_alloc(2 * f->n, sizeof **f->lag)) == NULL)
-            return short_of_memory(f, err);
-        f->lag[1] = f->lag[0] + f->n;
-    }
+    if (f->alternates)
+        f->h = rc_store_copy(&f->base.own, f->n, sizeof *h, h);
+    if (o->dissipation)
+        f->energy = rc_store_zeros(&f->base.own, f->n, sizeof *f->energy);
+    for (int c = 0; c < 2 && o->fewer > 0; c++)
+        f->lag[c] = rc_store_take(&f->base.own, f->n, sizeof *f->lag[c]);
     for (size_t j = 0; j <= o->fewer; j++)
         if (make_way(f, j, h, err) != RC_OK)
             return RC_FAIL;
@@ -861,7 +834,7 @@ struct rc_model *
 rc_friction_new(struct rc_model *inner, const double *h, const struct rc_friction_problem *problem,
                 struct rc_err *err)
 {
-    struct rc_model *m =
+    RC_OWN(rc_model, m) =
         rc_model_make_outer(&rc_model_friction, sizeof(struct friction), inner, err);
 
     if (m == NULL) {
@@ -870,11 +843,7 @@ rc_friction_new(struct rc_model *inner, const double *h, const struct rc_frictio
         return NULL;
     }
     ((struct friction *)m)->problem = *problem;
-    if (make((struct friction *)m, h, err) == RC_FAIL) {
-        rc_model_free(m);
-        return NULL;
-    }
-    return m;
+    return make((struct friction *)m, h, err) == RC_OK ? rc_give(&m) : NULL;
 }
 
 const struct rc_friction_figures *

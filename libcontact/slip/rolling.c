@@ -677,23 +677,18 @@ state(struct rc_model *m, struct rc_state *s)
 {
     struct rolling *f = (struct rolling *)m;
     const bool path = f->problem.path;
-    size_t rolls = f->rolls;
     struct level *l;
 
     rc_state_count(s, &f->stage, THERE);
     rc_state_count(s, &f->level, LEVELS - 1);
-    rc_state_count(s, &rolls, 1);
-    rc_state_numbers(s, 1, &f->x);
-    rc_state_numbers(s, 1, &f->inherited);
+    RC_STATE_FLAGS(s, &f->rolls);
+    RC_STATE_NUMBERS(s, &f->x, &f->inherited, &f->coarse.moment, &f->coarse_error);
     rc_state_numbers(s, 2, f->coarse.force);
     rc_state_numbers(s, 2, f->coarse.creep);
-    rc_state_numbers(s, 1, &f->coarse.moment);
-    rc_state_numbers(s, 1, &f->coarse_error);
     if (rc_state_reads(s)) {
         f->resumes = false;
         f->again = f->stage == ROLLING || f->stage == THERE;
         f->convolutions = all_convolutions(f);
-        f->rolls = rolls;
         f->length = f->rolls && path ? m->to.at[RC_POSITION] - m->from.at[RC_POSITION] : 0;
     }
     if (f->stage != ROLLING && f->stage != THERE && !(path && f->rolls))
@@ -769,7 +764,6 @@ release(struct rc_model *m)
 
     for (size_t k = 0; k < LEVELS; k++)
         rc_steady_free(f->at[k].d);
-    free(f->p);
 }
 
 const struct rc_model_row rc_model_rolling = {
@@ -807,26 +801,20 @@ make(struct rolling *f, struct rc_err *err)
             "take the free boundary");
     f->n = f->base.shape.nx * f->base.shape.ny;
     o->tol = o->tol > 0 ? o->tol : usual_tol[f->problem.path];
-    if ((f->p = rc_alloc(f->n, sizeof *f->p)) == NULL)
-        return rc_err_set(err, "out of memory for rolling of %zu x %zu nodes", f->base.shape.nx,
-                          f->base.shape.ny);
-    memset(f->p, 0, f->n * sizeof *f->p);
-    return RC_OK;
+    f->p = rc_store_zeros(&f->base.own, f->n, sizeof *f->p);
+    return rc_model_room(&f->base, err);
 }
 
 struct rc_model *
 rc_rolling_new(struct rc_model *inner, const struct rc_rolling_problem *problem, struct rc_err *err)
 {
-    struct rc_model *m = rc_model_make_outer(&rc_model_rolling, sizeof(struct rolling), inner, err);
+    RC_OWN(rc_model, m) =
+        rc_model_make_outer(&rc_model_rolling, sizeof(struct rolling), inner, err);
 
     if (m == NULL)
         return NULL;
     ((struct rolling *)m)->problem = *problem;
-    if (make((struct rolling *)m, err) != RC_OK) {
-        rc_model_free(m);
-        return NULL;
-    }
-    return m;
+    return make((struct rolling *)m, err) == RC_OK ? rc_give(&m) : NULL;
 }
 
 const struct rc_rolling_figures *

@@ -229,18 +229,24 @@ look(struct rc_model *m, struct rc_point *at, struct rc_err *err)
     return RC_OK;
 }
 
+/* Makes the map of the dents where it is missing; false: memory is short. */
+static bool
+has_dent(struct elastic *e)
+{
+    if (e->dent == NULL)
+        e->dent = rc_store_zeros(&e->base.own, e->n, sizeof *e->dent);
+    return e->dent != NULL;
+}
+
 /* Finds the shape after elastic unloading, and the dents: this shape minus the undeformed heights. */
 static enum rc_status
 dent(struct elastic *e, struct rc_err *err)
 {
-    double *left = rc_alloc(e->n, sizeof *left);
-    enum rc_status status = RC_FAIL;
+    RC_OWNED double *left = rc_alloc(e->n, sizeof *left);
+    enum rc_status status;
 
-    if (left == NULL ||
-        (e->dent == NULL && (e->dent = calloc(e->n + 1, sizeof *e->dent)) == NULL)) {
-        rc_err_set(err, "out of memory for the shape after yield");
-        goto done;
-    }
+    if (left == NULL || !has_dent(e))
+        return rc_err_set(err, "out of memory for the shape after yield");
     shape(e, left);
     for (size_t k = 0; k < e->n; k++)
         e->dent[k] -= left[k];
@@ -249,8 +255,6 @@ dent(struct elastic *e, struct rc_err *err)
         e->dent[k] += left[k];
     e->height_error = e->solver->posed.height_error;
     e->off = e->solver->posed.dents;
-done:
-    free(left);
     return status;
 }
 
@@ -305,8 +309,7 @@ static enum rc_status
 set_heights(struct rc_model *m, const double *h, struct rc_err *err)
 {
     struct elastic *e = (struct elastic *)m;
-    double *dented = NULL;
-    enum rc_status status;
+    RC_OWNED double *dented = NULL;
 
     if (e->dent == NULL)
         return set_shape(e, h, err);
@@ -314,9 +317,7 @@ set_heights(struct rc_model *m, const double *h, struct rc_err *err)
         return rc_err_set(err, "out of memory for the heights");
     for (size_t k = 0; k < e->n; k++)
         dented[k] = h[k] + e->dent[k];
-    status = set_shape(e, dented, err);
-    free(dented);
-    return status;
+    return set_shape(e, dented, err);
 }
 
 static enum rc_status
@@ -374,31 +375,25 @@ respond(struct rc_model *m, const double *e, double *z, struct rc_err *err)
 static void
 read_dent(struct elastic *e, struct rc_state *s, bool some)
 {
-    double *now = calloc(e->n + 1, sizeof *now), *h = rc_alloc(e->n, sizeof *h);
+    const double *now = some ? rc_state_read_map(s, e->n) : NULL;
+    RC_OWNED double *h = rc_alloc(e->n, sizeof *h);
     bool others = false;
     struct rc_err err;
 
-    if (now == NULL || h == NULL) {
+    if (h == NULL || !has_dent(e)) {
         rc_state_refuse(s, "memory is short");
-        goto done;
+        return;
     }
-    if (some)
-        rc_state_map(s, e->n, now);
     shape(e, h);
     for (size_t k = 0; k < e->n; k++) {
-        const double more = now[k] - (e->dent != NULL ? e->dent[k] : 0);
+        const double dent = now != NULL ? now[k] : 0, more = dent - e->dent[k];
         others |= more != 0;
         h[k] += more;
+        e->dent[k] = dent;
     }
     others = rc_ranks_most(e->problem.ranks, others) > 0;
     if (rc_state_reads(s) && others && set_shape(e, h, &err) != RC_OK)
         rc_state_refuse(s, err.text[0] != '\0' ? "its shape is not finite" : "memory is short");
-    free(e->dent);
-    e->dent = now;
-    now = NULL;
-done:
-    free(now);
-    free(h);
 }
 
 /* Sets the load or the approach, and takes the stored pressure as start. */
@@ -407,20 +402,14 @@ read_pressure(struct elastic *e, struct rc_state *s, double load)
 {
     const struct rc_point *to = &e->base.to;
     const bool by_approach = rc_point_has(to, RC_APPROACH);
-    double *p = rc_alloc(e->n, sizeof *p);
+    const double *p = rc_state_read_map(s, e->n);
     struct rc_err err;
 
-    if (p == NULL) {
-        rc_state_refuse(s, "memory is short");
-        return;
-    }
-    rc_state_map(s, e->n, p);
-    if (rc_state_reads(s) && (press(e, by_approach ? 0 : to->at[RC_LOAD],
-                                    by_approach ? to->at[RC_APPROACH] : 0, &err) != RC_OK ||
-                              rc_solver_warm_start(e->solver, load, p, &err) != RC_OK))
+    if (p != NULL && (press(e, by_approach ? 0 : to->at[RC_LOAD],
+                            by_approach ? to->at[RC_APPROACH] : 0, &err) != RC_OK ||
+                      rc_solver_warm_start(e->solver, load, p, &err) != RC_OK))
         rc_state_refuse(s, "its load or its pressure is not finite or negative");
     e->base.status = RC_MORE; /* the next step decides whether it is the solution */
-    free(p);
 }
 
 /* A state holds the dents of earlier points and, for a point that is not kept, its pressure. */
@@ -428,19 +417,12 @@ static void
 state(struct rc_model *m, struct rc_state *s)
 {
     struct elastic *e = (struct elastic *)m;
-    size_t dented = e->dent != NULL, apart = e->apart;
-    size_t pressed = m->moved && !e->apart && e->solver != NULL;
+    bool dented = e->dent != NULL, pressed = m->moved && !e->apart && e->solver != NULL;
     double load = e->solver != NULL ? rc_solver_load(e->solver) : 0;
     struct rc_err err;
 
-    rc_state_count(s, &dented, 1);
-    rc_state_count(s, &apart, 1);
-    rc_state_count(s, &pressed, 1);
-    rc_state_numbers(s, 1, &e->first_top);
-    rc_state_numbers(s, 1, &e->top);
-    rc_state_numbers(s, 1, &e->height_error);
-    rc_state_numbers(s, 1, &e->off);
-    rc_state_numbers(s, 1, &load);
+    RC_STATE_FLAGS(s, &dented, &e->apart, &pressed);
+    RC_STATE_NUMBERS(s, &e->first_top, &e->top, &e->height_error, &e->off, &load);
     if (!rc_state_reads(s)) { /* writing: the solver's pressure is not changed */
         if (dented)
             rc_state_map(s, e->n, e->dent);
@@ -448,7 +430,6 @@ state(struct rc_model *m, struct rc_state *s)
             rc_state_map(s, e->n, e->solver->it.p);
         return;
     }
-    e->apart = apart;
     e->looked = e->deformed = false;
     if (dented || e->dent != NULL)
         read_dent(e, s, dented);
@@ -508,7 +489,6 @@ release(struct rc_model *m)
 
     rc_solver_free(e->solver);
     free(e->h);
-    free(e->dent);
 }
 
 /* ---- the maker ---- */
@@ -539,9 +519,7 @@ rc_elastic_new(const struct rc_shape *shape, const double *h, const struct rc_pr
 const struct rc_elastic_figures *
 rc_elastic_result(const struct rc_model *m)
 {
-    const struct elastic *found = (const struct elastic *)rc_model_find(m, &rc_model_elastic);
-
-    return found != NULL ? &found->figures : NULL;
+    return rc_model_result(m, rc_figures_elastic);
 }
 
 const struct rc_model_row rc_model_elastic = {

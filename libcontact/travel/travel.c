@@ -296,17 +296,15 @@ static void
 state(struct rc_model *m, struct rc_state *s)
 {
     struct travel *v = (struct travel *)m;
-    size_t taken = v->taken;
     struct rc_err err;
 
     rc_state_count(s, &v->known, 2);
-    rc_state_count(s, &taken, 1);
-    rc_state_numbers(s, 1, &v->first_top);
+    RC_STATE_FLAGS(s, &v->taken);
+    RC_STATE_NUMBERS(s, &v->first_top);
     rc_state_numbers(s, 2, v->x);
     rc_state_numbers(s, 2, v->column);
     for (size_t k = 0; k < v->known; k++)
         rc_state_map(s, v->n, v->p[k]);
-    v->taken = taken;
     if (rc_state_reads(s) && m->to.given != 0 && pose(v, &err) != RC_OK)
         rc_state_refuse(s, err.text);
 }
@@ -387,10 +385,7 @@ rc_travel_new(struct rc_model *inner, const struct rc_travel_problem *problem, s
     v->h = rc_store_take(&m->own, v->n, sizeof *v->h);
     for (int k = 0; k < 2 && m->inner->row->start != NULL; k++)
         v->p[k] = rc_store_take(&m->own, v->n, sizeof *v->h);
-    if (m->own.failed)
-        return rc_err_null(err, "out of memory for the travel of %zu x %zu nodes", m->shape.nx,
-                           m->shape.ny);
-    return rc_give(&m);
+    return rc_model_room(m, err) == RC_OK ? rc_give(&m) : NULL;
 }
 
 const struct rc_travel_figures *

@@ -450,24 +450,15 @@ step(struct rc_model *m, struct rc_err *err)
 static enum rc_status
 allocate(struct creep *v, struct rc_err *err)
 {
-    const size_t n = v->n, all = (MAPS + RUNS * v->terms) * n;
-    double *maps;
+    double **maps[] = {&v->room, &v->coarse, &v->run[COARSE].w, &v->run[FINE].w, &v->posed};
 
     if (v->posed != NULL)
         return RC_OK;
-    maps = rc_store_take(&v->base.own, all, sizeof *maps);
-    if (maps == NULL)
-        return rc_err_set(err, "out of memory for the history of %zu x %zu nodes in %zu terms",
-                          v->base.shape.nx, v->base.shape.ny, v->terms);
-    memset(maps, 0, all * sizeof *maps);
-    v->posed = maps;
-    v->room = maps + n;
-    v->coarse = maps + 2 * n;
-    for (size_t k = 0; k < RUNS; k++) {
-        v->run[k].w = maps + (3 + k) * n;
-        v->run[k].r = maps + (MAPS + k * v->terms) * n;
-    }
-    return RC_OK;
+    for (size_t k = 0; k < RUNS; k++)
+        v->run[k].r = rc_store_zeros(&v->base.own, v->terms * v->n, sizeof(double));
+    for (size_t k = 0; k < MAPS && !v->base.own.failed; k++)
+        *maps[k] = rc_store_zeros(&v->base.own, v->n, sizeof(double));
+    return rc_model_room(&v->base, err);
 }
 
 /* True if the load or the approach changes at another rate than in the last leg. */
@@ -584,41 +575,20 @@ static void
 state(struct rc_model *m, struct rc_state *s)
 {
     struct creep *v = (struct creep *)m;
-    double *numbers[] = {&v->start,
-                         &v->end,
-                         &v->dt,
-                         &v->slope,
-                         &v->beyond,
-                         &v->least,
-                         &v->most,
-                         &v->shrink,
-                         &v->tried,
-                         &v->load,
-                         &v->worst,
-                         &v->posed_top,
-                         &v->f.increment_error,
-                         &v->f.contact.convolutions};
-    size_t good = v->good, taken = v->taken, begun = v->posed != NULL;
+    bool begun = v->posed != NULL;
     struct rc_err err;
 
-    rc_state_count(s, &begun, 1);
     rc_state_count(s, &v->on, FINE);
-    rc_state_count(s, &good, 1);
-    rc_state_count(s, &taken, 1);
-    rc_state_count(s, &v->f.increments, (size_t)1 << 40);
-    rc_state_count(s, &v->increments, (size_t)1 << 40);
-    rc_state_count(s, &v->steps, (size_t)1 << 40);
-    for (size_t k = 0; k < sizeof numbers / sizeof *numbers; k++)
-        rc_state_numbers(s, 1, numbers[k]);
+    RC_STATE_FLAGS(s, &begun, &v->good, &v->taken);
+    RC_STATE_COUNTS(s, &v->f.increments, &v->increments, &v->steps, &v->run[COARSE].steps,
+                    &v->run[FINE].steps);
+    RC_STATE_NUMBERS(s, &v->start, &v->end, &v->dt, &v->slope, &v->beyond, &v->least, &v->most,
+                     &v->shrink, &v->tried, &v->load, &v->worst, &v->posed_top,
+                     &v->f.increment_error, &v->f.contact.convolutions, &v->run[COARSE].t,
+                     &v->run[FINE].t);
     rc_state_numbers(s, v->terms, v->equivalent);
-    for (size_t k = 0; k < RUNS; k++) {
-        rc_state_numbers(s, 1, &v->run[k].t);
-        rc_state_count(s, &v->run[k].steps, (size_t)1 << 40);
-    }
     if (rc_state_reads(s) && begun && allocate(v, &err) != RC_OK)
         rc_state_refuse(s, "memory is short");
-    v->good = good;
-    v->taken = taken;
     if (!begun)
         return;
     for (size_t k = 0; k < RUNS; k++) {
@@ -738,10 +708,9 @@ make(struct creep *v, const double *h, const struct rc_viscoelastic_problem *a, 
     v->slope = INFINITY;
     v->c = v->shrink = 1;
     v->term = rc_store_take(&v->base.own, most, sizeof *v->term);
-    v->equivalent = rc_store_take(&v->base.own, most, sizeof *v->equivalent);
-    if (v->base.own.failed)
-        return rc_err_set(err, "out of memory for %zu terms", most);
-    memset(v->equivalent, 0, most * sizeof *v->equivalent);
+    v->equivalent = rc_store_zeros(&v->base.own, most, sizeof *v->equivalent);
+    if (rc_model_room(&v->base, err) != RC_OK)
+        return RC_FAIL;
     choose_terms(v);
     return RC_OK;
 }

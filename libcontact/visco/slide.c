@@ -671,9 +671,8 @@ make_room(struct slide *s, struct rc_err *err)
     s->room = rc_store_take(own, s->n, sizeof *s->room);
     s->wave = rc_store_take(own, s->columns, sizeof *s->wave);
     s->row = rc_store_take(own, (size_t)s->threads * s->columns, sizeof *s->row);
-    if (own->failed)
-        return rc_err_set(err, "out of memory for the sliding of %zu x %zu nodes", s->turned.nx,
-                          s->turned.ny);
+    if (rc_model_room(&s->base, err) != RC_OK)
+        return RC_FAIL;
     s->line = rc_line_new(s->turned.nx, (size_t)s->threads, err);
     return s->line != NULL ? RC_OK : RC_FAIL;
 }

@@ -311,26 +311,18 @@ static void
 state(struct rc_model *m, struct rc_state *s)
 {
     struct sliding *v = (struct sliding *)m;
-    double *numbers[] = {&v->s, &v->end, &v->t, &v->of_contacts, &v->of_p, &v->f.convolutions};
-    size_t *counts[] = {&v->taken[0], &v->taken[1], &v->f.steps, &v->f.contacts};
-    size_t good = v->good, kept = v->kept;
     struct rc_err err;
 
     rc_state_count(s, &v->stage, REST);
-    rc_state_count(s, &good, 1);
-    rc_state_count(s, &kept, 1);
-    for (size_t k = 0; k < sizeof counts / sizeof *counts; k++)
-        rc_state_count(s, counts[k], (size_t)1 << 40);
-    for (size_t k = 0; k < sizeof numbers / sizeof *numbers; k++)
-        rc_state_numbers(s, 1, numbers[k]);
+    RC_STATE_FLAGS(s, &v->good, &v->kept);
+    RC_STATE_COUNTS(s, &v->taken[0], &v->taken[1], &v->f.steps, &v->f.contacts);
+    RC_STATE_NUMBERS(s, &v->s, &v->end, &v->t, &v->of_contacts, &v->of_p, &v->f.convolutions);
     for (int run = 0; run < RUNS; run++)
         for (int b = 0; b < 2; b++)
             rc_state_map(s, v->n, v->worn[run][b]);
     rc_state_map(s, v->n, v->other);
     if (!rc_state_reads(s))
         return;
-    v->good = good;
-    v->kept = kept;
     v->again = v->stage == REST && m->moved;
     if (pose(v, &err) != RC_OK)
         rc_state_refuse(s, "its heights are not finite");
@@ -388,7 +380,6 @@ static enum rc_status
 make(struct sliding *v, const double *h, const struct rc_wear_problem *law, struct rc_err *err)
 {
     const struct rc_shape *s = &v->base.shape;
-    double *map;
 
     v->n = s->nx * s->ny;
     v->law = *law;
@@ -404,17 +395,14 @@ make(struct sliding *v, const double *h, const struct rc_wear_problem *law, stru
     if (rc_model_set_compliance(v->base.inner, 1 / law->estar, NULL, 0, err) != RC_OK ||
         rc_model_set_compliance(v->base.inner, 0, NULL, 0, err) != RC_OK)
         return RC_FAIL;
-    if ((map = v->h = rc_store_take(&v->base.own, (3 + 2 * RUNS) * v->n, sizeof *map)) == NULL)
-        return rc_err_set(err, "out of memory for the wear of %zu x %zu nodes", s->nx, s->ny);
-    memset(map, 0, (3 + 2 * RUNS) * v->n * sizeof *map);
-    memcpy(map, h, v->n * sizeof *h);
+    v->kept = true;
+    v->h = rc_store_copy(&v->base.own, v->n, sizeof *h, h);
     for (int run = 0; run < RUNS; run++)
         for (int b = 0; b < 2; b++)
-            v->worn[run][b] = map += v->n;
-    v->kept = true;
-    v->p = map += v->n;
-    v->other = map += v->n;
-    return RC_OK;
+            v->worn[run][b] = rc_store_zeros(&v->base.own, v->n, sizeof *h);
+    v->p = rc_store_zeros(&v->base.own, v->n, sizeof *h);
+    v->other = rc_store_zeros(&v->base.own, v->n, sizeof *h);
+    return rc_model_room(&v->base, err);
 }
 
 struct rc_model *

@@ -25,8 +25,7 @@
 
 enum {
     GROWTH = 4, /* most from one step to the next */
-    MAPS = 7,
-    STATE = 5 /* maps of the state at the last kept point */
+    STATE = 5   /* maps of the state at the last kept point */
 };
 static const double g = 0.58578643762690495, d = 0.29289321881345248, w = 0.35355339059327376;
 static const double third_order = 0.0404; /* factor of the local error, t^3 k p'' */
@@ -692,20 +691,13 @@ static void
 state(struct rc_model *m, struct rc_state *s)
 {
     struct wear *v = (struct wear *)m;
-    double *numbers[] = {&v->s, &v->end, &v->t, &v->tried, &v->f.convolutions};
-    size_t *counts[] = {&v->f.steps, &v->f.rejected, &v->f.contacts};
-    size_t kept = v->kept, good = v->good, met = v->met;
     struct rc_err err;
 
     rc_state_count(s, &v->stage, LAST);
     rc_state_count(s, &v->last, last_steps(v));
-    rc_state_count(s, &kept, 1);
-    rc_state_count(s, &good, 1);
-    rc_state_count(s, &met, 1);
-    for (size_t k = 0; k < sizeof counts / sizeof *counts; k++)
-        rc_state_count(s, counts[k], (size_t)1 << 40);
-    for (size_t k = 0; k < sizeof numbers / sizeof *numbers; k++)
-        rc_state_numbers(s, 1, numbers[k]);
+    RC_STATE_FLAGS(s, &v->kept, &v->good, &v->met);
+    RC_STATE_COUNTS(s, &v->f.steps, &v->f.rejected, &v->f.contacts);
+    RC_STATE_NUMBERS(s, &v->s, &v->end, &v->t, &v->tried, &v->f.convolutions);
     rc_state_numbers(s, ERRORS, v->error);
     rc_state_map(s, v->n, v->worn);
     if (v->row > 0)
@@ -716,9 +708,6 @@ state(struct rc_model *m, struct rc_state *s)
         rc_state_map(s, v->n, v->pa);
     if (!rc_state_reads(s))
         return;
-    v->kept = kept;
-    v->good = good;
-    v->met = met;
     v->again = v->stage == REST && m->moved;
     v->fitted = false;
     if (pose(v, &err) != RC_OK)
@@ -825,6 +814,7 @@ make(struct wear *v, const double *h, const struct rc_wear_problem *law, struct 
 {
     struct rc_model *inner = v->base.inner;
     const struct rc_shape *s = &v->base.shape;
+    double **maps[] = {&v->worn, &v->p0, &v->pa, &v->p1, &v->e, &v->room};
 
     v->n = s->nx * s->ny;
     v->law = *law;
@@ -842,18 +832,11 @@ make(struct wear *v, const double *h, const struct rc_wear_problem *law, struct 
     if (rc_model_set_compliance(inner, v->k * v->t, law->part, v->row * v->t, err) != RC_OK ||
         rc_model_set_compliance(inner, 0, NULL, 0, err) != RC_OK)
         return RC_FAIL;
-    if ((v->h = rc_store_take(&v->base.own, MAPS * v->n + s->ny, sizeof *v->h)) == NULL)
-        return rc_err_set(err, "out of memory for the wear of %zu x %zu nodes", s->nx, s->ny);
-    memset(v->h, 0, (MAPS * v->n + s->ny) * sizeof *v->h);
-    memcpy(v->h, h, v->n * sizeof *h);
-    v->worn = v->h + v->n;
-    v->p0 = v->h + 2 * v->n;
-    v->pa = v->h + 3 * v->n;
-    v->p1 = v->h + 4 * v->n;
-    v->e = v->h + 5 * v->n;
-    v->room = v->h + 6 * v->n;
-    v->deep = v->h + MAPS * v->n;
-    return RC_OK;
+    v->h = rc_store_copy(&v->base.own, v->n, sizeof *h, h);
+    for (size_t k = 0; k < sizeof maps / sizeof *maps; k++)
+        *maps[k] = rc_store_zeros(&v->base.own, v->n, sizeof **maps[k]);
+    v->deep = rc_store_zeros(&v->base.own, s->ny, sizeof *v->deep);
+    return rc_model_room(&v->base, err);
 }
 
 struct rc_model *
