@@ -74,11 +74,11 @@ between 0 "$(distance out.rcg right.rcg)" "$(awk -v t=$tolerance 'BEGIN { print 
 
 # two: starts a run that would write to the checkpoint of a running one.
 two() {
-    local n=0 pid status
+    local pid status
     rm -f two.rcg
-    $solve --quiet --tol 1e-13 --checkpoint two.rcg --interval 0.01 -o one.rcg rough.rcg &
+    $solve --quiet --tol 1e-30 --checkpoint two.rcg --interval 0.01 -o one.rcg rough.rcg &
     pid=$!
-    until [ -s two.rcg ] || [ $((n += 1)) -gt 500 ]; do sleep 0.005; done
+    until [ -s two.rcg ] || ! kill -0 $pid; do sleep 0.005; done
     kill -STOP $pid # the kill may have come inside the first frame
     $solve --quiet --checkpoint two.rcg --resume -o other.rcg rough.rcg 2>two.err
     status=$?
@@ -94,10 +94,9 @@ claim "two runs cannot write to one checkpoint; after the first is killed the ot
 rc-synth selfaffine --nx 700 --ny 700 --dx 1um --hurst 0.8 --rms-slope 0.1 --seed 3 -o large.rcg
 # maps SIGNAL: stops rc-info --psd-map while it writes the map.
 maps() {
-    local n=0
     rm -f map.rcg*
-    rc-info --psd --psd-map map.rcg large.rcg large.rcg large.rcg >/dev/null &
-    until ls map.rcg.?????? >/dev/null 2>&1 || [ $((n += 1)) -gt 500 ]; do sleep 0.005; done
+    rc-info --psd --psd-map map.rcg $(yes large.rcg | head -n 30) >/dev/null &
+    until ls map.rcg.?????? >/dev/null 2>&1 || ! kill -0 $!; do sleep 0.005; done
     kill -"$1" $!
     wait $! 2>/dev/null
     [ $? -gt 128 ] && [ -z "$(ls map.rcg* 2>/dev/null)" ]

@@ -19,7 +19,7 @@ figures() {
 export -f figures
 # waits_for FILE: until the file has a line.
 waits_for() {
-    for _ in $(seq 200); do
+    for _ in $(seq 1200); do
         [ -s "$1" ] && return
         sleep 0.05
     done

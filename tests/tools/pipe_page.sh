@@ -109,7 +109,7 @@ printf '#!/bin/sh\necho $$ >pid.txt\ncp pid.txt "%s"\nexec sleep 100\n' "$PWD" >
 stopped() {
     alone/rc-report --quiet $contact -o stopped.html ball.rcg &
     local tool=$! child
-    for n in {1..200}; do [ -s pid.txt ] && break; sleep 0.05; done
+    until [ -s pid.txt ] || ! kill -0 "$tool"; do sleep 0.05; done
     child=$(cat pid.txt) && kill "-$1" "$tool"
     wait "$tool"
     [ $? = $((128 + $(kill -l "$1"))) ] || return 1

@@ -192,18 +192,19 @@ claim "failed runs leave no file" bash -c '! ls no.rcg* 2>/dev/null'
 
 # If processes are ended from outside, the existing file remains and no part of a new one is left.
 rc-synth selfaffine --nx 1600 --ny 1600 --dx 1um --hurst 0.8 --rms-slope 0.1 --short-cut 8um --seed 3 -o long.rcg
-lasting="rc-solve --periodic --estar 1GPa --method pk99 --tol 1e-14 -o killed.rcg long.rcg"
+lasting="rc-solve --periodic --estar 1GPa --method pk99 --tol 1e-30 --progress line -o killed.rcg long.rcg"
 # begin COMMAND...: starts two processes in the background: $launcher, and $victim the second of them.
 begin() {
     echo old >killed.rcg
     $MPIRUN -n 2 "$@" >/dev/null 2>killed.err &
     launcher=$!
-    for _ in $(seq 500); do
-        victim=$(pgrep -P "$launcher" -x rc-solve | tail -n 1)
-        [ -n "$victim" ] && return
-        sleep 0.02
-    done
-    return 1
+    until victim=$(pgrep -P "$launcher" -x rc-solve) || ! kill -0 "$launcher"; do sleep 0.02; done
+    victim=${victim##*$'\n'}
+    [ -n "$victim" ]
+}
+# iterates N: waits until the run has told its progress N times.
+iterates() {
+    until [ "$(grep -ac iteration killed.err)" -ge "$1" ] || ! kill -0 "$launcher"; do sleep 0.05; done
 }
 # True if no file is incomplete: after a signal the file may also be the new, marked solution.
 nothing_half() {
@@ -214,16 +215,15 @@ nothing_half() {
 }
 killed() {
     begin $lasting --load 12N || return
-    sleep 0.5
+    iterates 1
     kill -KILL "$victim"
     wait "$launcher" && return 1
     nothing_half killed
 }
 claim "a killed process leaves no file" killed
 killed_writing() {
-    local n=0
     begin $lasting --tol 1e-2 --load 0.4N:16N:400 || return
-    until ls killed.rcg.?????? >/dev/null 2>&1 || [ $((n += 1)) -gt 3000 ]; do sleep 0.01; done
+    until ls killed.rcg.?????? >/dev/null 2>&1 || ! kill -0 "$launcher"; do sleep 0.01; done
     kill -KILL "$victim"
     wait "$launcher" && return 1
     nothing_half killed
@@ -231,9 +231,9 @@ killed_writing() {
 claim "a process killed during writing leaves none either" killed_writing
 # Another run tries to write to the checkpoint of a running one, which already has a frame.
 adding() {
-    local n=0 status
+    local status
     begin $lasting --load 12N --checkpoint adding.rcg --interval 0.01 || return
-    until [ "$(stat -c %s adding.rcg 2>/dev/null || echo 0)" -gt 6000000 ] || [ $((n += 1)) -gt 3000 ]; do sleep 0.01; done
+    until [ "$(stat -c %s adding.rcg 2>/dev/null || echo 0)" -gt 6000000 ] || ! kill -0 "$launcher"; do sleep 0.01; done
     $solve --load 12N --checkpoint adding.rcg --resume -o no.rcg long.rcg 2>adding.err
     status=$?
     kill -KILL "$victim"
@@ -241,10 +241,11 @@ adding() {
     [ $status = 1 ] && grep -q 'adding.rcg: another run is writing to it' adding.err && [ ! -e no.rcg ]
 }
 claim "two runs cannot write to one checkpoint" adding
-# signalled SIGNAL SECONDS: sends the signal to mpirun, which ends its processes and kills them some time later.
+# signalled SIGNAL N: sends the signal to mpirun, after N lines of progress. mpirun ends its processes, and kills
+# them some time later.
 signalled() {
     begin $lasting --load 12N || return
-    sleep "$2"
+    iterates "$2"
     kill -"$1" "$launcher"
     wait "$launcher" && return 1
     cat killed.err >&2
@@ -252,13 +253,13 @@ signalled() {
 }
 export OMPI_MCA_odls_base_sigkill_timeout=2 # by default 1 s, which may be too short for the message on a busy machine
 for signal in TERM INT; do
-    for seconds in 3 4.2; do
-        claim "mpirun is ended after $seconds s by $signal: there is a message, and no half-written file" signalled $signal $seconds
+    for n in 1 5; do
+        claim "mpirun is ended after $n lines of progress by $signal: there is a message, and no half-written file" signalled $signal $n
     done
 done
 patient() {
     begin $lasting --load 12N || return
-    sleep 6
+    iterates 8
     kill -TERM $(pgrep -P "$launcher" -x rc-solve) # like a launcher that gives them more time
     wait "$launcher" && return 1
     rc-info --quiet killed.rcg >/dev/null

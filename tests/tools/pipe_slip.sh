@@ -167,7 +167,9 @@ rc-pick --channel pressure ball.rcg | rc-pick --set converged=no >short.rcg
 refuses 3 'converged' "a pressure that stopped short is carried on" "rc-slip --mu 0.3 --tangential 36N -o short2.rcg short.rcg"
 claim "  the stream is marked" grep -aq '^converged=no' short2.rcg
 claim "an interrupted run writes its current state" bash -c '
-    rc-slip --mu 0.3 --tangential 20N --increments 2000 -o cut.rcg rigid.rcg 2>cut.err & sleep 1; kill -TERM $!; wait $!; test $? = 143 && grep -aq "^converged=no" cut.rcg'
+    rc-slip --mu 0.3 --tangential 20N --increments 2000 --progress line -o cut.rcg rigid.rcg 2>cut.err &
+    until grep -q "increment [1-9]" cut.err || ! kill -0 $!; do sleep 0.02; done
+    kill -TERM $!; wait $!; test $? = 143 && grep -aq "^converged=no" cut.rcg'
 
 # ---- refusals ----
 

@@ -139,11 +139,8 @@ interrupted() {
     local status
     rc-solve --progress line --periodic --load 40N --estar 100GPa --tol 1e-12 --method pk99 --output pressure large.rcg \
         -o cut.rcg 2>err &
-    local tool=$! _
-    for _ in $(seq 300); do
-        grep -q 'iteration 1$' err && break
-        sleep 0.2
-    done
+    local tool=$!
+    until grep -q 'iteration 1$' err || ! kill -0 "$tool"; do sleep 0.05; done
     kill -INT "$tool"
     wait "$tool"
     status=$?

@@ -149,8 +149,8 @@ refuses 1 'standard output is a terminal' "a terminal as output" \
 
 interrupted() {
     rc-synth selfaffine --nx 512 --dx 1um --hurst 0.8 --rms-height 1um -o big.rcg || return 1
-    rc-solve --load 50N --estar 100GPa --tol 1e-13 --method pk99 --quiet -o stopped.rcg big.rcg &
-    sleep 0.7
+    rc-solve --load 50N --estar 100GPa --tol 1e-30 --method pk99 --progress line -o stopped.rcg big.rcg 2>progress.txt &
+    until grep -q 'iteration [1-9]' progress.txt || ! kill -0 $!; do sleep 0.02; done
     kill -TERM $!
     wait $!
     [ $? = 143 ] && grep -aq '^converged=no' stopped.rcg || return 1
