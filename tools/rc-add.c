@@ -222,19 +222,18 @@ static void
 add(struct tool *t, struct rc_grid *a, const struct rc_grid *b)
 {
     struct rc_shape sa = rc_grid_shape(a), sb = rc_grid_shape(b), sum;
-    struct rc_err err;
     bool cut;
 
-    if (rc_add_shape(&sa, &sb, &sum, &err) != RC_OK)
+    if (rc_add_shape(&sa, &sb, &sum, &t->err) != RC_OK)
         refuse_spacings(t, a, b);
     cut = sa.nx != sb.nx || sa.ny != sb.ny;
     if (cut)
         tool_note(t, "%s: %zu x %zu nodes and %zu x %zu of B: cut to the %zu x %zu that they share",
                   tool_where(t, a), sa.nx, sa.ny, sb.nx, sb.ny, sum.nx, sum.ny);
-    if ((args.subtract ? rc_subtract : rc_add)(&sa, a->v, &sb, b->v, a->v, &err) != RC_OK ||
-        set_periodic(t, a, b, cut, &err) != RC_OK || set_form(a, b, &err) != RC_OK ||
-        add_history(t, a, b, &err) != RC_OK)
-        tool_die_at(t, a, EXIT_IMPOSSIBLE, "%s", err.text);
+    tool_must(t, a, (args.subtract ? rc_subtract : rc_add)(&sa, a->v, &sb, b->v, a->v, &t->err));
+    tool_must(t, a, set_periodic(t, a, b, cut, &t->err));
+    tool_must(t, a, set_form(a, b, &t->err));
+    tool_must(t, a, add_history(t, a, b, &t->err));
     a->nx = sum.nx;
     a->ny = sum.ny;
     if (b->type == RC_F64)

@@ -192,15 +192,14 @@ static void
 write_plot(struct costs *run, const struct cost_case *c)
 {
     size_t bytes;
-    struct rc_err err;
     struct whole_file whole;
     unsigned char *picture;
     FILE *file;
 
     if (args.plot == NULL)
         return;
-    if ((picture = cost_plot(c, ending_of(args.plot), &bytes, &err)) == NULL)
-        tool_die(&run->t, EXIT_IMPOSSIBLE, "--plot %s: %s", args.plot, err.text);
+    if ((picture = cost_plot(c, ending_of(args.plot), &bytes, &run->t.err)) == NULL)
+        tool_die(&run->t, EXIT_IMPOSSIBLE, "--plot %s: %s", args.plot, run->t.err.text);
     if ((file = whole_file_open(&whole, args.plot)) == NULL ||
         fwrite(picture, 1, bytes, file) != bytes || !whole_file_put(&whole, file))
         tool_die(&run->t, EXIT_IMPOSSIBLE, "--plot %s: %s", args.plot, strerror(errno));
@@ -236,14 +235,13 @@ write_map(struct costs *run, const struct rc_grid *g, const struct rc_grid *hard
     int fd = cost_file(&run->t), again = dup(fd);
     FILE *file = again < 0 ? NULL : fdopen(again, "wb");
     struct rc_writer *writer;
-    struct rc_err err;
 
-    rc_err_set(&err, "a temporary file cannot be written");
-    if (file == NULL || (writer = rc_writer_new(file, &err)) == NULL ||
-        rc_writer_put(writer, g, &err) != RC_OK ||
-        (hardness != NULL && rc_writer_put(writer, hardness, &err) != RC_OK) ||
-        rc_writer_end(writer, &err) != RC_OK || fclose(file) != 0)
-        tool_die_at(&run->t, g, EXIT_IMPOSSIBLE, "%s", err.text);
+    rc_err_set(&run->t.err, "a temporary file cannot be written");
+    if (file == NULL || (writer = rc_writer_new(file, &run->t.err)) == NULL ||
+        rc_writer_put(writer, g, &run->t.err) != RC_OK ||
+        (hardness != NULL && rc_writer_put(writer, hardness, &run->t.err) != RC_OK) ||
+        rc_writer_end(writer, &run->t.err) != RC_OK || fclose(file) != 0)
+        tool_die_at(&run->t, g, EXIT_IMPOSSIBLE, "%s", run->t.err.text);
     rc_writer_free(writer);
     return fd;
 }

@@ -50,13 +50,12 @@ static struct rc_pair
 pair_of(struct tool *t, const struct rc_grid *p, struct layers *layers)
 {
     struct rc_pair pair = {.estar = args.estar};
-    struct rc_err err;
 
-    tool_must(t, p, layers_read(p, layers, &err), &err);
+    tool_must(t, p, layers_read(p, layers, &t->err));
     if (layers->text != NULL && !isnan(args.estar))
         tool_die_at(t, p, EXIT_IMPOSSIBLE, "the stream already defines the layers; remove --estar");
-    if (isnan(args.estar) && bodies_read(p, layers, &pair, &err) != RC_OK)
-        tool_die_at(t, p, layers->text == NULL ? EXIT_USAGE : EXIT_IMPOSSIBLE, "%s", err.text);
+    if (isnan(args.estar) && bodies_read(p, layers, &pair, &t->err) != RC_OK)
+        tool_die_at(t, p, layers->text == NULL ? EXIT_USAGE : EXIT_IMPOSSIBLE, "%s", t->err.text);
     return pair;
 }
 
@@ -125,20 +124,19 @@ do_case(struct tool *t, const struct rc_grid *p)
     struct rc_pair pair = pair_of(t, p, &layers);
     struct rc_conv *conv;
     struct rc_grid *u;
-    struct rc_err err;
 
     tool_demand_finite(t, p, "recompute the map");
     demand_memory(t, p, &options);
-    conv = tool_made(t, p, rc_conv_new(&shape, &pair, &options, &err), &err);
+    conv = tool_made(t, p, rc_conv_new(&shape, &pair, &options, &t->err));
     tool_note(t, "summed by %s, because %s; error at most %.1e of the sum of |K| |p|",
               rc_conv_engine(conv), rc_conv_reason(conv), rc_conv_error(conv));
-    u = rc_grid_like(p, "displacement", "m", &err);
+    u = rc_grid_like(p, "displacement", "m", &t->err);
     if (u == NULL ||
-        (pair.estar > 0 && rc_grid_set_number(u, "estar", pair.estar, &err) != RC_OK) ||
-        rc_grid_set(u, "boundary", options.boundary == RC_PERIODIC ? "periodic" : "free", &err) !=
-            RC_OK ||
-        rc_grid_history(u, tool_history(t), &err) != RC_OK)
-        tool_die_at(t, p, EXIT_IMPOSSIBLE, "%s", err.text);
+        (pair.estar > 0 && rc_grid_set_number(u, "estar", pair.estar, &t->err) != RC_OK) ||
+        rc_grid_set(u, "boundary", options.boundary == RC_PERIODIC ? "periodic" : "free",
+                    &t->err) != RC_OK ||
+        rc_grid_history(u, tool_history(t), &t->err) != RC_OK)
+        tool_die_at(t, p, EXIT_IMPOSSIBLE, "%s", t->err.text);
     rc_conv_apply(conv, p->v, u->v);
     rc_conv_free(conv);
     layers_free(&layers);

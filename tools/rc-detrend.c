@@ -288,17 +288,16 @@ failed(struct tool *t, const struct rc_grid *g, const struct step *step, const s
 static void
 detrend(struct tool *t, struct rc_grid *g)
 {
-    struct rc_err err;
     enum rc_status status;
 
     for (size_t k = 0; k < args.steps.n; k++) {
         const struct step *step = &args.steps.step[k];
         const struct work *work = step->opt->of;
-        if (work->run(t, g, step->value, &err) != RC_OK)
-            failed(t, g, step, &err);
+        if (work->run(t, g, step->value, &t->err) != RC_OK)
+            failed(t, g, step, &t->err);
     }
-    status = rc_grid_history(g, tool_history(t), &err);
-    tool_must(t, g, status, &err);
+    status = rc_grid_history(g, tool_history(t), &t->err);
+    tool_must(t, g, status);
 }
 
 /* Mirrors the other frames of the case, such as a map of hardness, with the heights. */
@@ -306,14 +305,13 @@ static void
 passing(struct tool *t, struct rc_grid *g)
 {
     char step[64];
-    struct rc_err err;
 
     snprintf(step, sizeof step, "%s %s --mirror", t->info->name, rc_version());
     for (size_t k = 0; k < args.steps.n; k++) {
         const struct work *work = args.steps.step[k].opt->of;
         if (work->run == mirror &&
-            (mirror(t, g, 0, &err) != RC_OK || rc_grid_history(g, step, &err) != RC_OK))
-            tool_die_at(t, g, EXIT_IMPOSSIBLE, "%s", err.text);
+            (mirror(t, g, 0, &t->err) != RC_OK || rc_grid_history(g, step, &t->err) != RC_OK))
+            tool_die_at(t, g, EXIT_IMPOSSIBLE, "%s", t->err.text);
     }
 }
 

@@ -195,12 +195,11 @@ set_depths(struct tool *t, struct rc_grid *g, double first, double step)
 {
     size_t size = g->ny * RC_NUMBER_SIZE, n = 0;
     char *text = tool_room(t, size, 1, "the depths of a section");
-    struct rc_err err;
 
     for (size_t j = 0; j < g->ny; j++)
         n += (size_t)snprintf(text + n, size - n, "%s%s", j == 0 ? "" : ",",
                               rc_number(decimal(first + (double)j * step)));
-    tool_must(t, g, rc_grid_set(g, "depths", text, &err), &err);
+    tool_must(t, g, rc_grid_set(g, "depths", text, &t->err));
     free(text);
 }
 
@@ -208,12 +207,11 @@ set_depths(struct tool *t, struct rc_grid *g, double first, double step)
 static struct rc_grid *
 with_rows_of(struct tool *t, const struct rc_grid *g, const struct rc_shape *shape)
 {
-    struct rc_err err;
     struct rc_grid *to;
 
-    to = tool_made(t, g, rc_grid_new(shape, g->channel, g->unit, &err), &err);
+    to = tool_made(t, g, rc_grid_new(shape, g->channel, g->unit, &t->err));
     for (size_t k = 0; k < g->keys; k++)
-        tool_must(t, g, rc_grid_set(to, g->key[k].name, g->key[k].value, &err), &err);
+        tool_must(t, g, rc_grid_set(to, g->key[k].name, g->key[k].value, &t->err));
     to->type = g->type;
     return to;
 }
@@ -263,12 +261,11 @@ even_rows(struct tool *t, struct rc_grid *g)
     struct rc_shape shape = rc_grid_shape(g);
     struct rc_grid *even = NULL;
     double *at, step;
-    struct rc_err err;
 
     if (rc_grid_get(g, "section") == NULL || rc_grid_get(g, "depths") == NULL)
         return g;
     at = tool_room(t, g->ny, sizeof *at, "the depths of a section");
-    tool_must(t, g, rc_export_depths(g, at, &err), &err);
+    tool_must(t, g, rc_export_depths(g, at, &t->err));
     if (!rc_export_even(at, g->ny, &step)) {
         shape.ny = rows_needed(t, g, at);
         shape.dy = step = decimal((at[g->ny - 1] - at[0]) / (double)(shape.ny - 1));
@@ -314,14 +311,13 @@ static struct rc_grid **
 read_frames(struct tool *t, size_t *frames)
 {
     struct rc_grid **frame = NULL, **more, *g;
-    struct rc_err err;
 
     *frames = 0;
     while ((g = wanted_read(&args.wanted, t)) != NULL) {
         check_frame(t, *frames == 0 ? NULL : frame[0], g);
         if (args.even)
             g = even_rows(t, g);
-        tool_must(t, g, rc_grid_history(g, tool_history(t), &err), &err);
+        tool_must(t, g, rc_grid_history(g, tool_history(t), &t->err));
         if ((more = realloc(frame, (*frames + 1) * sizeof(struct rc_grid *))) == NULL)
             tool_die(t, EXIT_IMPOSSIBLE, "out of memory for %zu frames", *frames + 1);
         frame = more;
@@ -360,7 +356,6 @@ int
 main(int argc, char **argv)
 {
     struct rc_grid **frame;
-    struct rc_err err;
     struct tool t;
     size_t frames;
 
@@ -372,7 +367,7 @@ main(int argc, char **argv)
     frame = read_frames(&t, &frames);
     if (frames > 0)
         foretell(&t, frame[0]);
-    tool_must(&t, frame[0], rc_export_write(format, t.out, frame, frames, &wish, &err), &err);
+    tool_must(&t, frame[0], rc_export_write(format, t.out, frame, frames, &wish, &t.err));
     tool_note(&t, "%zu frame%s as %s", frames, frames == 1 ? "" : "s", format->name);
     for (size_t k = 0; k < frames; k++)
         rc_grid_free(frame[k]);

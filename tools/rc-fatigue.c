@@ -296,7 +296,6 @@ set_problem(struct run *run)
     const struct rc_shape shape = rc_grid_shape(first);
     const size_t n = run->positions;
     size_t frames, least, left = tool_memory_left(t);
-    struct rc_err err;
 
     run->column = tool_room(t, n, sizeof *run->column, "cases");
     for (int m = 0; m < 3; m++) {
@@ -320,7 +319,7 @@ set_problem(struct run *run)
                                                .threshold = args.life.n > 2 ? args.life.v[2] : 0};
     for (int k = 0; k < 2; k++)
         run->problem.traction[k] = run->map[k + 1][0] == NULL ? NULL : run->map[k + 1];
-    tool_must(t, first, rc_fatigue_check(&shape, &run->problem, &err), &err);
+    tool_must(t, first, rc_fatigue_check(&shape, &run->problem, &t->err));
     /* histories get what the plan, the maps and the frames leave */
     frames = run->problem.pass != 0 ? run->depths.n * lines_of(run) : columns_of(run) * first->ny;
     frames *= count_wanted() * sizeof(double);
@@ -402,28 +401,27 @@ set_keys(struct run *run, struct rc_grid *g)
     static const char *const gone[] = {"position", "height", "mu", "approach"};
     const char pass[2] = {run->problem.pass, '\0'};
     struct numbers *d = &run->depths;
-    struct rc_err err;
     size_t frames = count_wanted();
     bool fine = true;
 
     for (size_t k = 0; k < sizeof gone / sizeof *gone; k++)
-        fine = fine && rc_grid_set(g, gone[k], NULL, &err) == RC_OK;
+        fine = fine && rc_grid_set(g, gone[k], NULL, &run->t.err) == RC_OK;
     if (pass[0] != '\0') {
         size_t size = d->n * RC_NUMBER_SIZE + 1, n = 0;
         char *text = tool_room(&run->t, size, 1, "the depths of a section");
         for (size_t k = 0; k < d->n; k++)
             n +=
                 (size_t)snprintf(text + n, size - n, "%s%s", k == 0 ? "" : ",", rc_number(d->v[k]));
-        fine = fine && rc_grid_set(g, "section", pass, &err) == RC_OK &&
-               rc_grid_set(g, "depths", text, &err) == RC_OK;
+        fine = fine && rc_grid_set(g, "section", pass, &run->t.err) == RC_OK &&
+               rc_grid_set(g, "depths", text, &run->t.err) == RC_OK;
         free(text);
     } else {
         frames *= d->n;
     }
-    if (!fine || rc_grid_set_number(g, "frames", (double)frames, &err) != RC_OK ||
-        set_limits(run, g, &err) != RC_OK ||
-        rc_grid_history(g, tool_history(&run->t), &err) != RC_OK)
-        tool_die_at(&run->t, g, EXIT_IMPOSSIBLE, "%s", err.text);
+    if (!fine || rc_grid_set_number(g, "frames", (double)frames, &run->t.err) != RC_OK ||
+        set_limits(run, g, &run->t.err) != RC_OK ||
+        rc_grid_history(g, tool_history(&run->t), &run->t.err) != RC_OK)
+        tool_die_at(&run->t, g, EXIT_IMPOSSIBLE, "%s", run->t.err.text);
 }
 
 /* A section with a row for each depth, or the map of a depth. */
@@ -434,17 +432,16 @@ new_frame(struct run *run, const struct rc_shape *result, int c)
     const struct numbers *d = &run->depths;
     struct rc_shape shape = *result;
     struct rc_grid *g;
-    struct rc_err err;
 
     if (run->problem.pass != 0) {
         shape.ny = d->n;
         shape.dy = d->n > 1 ? (d->v[d->n - 1] - d->v[0]) / (double)(d->n - 1) : shape.dx;
     }
-    g = tool_made(&run->t, first, rc_grid_new(&shape, rc_criterion_names[c], unit_of(c), &err),
-                  &err);
+    g = tool_made(&run->t, first,
+                  rc_grid_new(&shape, rc_criterion_names[c], unit_of(c), &run->t.err));
     for (size_t k = 0; k < first->keys; k++)
-        tool_must(&run->t, first, rc_grid_set(g, first->key[k].name, first->key[k].value, &err),
-                  &err);
+        tool_must(&run->t, first,
+                  rc_grid_set(g, first->key[k].name, first->key[k].value, &run->t.err));
     set_keys(run, g);
     return g;
 }
@@ -551,7 +548,6 @@ do_depth(struct run *run, struct rc_fatigue *f, const struct rc_shape *result, s
     const struct rc_body *body = &run->options.body;
     const struct rc_fatigue_limits l = fatigue_limits_at(&run->limits, body, depth);
     double *to[RC_FATIGUES] = {NULL};
-    struct rc_err err;
 
     tool_progress(t, (double)k / (double)run->depths.n, "depth %zu of %zu", k + 1, run->depths.n);
     for (int c = 0; c < RC_FATIGUES; c++)
@@ -560,16 +556,15 @@ do_depth(struct run *run, struct rc_fatigue *f, const struct rc_shape *result, s
     tool_must(t, run->position[0].p,
               rc_fatigue_depth(f, depth, &l,
                                fatigue_residual_at(t, &run->residual, lines_of(run), depth, at), to,
-                               &err),
-              &err);
+                               &t->err));
     for (int c = 0; c < RC_FATIGUES && run->problem.pass == 0 && !args.dry_run; c++) {
         if (!wanted(c))
             continue;
-        if (rc_grid_set_number(run->frame[c], "depth", depth, &err) != RC_OK ||
+        if (rc_grid_set_number(run->frame[c], "depth", depth, &t->err) != RC_OK ||
             (body->layers > 0 &&
              rc_grid_set_number(run->frame[c], "material",
-                                (double)rc_body_material(body, depth) + 1, &err) != RC_OK))
-            tool_die_at(t, run->frame[c], EXIT_IMPOSSIBLE, "%s", err.text);
+                                (double)rc_body_material(body, depth) + 1, &t->err) != RC_OK))
+            tool_die_at(t, run->frame[c], EXIT_IMPOSSIBLE, "%s", t->err.text);
         tool_write(t, run->frame[c]);
     }
 }
@@ -582,11 +577,10 @@ expect(struct run *run, const struct rc_shape *result)
     const struct rc_shape shape = rc_grid_shape(first);
     double began = tool_now(), made;
     struct rc_fatigue *f;
-    struct rc_err err;
 
     if (run->needs > tool_memory_left(&run->t))
         return NAN;
-    f = tool_made(&run->t, first, rc_fatigue_new(&shape, &run->problem, &err), &err);
+    f = tool_made(&run->t, first, rc_fatigue_new(&shape, &run->problem, &run->t.err));
     for (int c = 0; c < RC_FATIGUES; c++)
         run->frame[c] = wanted(c) ? new_frame(run, result, c) : NULL;
     made = tool_now();
@@ -635,7 +629,6 @@ do_history(struct run *run)
     struct rc_shape result;
     struct rc_fatigue *f;
     double *by_depth[RC_CRITERIA + 1];
-    struct rc_err err;
 
     fatigue_limits_check(t, first, &run->limits, &run->options.body);
     set_depths(run);
@@ -646,7 +639,7 @@ do_history(struct run *run)
     }
     tool_demand_memory(t, first, run->needs);
     result = rc_fatigue_shape(&shape, &run->problem);
-    f = tool_made(t, first, rc_fatigue_new(&shape, &run->problem, &err), &err);
+    f = tool_made(t, first, rc_fatigue_new(&shape, &run->problem, &t->err));
     for (int c = 0; c < RC_FATIGUES; c++)
         run->frame[c] = wanted(c) ? new_frame(run, &result, c) : NULL;
     for (int c = 0; c <= RC_CRITERIA; c++)

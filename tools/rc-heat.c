@@ -191,14 +191,13 @@ read_options(struct run *run)
     struct rc_heat_problem *p = &run->problem;
     const char *unit;
     double k[2];
-    struct rc_err err;
 
     if (args.conductivity == NULL || capacity == tool_given(t, "diffusivity"))
         tool_die(t, EXIT_USAGE,
                  "give the materials with --conductivity and with one of --diffusivity and "
                  "--heat-capacity");
-    if (unit_conductivities(args.conductivity, k, &unit, &err) != RC_OK)
-        tool_die(t, EXIT_USAGE, "--conductivity %s: %s", args.conductivity, err.text);
+    if (unit_conductivities(args.conductivity, k, &unit, &t->err) != RC_OK)
+        tool_die(t, EXIT_USAGE, "--conductivity %s: %s", args.conductivity, t->err.text);
     if (unit != NULL && strcmp(unit, "W/K") != 0)
         tool_die(t, EXIT_USAGE, "--conductivity %s: it must be thermal, in W/mK",
                  args.conductivity);
@@ -303,15 +302,15 @@ write_frame(struct run *run, const struct rc_grid *like, struct rc_heat *h, size
     static const char *const units[] = {"K", "K", "W/m2", "W/m2", "1"};
     const int body = (int)(kind % 2);
     const bool heat = kind >= 2;
-    struct rc_err err;
-    struct rc_grid *g = rc_grid_like(like, frame_word(kind), units[kind], &err);
+    struct rc_grid *g = rc_grid_like(like, frame_word(kind), units[kind], &run->t.err);
 
-    if (g == NULL || rc_grid_set_number(g, "max_temperature", f->max_temperature, &err) != RC_OK ||
-        (!heat && rc_grid_set_number(g, "depth", depth, &err) != RC_OK) ||
-        rc_grid_set(g, "converged", f->converged ? "yes" : "no", &err) != RC_OK ||
-        rc_grid_history(g, tool_history(&run->t), &err) != RC_OK ||
-        (!heat && rc_heat_temperature(h, body, depth, g->v, &err) != RC_OK))
-        tool_die_at(&run->t, like, EXIT_IMPOSSIBLE, "%s", err.text);
+    if (g == NULL ||
+        rc_grid_set_number(g, "max_temperature", f->max_temperature, &run->t.err) != RC_OK ||
+        (!heat && rc_grid_set_number(g, "depth", depth, &run->t.err) != RC_OK) ||
+        rc_grid_set(g, "converged", f->converged ? "yes" : "no", &run->t.err) != RC_OK ||
+        rc_grid_history(g, tool_history(&run->t), &run->t.err) != RC_OK ||
+        (!heat && rc_heat_temperature(h, body, depth, g->v, &run->t.err) != RC_OK))
+        tool_die_at(&run->t, like, EXIT_IMPOSSIBLE, "%s", run->t.err.text);
     for (size_t k = 0; k < rc_grid_nodes(g) && heat; k++)
         g->v[k] = kind < 4             ? rc_heat_flux(h, body)[k]
                   : run->touch != NULL ? run->touch[k]
@@ -394,11 +393,10 @@ show_plan(struct run *run, const struct rc_grid *g)
     const struct rc_shape shape = rc_grid_shape(g);
     struct rc_expected expected;
     size_t below = 0;
-    struct rc_err err;
 
     for (size_t k = 0; k < args.depths.n && (args.output & 3) != 0; k++)
         below += args.depths.v[k] > 0;
-    tool_must(&run->t, g, rc_heat_expect(&shape, &run->problem, below, &expected, &err), &err);
+    tool_must(&run->t, g, rc_heat_expect(&shape, &run->problem, below, &expected, &run->t.err));
     course_show(&run->t, g, expected);
     free(run->touch);
     run->touch = NULL;
@@ -411,20 +409,17 @@ do_case(struct run *run, struct rc_grid *g)
     const double began = tool_now();
     enum rc_status status;
     struct rc_heat *h;
-    struct rc_err err;
 
     run->problem.boundary = map_boundary(g);
     if (args.dry_run) {
         show_plan(run, g);
         return;
     }
-    h = rc_heat_new(&shape, &run->problem, g->v, run->touch, &err);
-    if (h == NULL)
-        tool_die_at(&run->t, g, EXIT_IMPOSSIBLE, "%s", err.text);
-    while ((status = rc_heat_step(h, &err)) == RC_MORE)
+    h = tool_made(&run->t, g, rc_heat_new(&shape, &run->problem, g->v, run->touch, &run->t.err));
+    while ((status = rc_heat_step(h, &run->t.err)) == RC_MORE)
         tool_progress(&run->t, NAN, "temperatures of %zu x %zu nodes", g->nx, g->ny);
     tool_progress_end(&run->t);
-    tool_must(&run->t, g, status, &err);
+    tool_must(&run->t, g, status);
     judge(run, g, rc_heat_result(h));
     for (size_t kind = 0; kind < 2; kind++)
         for (size_t k = 0; k < args.depths.n && args.output >> kind & 1; k++)

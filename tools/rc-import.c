@@ -508,14 +508,13 @@ static bool
 import_file(struct tool *t, const char *name, const struct rc_wish *wish, size_t number)
 {
     struct source s;
-    struct rc_err err;
-    bool good = source_open(t, name, wish, &s, &err) == RC_OK &&
-                write_heights(t, &s, wish, number, &err) == RC_OK;
+    bool good = source_open(t, name, wish, &s, &t->err) == RC_OK &&
+                write_heights(t, &s, wish, number, &t->err) == RC_OK;
 
     if (!good && !args.keep_going)
-        tool_die(t, EXIT_IMPOSSIBLE, "%s: %s", t->source, err.text);
+        tool_die(t, EXIT_IMPOSSIBLE, "%s: %s", t->source, t->err.text);
     if (!good)
-        tool_fail(t, "%s: %s", t->source, err.text);
+        tool_fail(t, "%s: %s", t->source, t->err.text);
     source_close(&s);
     return good;
 }

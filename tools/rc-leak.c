@@ -146,11 +146,10 @@ write_frame(struct run *run, const struct leak_case *c, const struct rc_leak *le
 {
     double scale = isnan(c->drop) ? 1 : kind == PRESSURE ? c->drop : kind == FLUX ? c->rate : 1;
     const char *unit = isnan(c->drop) ? frames[kind].unit : frames[kind].driven_unit;
-    struct rc_err err;
-    struct rc_grid *g = rc_grid_like(c->gap, frames[kind].name, unit, &err);
+    struct rc_grid *g = rc_grid_like(c->gap, frames[kind].name, unit, &run->t.err);
 
-    if (g == NULL || set_keys(run, c, g, &err) != RC_OK)
-        tool_die_at(&run->t, c->gap, EXIT_IMPOSSIBLE, "%s", err.text);
+    if (g == NULL || set_keys(run, c, g, &run->t.err) != RC_OK)
+        tool_die_at(&run->t, c->gap, EXIT_IMPOSSIBLE, "%s", run->t.err.text);
     frames[kind].get(leak, g->v);
     for (size_t k = 0; k < rc_grid_nodes(g) && scale != 1; k++)
         g->v[k] *= scale;
@@ -163,15 +162,14 @@ static void
 solve(struct run *run, const struct leak_case *c, struct rc_leak *leak)
 {
     enum rc_status status;
-    struct rc_err err;
 
     tool_demand_memory(&run->t, c->gap,
                        rc_grid_nodes(c->gap) * sizeof(double)); /* another frame follows */
     tool_progress(&run->t, NAN, "flow through %zu nodes", c->figures->unknowns);
-    while ((status = rc_leak_step(leak, &err)) == RC_MORE)
+    while ((status = rc_leak_step(leak, &run->t.err)) == RC_MORE)
         continue;
     tool_progress_end(&run->t);
-    tool_must(&run->t, c->gap, status, &err);
+    tool_must(&run->t, c->gap, status);
 }
 
 static void
@@ -201,7 +199,6 @@ do_case(struct run *run, const struct rc_grid *gap)
     const struct rc_grid *touch;
     double began = tool_now();
     struct rc_leak *leak;
-    struct rc_err err;
 
     tool_demand_finite(&run->t, gap, "recompute the map");
     touch = look_at_contact(run, &c);
@@ -209,9 +206,9 @@ do_case(struct run *run, const struct rc_grid *gap)
         show_plan(run, &c);
         return;
     }
-    leak = rc_leak_new(&shape, touch == NULL ? NULL : touch->v, gap->v, &options, &err);
-    if (leak == NULL)
-        tool_die_at(&run->t, gap, EXIT_IMPOSSIBLE, "%s", err.text);
+    leak = tool_made(
+        &run->t, gap,
+        rc_leak_new(&shape, touch == NULL ? NULL : touch->v, gap->v, &options, &run->t.err));
     c.figures = rc_leak_result(leak);
     c.setup = tool_now() - began;
     solve(run, &c, leak);

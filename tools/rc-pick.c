@@ -83,7 +83,6 @@ settle_set(struct tool *t, struct step *step)
     size_t n = strcspn(step->text, "="), size = strlen(step->text) + RC_NUMBER_SIZE;
     const char *value = step->text + n + (step->text[n] == '=');
     char *text = args.made[step - args.steps.step] = tool_room(t, size, 1, "a text");
-    struct rc_err err;
 
     snprintf(text, size, "%.*s", (int)n, step->text);
     if (step->text[n] == '\0' || !rc_key_valid(text))
@@ -102,8 +101,8 @@ settle_set(struct tool *t, struct step *step)
     if (!rc_utf8_valid(value))
         tool_die(t, EXIT_USAGE, "--set %s...: the value is not UTF-8", text);
     if (is_spacing(text)) {
-        if (unit_number(value, UNIT_M, &step->value, &err) != RC_OK)
-            tool_die(t, EXIT_USAGE, "--set %s: %s", step->text, err.text);
+        if (unit_number(value, UNIT_M, &step->value, &t->err) != RC_OK)
+            tool_die(t, EXIT_USAGE, "--set %s: %s", step->text, t->err.text);
         if (!(step->value > 0))
             tool_die(t, EXIT_USAGE, "--set %s: it must be above 0", step->text);
         text[n] = '=';
@@ -191,7 +190,6 @@ static void
 change(struct tool *t, struct rc_grid *g)
 {
     enum rc_status status = RC_OK;
-    struct rc_err err;
     bool renamed = false;
 
     for (size_t k = 0; k < args.steps.n; k++)
@@ -202,15 +200,15 @@ change(struct tool *t, struct rc_grid *g)
         results_demand_none(t, g);
     /* because the number of depths may be smaller now */
     if (args.wanted.channel != NULL || args.wanted.depth.n > 0)
-        status = rc_grid_set(g, "frames", NULL, &err);
+        status = rc_grid_set(g, "frames", NULL, &t->err);
     for (size_t k = 0; k < args.steps.n && status == RC_OK; k++)
         if (pick_geometry(&args.steps.step[k]))
             pick_geometry_do(t, g, &args.steps.step[k]);
         else
-            status = set(g, &args.steps.step[k], &err);
+            status = set(g, &args.steps.step[k], &t->err);
     if (status == RC_OK)
-        status = rc_grid_history(g, tool_history(t), &err);
-    tool_must(t, g, status, &err);
+        status = rc_grid_history(g, tool_history(t), &t->err);
+    tool_must(t, g, status);
 }
 
 int

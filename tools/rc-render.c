@@ -180,7 +180,6 @@ write_picture(struct tool *t, const struct rc_grid *g, const struct paper *paper
         {"Software", software},
         {"Source", g == NULL ? paper->subtitle : rc_grid_get(g, "source")}};
     size_t texts = sizeof text / sizeof *text;
-    struct rc_err err;
 
     assert(c != NULL || (g != NULL && raw != NULL));
     if (c == NULL)
@@ -189,10 +188,10 @@ write_picture(struct tool *t, const struct rc_grid *g, const struct paper *paper
              own);
     snprintf(software, sizeof software, "rc-render %s", rc_version());
     if ((c != NULL
-             ? canvas_write(c, canvas_format(ending_of(t->out_name)), text, texts, t->out, &err)
-             : picture_write(t->out, g->nx, g->ny, paper->dpi, text, texts, next_row, &d, &err)) !=
-        RC_OK)
-        tool_die(t, EXIT_IMPOSSIBLE, "%s", err.text);
+             ? canvas_write(c, canvas_format(ending_of(t->out_name)), text, texts, t->out, &t->err)
+             : picture_write(t->out, g->nx, g->ny, paper->dpi, text, texts, next_row, &d,
+                             &t->err)) != RC_OK)
+        tool_die(t, EXIT_IMPOSSIBLE, "%s", t->err.text);
     free(made);
 }
 
@@ -465,7 +464,6 @@ render_sheet(struct tool *t, struct args *a, const struct frames *frames)
     struct panels panels;
     struct means means = {false, 0, 0};
     struct canvas *c;
-    struct rc_err err;
 
     sheet_size(t, a->sheet == NULL ? "auto" : a->sheet, &columns, &rows);
     if (columns > 0 && frames->n > columns * rows)
@@ -488,7 +486,7 @@ render_sheet(struct tool *t, struct args *a, const struct frames *frames)
     if (columns == 0)
         columns = panels_columns(frames->n, (f.at.right - f.at.left) / (f.at.bottom - f.at.top));
     panels = (struct panels){&f, panel, frames->n, columns};
-    c = tool_made(t, NULL, panels_draw(&panels, &err), &err);
+    c = tool_made(t, NULL, panels_draw(&panels, &t->err));
     finish(t, a, frames->grid[0], &f.paper, c, NULL);
     for (size_t k = 0; k < frames->n; k++) {
         rc_grid_free(even[k]);

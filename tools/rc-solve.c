@@ -101,12 +101,12 @@ static const struct tool_info info = {
 static void
 read_conductivity(struct run *run)
 {
-    struct rc_err err;
-
     if (args.conductivity == NULL)
         return;
-    if (unit_conductivities(args.conductivity, run->k, &run->conductance_unit, &err) != RC_OK)
-        tool_die(&run->d.t, EXIT_USAGE, "--conductivity %s: %s", args.conductivity, err.text);
+    if (unit_conductivities(args.conductivity, run->k, &run->conductance_unit, &run->d.t.err) !=
+        RC_OK)
+        tool_die(&run->d.t, EXIT_USAGE, "--conductivity %s: %s", args.conductivity,
+                 run->d.t.err.text);
     run->conductance = args.physics.pair.one.layers == 0;
     if (!run->conductance)
         tool_warn(&run->d.t, "--conductivity does not work with --layer, because the analogy of "

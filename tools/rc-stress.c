@@ -86,15 +86,14 @@ static void
 read_section(struct run *run)
 {
     static char si[RC_NUMBER_SIZE + 3];
-    struct rc_err err;
     const char *s = args.section;
 
     if (s == NULL)
         return;
     if ((s[0] != 'x' && s[0] != 'y') || s[1] != '=')
         tool_die(&run->t, EXIT_USAGE, "--section %s: it must be x=PLACE or y=PLACE, as in y=0", s);
-    if (unit_number(s + 2, UNIT_M, &run->options.at, &err) != RC_OK)
-        tool_die(&run->t, EXIT_USAGE, "--section %s: %s", s, err.text);
+    if (unit_number(s + 2, UNIT_M, &run->options.at, &run->t.err) != RC_OK)
+        tool_die(&run->t, EXIT_USAGE, "--section %s: %s", s, run->t.err.text);
     run->options.section = s[0];
     snprintf(si, sizeof si, "%c=%s", s[0], rc_number(run->options.at));
     args.section = si;
@@ -126,7 +125,6 @@ static void
 set_options(struct run *run, const struct rc_grid *p)
 {
     struct rc_shape shape = rc_grid_shape(p);
-    struct rc_err err;
 
     stress_input_read(&run->t, p, &args.asked, &run->input, &run->options);
     run->options.wanted = (unsigned)args.components;
@@ -140,7 +138,7 @@ set_options(struct run *run, const struct rc_grid *p)
         tool_die_at(&run->t, p, EXIT_IMPOSSIBLE,
                     "--residual: the case has no plastic strain: see rc-solve --yield and --output "
                     "strain, or --layer for a residual stress of layers");
-    tool_must(&run->t, p, rc_stress_check(&shape, &run->options, &err), &err);
+    tool_must(&run->t, p, rc_stress_check(&shape, &run->options, &run->t.err));
 }
 
 static void
@@ -199,21 +197,20 @@ set_keys(struct run *run, const struct rc_grid *p, struct rc_grid *g)
     bool plane = section[0] != '\0';
     char *depths = plane ? depths_text(run, p) : NULL;
     size_t frames = channels() * (plane ? 1 : run->depths.n);
-    struct rc_err err;
 
-    if (rc_grid_set(g, "nu", NULL, &err) != RC_OK ||
+    if (rc_grid_set(g, "nu", NULL, &run->t.err) != RC_OK ||
         (run->input.layers.text == NULL &&
-         rc_grid_set_number(g, "nu", run->options.body.nu, &err) != RC_OK) ||
+         rc_grid_set_number(g, "nu", run->options.body.nu, &run->t.err) != RC_OK) ||
         rc_grid_set(g, "boundary", run->options.boundary == RC_PERIODIC ? "periodic" : "free",
-                    &err) != RC_OK ||
-        rc_grid_set(g, "mu", NULL, &err) != RC_OK ||
-        (args.asked.mu != 0 && rc_grid_set_number(g, "mu", args.asked.mu, &err) != RC_OK) ||
-        rc_grid_set_number(g, "frames", (double)frames, &err) != RC_OK ||
-        (plane && (rc_grid_set(g, "section", section, &err) != RC_OK ||
-                   rc_grid_set_number(g, "at", run->options.at, &err) != RC_OK ||
-                   rc_grid_set(g, "depths", depths, &err) != RC_OK)) ||
-        rc_grid_history(g, tool_history(&run->t), &err) != RC_OK)
-        tool_die_at(&run->t, p, EXIT_IMPOSSIBLE, "%s", err.text);
+                    &run->t.err) != RC_OK ||
+        rc_grid_set(g, "mu", NULL, &run->t.err) != RC_OK ||
+        (args.asked.mu != 0 && rc_grid_set_number(g, "mu", args.asked.mu, &run->t.err) != RC_OK) ||
+        rc_grid_set_number(g, "frames", (double)frames, &run->t.err) != RC_OK ||
+        (plane && (rc_grid_set(g, "section", section, &run->t.err) != RC_OK ||
+                   rc_grid_set_number(g, "at", run->options.at, &run->t.err) != RC_OK ||
+                   rc_grid_set(g, "depths", depths, &run->t.err) != RC_OK)) ||
+        rc_grid_history(g, tool_history(&run->t), &run->t.err) != RC_OK)
+        tool_die_at(&run->t, p, EXIT_IMPOSSIBLE, "%s", run->t.err.text);
     free(depths);
 }
 
@@ -222,14 +219,14 @@ static struct rc_grid *
 new_frame(struct run *run, const struct rc_grid *p, int channel)
 {
     struct rc_shape shape = frame_shape(run, p);
-    struct rc_err err;
     size_t rows = run->options.section != 0 ? shape.ny : p->ny - p->elsewhere;
-    struct rc_grid *g = rc_grid_new_part(&shape, rows, rc_component_names[channel], "Pa", &err);
+    struct rc_grid *g =
+        rc_grid_new_part(&shape, rows, rc_component_names[channel], "Pa", &run->t.err);
 
     for (size_t k = 0; g != NULL && k < p->keys; k++)
-        tool_must(&run->t, p, rc_grid_set(g, p->key[k].name, p->key[k].value, &err), &err);
+        tool_must(&run->t, p, rc_grid_set(g, p->key[k].name, p->key[k].value, &run->t.err));
     if (g == NULL)
-        tool_die_at(&run->t, p, EXIT_IMPOSSIBLE, "%s", err.text);
+        tool_die_at(&run->t, p, EXIT_IMPOSSIBLE, "%s", run->t.err.text);
     set_keys(run, p, g);
     return g;
 }
@@ -280,7 +277,6 @@ do_depth(struct run *run, struct rc_stress *stress, size_t k)
 {
     double *s[RC_STRESSES] = {NULL};
     bool plane = run->options.section != 0;
-    struct rc_err err;
 
     tool_progress(&run->t, (double)k / (double)run->depths.n, "depth %zu of %zu", k + 1,
                   run->depths.n);
@@ -288,12 +284,12 @@ do_depth(struct run *run, struct rc_stress *stress, size_t k)
         if (wanted(c))
             s[c] = run->frame[c]->v + (plane ? k * run->frame[c]->nx : 0);
     stress_report_start(&run->report);
-    tool_must(&run->t, NULL, rc_stress_slice(stress, run->depths.v[k], s, &err), &err);
+    tool_must(&run->t, NULL, rc_stress_slice(stress, run->depths.v[k], s, &run->t.err));
     stress_report_depth(&run->report, &run->t, k, rc_stress_values(stress), s);
     for (int c = 0; c < RC_STRESSES && !plane; c++) {
         if (!wanted(c))
             continue;
-        tool_must(&run->t, NULL, set_place(run, run->frame[c], run->depths.v[k], &err), &err);
+        tool_must(&run->t, NULL, set_place(run, run->frame[c], run->depths.v[k], &run->t.err));
         tool_write(&run->t, run->frame[c]);
     }
 }
@@ -302,11 +298,10 @@ static void
 plan_case(struct run *run, const struct rc_grid *p)
 {
     double memory = ranks_most(&run->t, (double)tool_memory_with(memory_for(run, p)));
-    struct rc_err err;
 
-    tool_must(&run->t, p,
-              stress_report_plan(&run->t, p, &run->options, &run->depths, (size_t)memory, &err),
-              &err);
+    tool_must(
+        &run->t, p,
+        stress_report_plan(&run->t, p, &run->options, &run->depths, (size_t)memory, &run->t.err));
 }
 
 static void
@@ -314,14 +309,12 @@ do_case(struct run *run, const struct rc_grid *p)
 {
     struct rc_shape shape = rc_grid_shape(p);
     struct rc_stress *stress;
-    struct rc_err err;
 
     tool_must(&run->t, p,
               stress_report_begin(&run->report, p, &run->options, &run->depths,
-                                  report_wanted(&run->out), &err),
-              &err);
+                                  report_wanted(&run->out), &run->t.err));
     tool_demand_memory(&run->t, p, memory_for(run, p));
-    stress = tool_made(&run->t, p, rc_stress_new(&shape, p->v, &run->options, &err), &err);
+    stress = tool_made(&run->t, p, rc_stress_new(&shape, p->v, &run->options, &run->t.err));
     stress_report_ready(&run->report);
     for (int c = 0; c < RC_STRESSES; c++)
         if (wanted(c))

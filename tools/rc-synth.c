@@ -214,7 +214,6 @@ add_keys(struct tool *t, const struct synth_shape *row, struct rc_grid *g, bool 
 {
     char step[1024], source[64];
     bool seeded = false;
-    struct rc_err err;
 
     for (const char *const *name = row->takes; *name != NULL; name++)
         seeded |= strcmp(*name, "seed") == 0;
@@ -223,10 +222,10 @@ add_keys(struct tool *t, const struct synth_shape *row, struct rc_grid *g, bool 
     else
         snprintf(source, sizeof source, "%s", row->name);
     snprintf(step, sizeof step, "%s %s", tool_history(t), row->name);
-    if (rc_grid_set(g, "source", source, &err) != RC_OK ||
-        (periodic && rc_grid_set(g, "periodic", "yes", &err) != RC_OK) ||
-        rc_grid_history(g, step, &err) != RC_OK)
-        tool_die(t, EXIT_IMPOSSIBLE, "%s", err.text);
+    if (rc_grid_set(g, "source", source, &t->err) != RC_OK ||
+        (periodic && rc_grid_set(g, "periodic", "yes", &t->err) != RC_OK) ||
+        rc_grid_history(g, step, &t->err) != RC_OK)
+        tool_die(t, EXIT_IMPOSSIBLE, "%s", t->err.text);
 }
 
 int
@@ -235,7 +234,6 @@ main(int argc, char **argv)
     const struct synth_shape *row;
     struct rc_shape shape;
     struct rc_grid *g;
-    struct rc_err err;
     struct tool t;
     size_t nodes, bytes;
     bool periodic = false;
@@ -248,14 +246,13 @@ main(int argc, char **argv)
     if (row->check != NULL)
         row->check(&t, &args, &shape);
     t.remedy = "take fewer nodes: --nx, --ny";
-    if (rc_shape_check(&shape, &err) != RC_OK ||
-        rc_size_mul(shape.nx, shape.ny, &nodes, &err) != RC_OK ||
-        rc_size_mul(nodes, sizeof *g->v, &bytes, &err) != RC_OK ||
-        tool_ask_memory(&t, &shape, bytes, &err) != RC_OK)
-        tool_die(&t, EXIT_IMPOSSIBLE, "%s", err.text);
-    g = rc_grid_new(&shape, "height", "m", &err);
-    if (g == NULL || row->make(&args, &shape, g->v, &periodic, &err) != RC_OK)
-        tool_die(&t, EXIT_IMPOSSIBLE, "%s", err.text);
+    tool_must(&t, NULL, rc_shape_check(&shape, &t.err));
+    tool_must(&t, NULL, rc_size_mul(shape.nx, shape.ny, &nodes, &t.err));
+    tool_must(&t, NULL, rc_size_mul(nodes, sizeof *g->v, &bytes, &t.err));
+    tool_must(&t, NULL, tool_ask_memory(&t, &shape, bytes, &t.err));
+    g = rc_grid_new(&shape, "height", "m", &t.err);
+    if (g == NULL || row->make(&args, &shape, g->v, &periodic, &t.err) != RC_OK)
+        tool_die(&t, EXIT_IMPOSSIBLE, "%s", t.err.text);
     add_keys(&t, row, g, periodic);
     tool_write(&t, g);
     rc_grid_free(g);

@@ -483,7 +483,6 @@ set_keys(struct drive *d, struct rc_model *m, struct rc_grid *g)
 {
     struct run *run = (struct run *)(void *)d;
     const struct rc_wear_figures *f = rc_wear_result(m);
-    struct rc_err err;
 
     if (run->coat > 0 && f->max_wear_depth > run->coat)
         tool_die_at(
@@ -492,11 +491,11 @@ set_keys(struct drive *d, struct rc_model *m, struct rc_grid *g)
             "worn through is not implemented",
             shown_in_unit(f->max_wear_depth, "m"), shown_in_unit(run->coat, "m"));
     d->ended = d->status != RC_MORE && f->distance < d->point[d->at].at[RC_DISTANCE];
-    if (rc_grid_set_number(g, "wear_1", run->law.k[0], &err) != RC_OK ||
-        rc_grid_set_number(g, "wear_2", run->law.k[1], &err) != RC_OK ||
+    if (rc_grid_set_number(g, "wear_1", run->law.k[0], &d->t.err) != RC_OK ||
+        rc_grid_set_number(g, "wear_2", run->law.k[1], &d->t.err) != RC_OK ||
         (run->map[SLIP] != NULL &&
-         rc_grid_set_number(g, "cycles", f->distance / run->path, &err) != RC_OK))
-        tool_die_at(&d->t, g, EXIT_IMPOSSIBLE, "%s", err.text);
+         rc_grid_set_number(g, "cycles", f->distance / run->path, &d->t.err) != RC_OK))
+        tool_die_at(&d->t, g, EXIT_IMPOSSIBLE, "%s", d->t.err.text);
     judge_map(run, m, g);
     if (run->law.sliding && f->pressure_error > args.tol)
         course_warn(
@@ -555,7 +554,6 @@ do_case(struct run *run, const struct rc_grid *g)
                                  .hurry = tool_signal()};
     struct rc_statistics before;
     struct layers layers;
-    struct rc_err err;
     const double load = key(&d->t, g, "load", "the load");
 
     refuse_others(&d->t, g);
@@ -565,9 +563,8 @@ do_case(struct run *run, const struct rc_grid *g)
                     boundary == NULL ? "" : boundary);
     problem.boundary = boundary[0] == 'p' ? RC_PERIODIC : RC_FREE;
     d->advice = boundary[0] == 'p' ? periodic : free_map;
-    if (layers_read(g, &layers, &err) != RC_OK ||
-        bodies_read(g, &layers, &problem.pair, &err) != RC_OK)
-        tool_die_at(&d->t, g, EXIT_IMPOSSIBLE, "%s", err.text);
+    tool_must(&d->t, g, layers_read(g, &layers, &d->t.err));
+    tool_must(&d->t, g, bodies_read(g, &layers, &problem.pair, &d->t.err));
     if (rc_grid_get(g, "hardness") != NULL)
         problem.hardness = key(&d->t, g, "hardness", "the bound of the pressure");
     if (run->map[HARD] != NULL)
@@ -591,10 +588,10 @@ do_case(struct run *run, const struct rc_grid *g)
         rc_point_set(&d->point[k], RC_LOAD, load);
     suspect_unit(run, g);
     suspect_track(run, g);
-    drive_case(
-        d, g,
-        rc_wear_new(rc_elastic_new(&shape, g->v, &problem, NULL, &err), g->v, &run->law, &err),
-        &err);
+    drive_case(d, g,
+               rc_wear_new(rc_elastic_new(&shape, g->v, &problem, NULL, &d->t.err), g->v, &run->law,
+                           &d->t.err),
+               &d->t.err);
     if (args.drive.dry_run)
         show_plan(run, g);
     layers_free(&layers);

@@ -68,9 +68,8 @@ void
 tool_demand_memory(struct tool *t, const struct rc_grid *g, size_t bytes)
 {
     const struct rc_shape shape = rc_grid_shape(g);
-    struct rc_err err;
 
-    tool_must(t, g, tool_ask_memory(t, &shape, bytes, &err), &err);
+    tool_must(t, g, tool_ask_memory(t, &shape, bytes, &t->err));
 }
 
 size_t

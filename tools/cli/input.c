@@ -59,7 +59,6 @@ static void
 open_next(struct tool *t)
 {
     const char *name = t->operands == 0 ? "-" : t->operand[t->input.next];
-    struct rc_err err;
 
     t->input.next++;
     t->frame = 0;
@@ -84,7 +83,7 @@ open_next(struct tool *t)
     setvbuf(t->input.file, NULL, _IOFBF, TOOL_BUFFER);
     pipe_widen(fileno(t->input.file));
     t->input.reader =
-        tool_made(t, NULL, rc_reader_new(t->input.file, t->input.last_case, 0, &err), &err);
+        tool_made(t, NULL, rc_reader_new(t->input.file, t->input.last_case, 0, &t->err));
     if (t->ranks != NULL) {
         t->input.share = ranks_read(t, name);
         rc_reader_share(t->input.reader, t->input.share);
@@ -390,19 +389,18 @@ tool_frame_of_file(struct tool *t, const char *option, const char *name, const c
     FILE *file = standard ? stdin : fopen(name, "rb");
     struct rc_reader *reader;
     struct rc_grid *g = NULL;
-    struct rc_err err;
     enum rc_status status;
 
     if (file == NULL)
         tool_die(t, EXIT_IMPOSSIBLE, "--%s %s: %s", option, name, strerror(errno));
-    if ((reader = rc_reader_new(file, 0, t->memory, &err)) == NULL)
-        tool_die(t, EXIT_IMPOSSIBLE, "--%s %s: %s", option, name, err.text);
+    if ((reader = rc_reader_new(file, 0, t->memory, &t->err)) == NULL)
+        tool_die(t, EXIT_IMPOSSIBLE, "--%s %s: %s", option, name, t->err.text);
     do {
         rc_grid_free(g);
-        status = rc_reader_next(reader, &g, &err);
+        status = rc_reader_next(reader, &g, &t->err);
     } while (status == RC_MORE && channel != NULL && strcmp(g->channel, channel) != 0);
     if (status == RC_FAIL)
-        tool_die(t, EXIT_IMPOSSIBLE, "--%s %s: %s", option, name, err.text);
+        tool_die(t, EXIT_IMPOSSIBLE, "--%s %s: %s", option, name, t->err.text);
     if (g == NULL)
         tool_die(t, EXIT_IMPOSSIBLE, "--%s %s: no %s%sframe is in it", option, name,
                  channel == NULL ? "" : channel, channel == NULL ? "" : " ");

@@ -173,19 +173,19 @@ tool_die_at(struct tool *t, const struct rc_grid *g, int status, const char *for
 }
 
 void
-tool_must(struct tool *t, const struct rc_grid *g, enum rc_status status, const struct rc_err *err)
+tool_must(struct tool *t, const struct rc_grid *g, enum rc_status status)
 {
     if (status == RC_OK)
         return;
     if (g == NULL)
-        tool_die(t, EXIT_IMPOSSIBLE, "%s", err->text);
-    tool_die_at(t, g, EXIT_IMPOSSIBLE, "%s", err->text);
+        tool_die(t, EXIT_IMPOSSIBLE, "%s", t->err.text);
+    tool_die_at(t, g, EXIT_IMPOSSIBLE, "%s", t->err.text);
 }
 
 void *
-tool_made(struct tool *t, const struct rc_grid *g, void *made, const struct rc_err *err)
+tool_made(struct tool *t, const struct rc_grid *g, void *made)
 {
-    tool_must(t, g, made == NULL ? RC_FAIL : RC_OK, err);
+    tool_must(t, g, made == NULL ? RC_FAIL : RC_OK);
     return made;
 }
 

@@ -204,11 +204,10 @@ check_bounds(struct tool *t, const struct opt *o, double value, bool per_metre)
 static double
 number(struct tool *t, const struct opt *o, const char *text)
 {
-    struct rc_err err;
     double value;
 
-    if (unit_number(text, o->unit, &value, &err) != RC_OK)
-        tool_die(t, EXIT_USAGE, "--%s %s: %s", o->name, text, err.text);
+    if (unit_number(text, o->unit, &value, &t->err) != RC_OK)
+        tool_die(t, EXIT_USAGE, "--%s %s: %s", o->name, text, t->err.text);
     check_bounds(t, o, value, false);
     if (o->unit == UNIT_HARD && unit_vickers(text))
         t->vickers = text;
@@ -288,18 +287,16 @@ add_step(struct tool *t, const struct opt *o, struct steps *steps, const char *t
 static void
 set_list(struct tool *t, const struct opt *o, struct numbers *list, const char *text)
 {
-    struct rc_err err;
-
     free(list->v);
     *list = (struct numbers){0};
     t->option.list[o - t->option.row] = NULL;
     if (o->word != NULL && strcmp(text, o->word) == 0)
         return;
     t->option.list[o - t->option.row] = text;
-    if ((o->per_metre ? unit_forces(text, list, &err) : unit_numbers(text, o->unit, list, &err)) !=
-        RC_OK)
+    if ((o->per_metre ? unit_forces(text, list, &t->err)
+                      : unit_numbers(text, o->unit, list, &t->err)) != RC_OK)
         tool_die(t, list->no_memory ? EXIT_IMPOSSIBLE : EXIT_USAGE, "--%s %s: %s", o->name, text,
-                 err.text);
+                 t->err.text);
     for (size_t k = 0; k < list->n; k++) {
         check_bounds(t, o, list->v[k], list->per_metre);
         if (o->whole && list->v[k] != floor(list->v[k]))

@@ -124,7 +124,6 @@ demand_shared_file(struct tool *t)
 static void
 open_shared(struct tool *t)
 {
-    struct rc_err err;
     char name[WHOLE_PATH];
 
     if (ranks_speak(t)) {
@@ -137,14 +136,13 @@ open_shared(struct tool *t)
     if (!ranks_speak(t))
         whole_file_share(&output, name); /* the last process removes it */
     t->output.share = ranks_write(t, name);
-    t->output.writer = tool_made(t, NULL, rc_writer_new_shared(t->output.share, 0, &err), &err);
+    t->output.writer = tool_made(t, NULL, rc_writer_new_shared(t->output.share, 0, &t->err));
 }
 
 void
 output_open(struct tool *t)
 {
     struct stat st;
-    struct rc_err err;
     bool binary = t->writes != WRITES_TEXT;
 
     together = t->ranks == NULL ? NULL : t;
@@ -173,8 +171,8 @@ output_open(struct tool *t)
         setvbuf(t->out, NULL, _IOFBF, TOOL_BUFFER);
     if (binary)
         pipe_widen(fileno(t->out));
-    if (t->writes == WRITES_STREAM && (t->output.writer = rc_writer_new(t->out, &err)) == NULL)
-        tool_die(t, EXIT_IMPOSSIBLE, "%s", err.text);
+    if (t->writes == WRITES_STREAM && (t->output.writer = rc_writer_new(t->out, &t->err)) == NULL)
+        tool_die(t, EXIT_IMPOSSIBLE, "%s", t->err.text);
 }
 
 /* Values near the limits of a double can overflow in the computation: then there is no output. */
@@ -204,7 +202,6 @@ void
 tool_write(struct tool *t, struct rc_grid *g)
 {
     enum rc_type type = g->type;
-    struct rc_err err;
 
     if (t->report_alone)
         return;
@@ -214,7 +211,7 @@ tool_write(struct tool *t, struct rc_grid *g)
         g->type = t->output.type;
     demand_no_new(t, g);
     t->output.began = true;
-    tool_must(t, g, rc_writer_put(t->output.writer, g, &err), &err);
+    tool_must(t, g, rc_writer_put(t->output.writer, g, &t->err));
     g->type = type;
 }
 
@@ -222,17 +219,16 @@ void
 output_end(struct tool *t)
 {
     const char *name = t->out_name == NULL ? "standard output" : t->out_name;
-    struct rc_err err;
 
     if (t->ranks != NULL && t->writes == WRITES_STREAM && t->output.writer == NULL)
         open_shared(t); /* the file holds no frame */
-    if (t->output.writer != NULL && rc_writer_end(t->output.writer, &err) != RC_OK)
-        tool_die(t, EXIT_IMPOSSIBLE, "%s: %s", name, err.text);
+    if (t->output.writer != NULL && rc_writer_end(t->output.writer, &t->err) != RC_OK)
+        tool_die(t, EXIT_IMPOSSIBLE, "%s: %s", name, t->err.text);
     t->output.ended = true; /* an end line was written: nothing may follow it */
     rc_writer_free(t->output.writer);
     t->output.writer = NULL;
-    if (ranks_settle(t->output.share, &err) != RC_OK)
-        tool_die(t, EXIT_IMPOSSIBLE, "%s: %s", name, err.text);
+    if (ranks_settle(t->output.share, &t->err) != RC_OK)
+        tool_die(t, EXIT_IMPOSSIBLE, "%s: %s", name, t->err.text);
     ranks_close(t, t->output.share);
     t->output.share = NULL;
     if (!ranks_speak(t))

@@ -79,7 +79,6 @@ void
 ranks_start(struct tool *t)
 {
     static struct ranks r;
-    struct rc_err err;
     int given;
 
     if (!launched())
@@ -103,7 +102,7 @@ ranks_start(struct tool *t)
         tool_die(t, EXIT_IMPOSSIBLE, "/dev/null: %s", strerror(errno));
     if ((r.parts = malloc((size_t)r.count * sizeof *r.parts)) == NULL)
         tool_die(t, EXIT_IMPOSSIBLE, "out of memory for %d processes", r.count);
-    r.library = tool_made(t, NULL, rc_ranks_new(r.comm, &err), &err);
+    r.library = tool_made(t, NULL, rc_ranks_new(r.comm, &t->err));
 }
 
 void

@@ -192,6 +192,7 @@ struct tool {
         double at;  /* s: the time when it was written        */
     } line;
     int exit_status;
+    struct rc_err err; /* of the call that tool_must or tool_made checks */
 };
 
 /* Reads the command line into args (the struct of the table's offsets, which holds the defaults), handles
@@ -256,11 +257,10 @@ _Noreturn void tool_die(struct tool *tool, int status, const char *format, ...)
 /* The same, with source, case and channel of the faulty frame in the message. */
 _Noreturn void tool_die_at(struct tool *tool, const struct rc_grid *grid, int status,
                            const char *format, ...) __attribute__((format(printf, 4, 5)));
-/* Ends the tool with the message of a failure, at a frame or, with NULL, without a place. */
-void tool_must(struct tool *tool, const struct rc_grid *grid, enum rc_status status,
-               const struct rc_err *err);
-/* Returns what a maker returned; ends the tool with its error if that is NULL. */
-void *tool_made(struct tool *tool, const struct rc_grid *grid, void *made, const struct rc_err *err)
+/* Ends the tool with the message of a failure, tool->err, at a frame or, with NULL, without a place. */
+void tool_must(struct tool *tool, const struct rc_grid *grid, enum rc_status status);
+/* Returns what a maker returned; ends the tool with tool->err if that is NULL. */
+void *tool_made(struct tool *tool, const struct rc_grid *grid, void *made)
     __attribute__((returns_nonnull));
 /* An array of n elements of this size, all 0, which the caller frees. Ends the tool when memory is short,
  * with the message "out of memory for WHAT". */

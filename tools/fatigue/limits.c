@@ -88,7 +88,6 @@ fatigue_limits_read(struct tool *t, const struct fatigue_limits_asked *asked, un
 {
     const bool both = asked->bending.n > 0 && asked->torsion.n > 0;
     const bool any = asked->bending.n + asked->torsion.n + asked->yield.n > 0;
-    struct rc_err err;
 
     l->asked = asked;
     if (asked->table != NULL && any)
@@ -115,8 +114,8 @@ fatigue_limits_read(struct tool *t, const struct fatigue_limits_asked *asked, un
         }
     }
     for (size_t k = 0; k < l->n; k++)
-        if (rc_fatigue_check_limits(wanted, &l->at[k], &err) != RC_OK)
-            tool_die(t, EXIT_USAGE, "%s: see --criteria", err.text);
+        if (rc_fatigue_check_limits(wanted, &l->at[k], &t->err) != RC_OK)
+            tool_die(t, EXIT_USAGE, "%s: see --criteria", t->err.text);
 }
 
 void
@@ -246,21 +245,20 @@ fatigue_residual_read(struct tool *t, const char *name, char pass, struct fatigu
     FILE *file = fopen(name, "rb");
     struct rc_reader *reader;
     struct rc_grid *g = NULL;
-    struct rc_err err;
     enum rc_status status;
     double largest[2] = {0, 0}; /* deviation, stress */
 
     r->name = name;
     if (file == NULL)
         tool_die(t, EXIT_IMPOSSIBLE, "--residual %s: %s", name, strerror(errno));
-    if ((reader = rc_reader_new(file, 0, t->memory, &err)) == NULL)
-        tool_die(t, EXIT_IMPOSSIBLE, "--residual %s: %s", name, err.text);
-    while ((status = rc_reader_next(reader, &g, &err)) == RC_MORE) {
+    if ((reader = rc_reader_new(file, 0, t->memory, &t->err)) == NULL)
+        tool_die(t, EXIT_IMPOSSIBLE, "--residual %s: %s", name, t->err.text);
+    while ((status = rc_reader_next(reader, &g, &t->err)) == RC_MORE) {
         keep_residual(t, r, g, pass, largest);
         rc_grid_free(g);
     }
     if (status == RC_FAIL)
-        tool_die(t, EXIT_IMPOSSIBLE, "--residual %s: %s", name, err.text);
+        tool_die(t, EXIT_IMPOSSIBLE, "--residual %s: %s", name, t->err.text);
     rc_reader_free(reader);
     fclose(file);
     if (r->n == 0)

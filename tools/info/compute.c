@@ -78,17 +78,16 @@ find_areal(const struct info_wanted *w, struct tool *t, const struct rc_grid *g,
     const struct rc_surface_options options = {.boundary = map_boundary(g), .threads = t->threads};
     const struct rc_shape shape = rc_grid_shape(g);
     size_t missing = 0;
-    struct rc_err err;
 
     for (size_t k = 0; k < rc_grid_nodes(g); k++)
         missing += isfinite(g->v[k]) ? 0 : 1;
     f->areal = tool_room(t, 1, sizeof *f->areal, "the parameters of a map");
-    tool_must(t, g, rc_areal(&shape, g->v, &options, f->areal, &err), &err);
+    tool_must(t, g, rc_areal(&shape, g->v, &options, f->areal, &t->err));
     find_smr(w, g, f);
     if (g->nx == 1 || g->ny == 1)
         return;
     f->features = tool_room(t, 1, sizeof *f->features, "the features of a map");
-    tool_must(t, g, rc_features(&shape, g->v, &options, f->features, &err), &err);
+    tool_must(t, g, rc_features(&shape, g->v, &options, f->features, &t->err));
 }
 
 /* The spectrum as a frame, whose spacings are steps of wave numbers. */
@@ -97,9 +96,8 @@ map_frame(struct info_wanted *w, struct tool *t, const struct rc_grid *g)
 {
     bool row = g->ny == 1, column = g->nx == 1;
     char step[64];
-    struct rc_err err;
     struct rc_grid *map =
-        tool_made(t, g, rc_grid_like(g, "psd", row || column ? "m3" : "m4", &err), &err);
+        tool_made(t, g, rc_grid_like(g, "psd", row || column ? "m3" : "m4", &t->err));
     map->dx = INFO_2PI / ((double)g->nx * g->dx);
     map->dy = INFO_2PI / ((double)g->ny * g->dy);
     if (row)
@@ -108,10 +106,9 @@ map_frame(struct info_wanted *w, struct tool *t, const struct rc_grid *g)
         map->dx = map->dy;
     snprintf(step, sizeof step, "rc-info %s --psd-map%s%s", rc_version(),
              w->window != NULL ? " --window " : "", w->window != NULL ? w->window : "");
-    if (rc_grid_set(map, "periodic", NULL, &err) != RC_OK ||
-        rc_grid_set(map, "dunit", "rad/m", &err) != RC_OK ||
-        rc_grid_history(map, step, &err) != RC_OK)
-        tool_die_at(t, g, EXIT_IMPOSSIBLE, "%s", err.text);
+    tool_must(t, g, rc_grid_set(map, "periodic", NULL, &t->err));
+    tool_must(t, g, rc_grid_set(map, "dunit", "rad/m", &t->err));
+    tool_must(t, g, rc_grid_history(map, step, &t->err));
     return map;
 }
 
@@ -122,7 +119,6 @@ find_psd(struct info_wanted *w, struct tool *t, const struct rc_grid *g, struct 
         .boundary = map_boundary(g), .window = w->window, .threads = t->threads};
     const struct rc_shape shape = rc_grid_shape(g);
     struct rc_grid *map = NULL;
-    struct rc_err err;
 
     tool_demand_finite(t, g, "fill them first, with rc-detrend --fill");
     if (w->fit.n == 2) {
@@ -133,9 +129,9 @@ find_psd(struct info_wanted *w, struct tool *t, const struct rc_grid *g, struct 
         map = map_frame(w, t, g);
         options.map = map->v;
     }
-    f->psd = tool_made(t, g, rc_psd_new(&shape, g->v, &options, &err), &err);
+    f->psd = tool_made(t, g, rc_psd_new(&shape, g->v, &options, &t->err));
     if (map != NULL) {
-        tool_must(t, g, rc_grid_set(map, "window", f->psd->window, &err), &err);
+        tool_must(t, g, rc_grid_set(map, "window", f->psd->window, &t->err));
         info_file_put(w->file, map);
     }
     rc_grid_free(map);
@@ -174,11 +170,10 @@ find_patches(struct tool *t, const struct rc_grid *g, const double *touch, struc
     const struct rc_patch_options options = {
         .boundary = map_boundary(g), .each = true, .threads = t->threads};
     const struct rc_shape shape = rc_grid_shape(g);
-    struct rc_err err;
 
     tool_demand_finite(t, g, "solve the contact again");
     f->patches = tool_room(t, 1, sizeof *f->patches, "the patches of a contact");
-    tool_must(t, g, rc_patches_find(&shape, touch, &options, f->patches, &err), &err);
+    tool_must(t, g, rc_patches_find(&shape, touch, &options, f->patches, &t->err));
     count_pressures(t, g, touch, f);
 }
 

@@ -159,7 +159,6 @@ info_line_measure(struct tool *t, const struct rc_grid *g, const struct info_lin
     struct info_line_wanted w = *wanted;
     struct rc_profile line;
     double length, *z;
-    struct rc_err err;
 
     *to = (struct info_profile){.sections = sections};
     if (w.rows || w.columns) {
@@ -179,10 +178,10 @@ info_line_measure(struct tool *t, const struct rc_grid *g, const struct info_lin
     z = tool_room(t, to->points, sizeof *z, "a profile");
     rc_profile_along(&shape, g->v, w.from, w.to, to->points, z);
     if (rc_profile_measure(to->points, length / (double)(to->points - 1), z, sections, &line,
-                           &err) != RC_OK)
+                           &t->err) != RC_OK)
         tool_die_at(t, g, EXIT_IMPOSSIBLE,
                     "--profile %s: %s: fill the map first, with rc-detrend --fill", w.along,
-                    err.text);
+                    t->err.text);
     to->lines = 1;
     to->length = length;
     average(&line, 1, to);

@@ -23,7 +23,6 @@ struct info_file *
 info_file_new(struct tool *t, const char *option, const char *name)
 {
     struct info_file *f = tool_room(t, 1, sizeof *f, "a file");
-    struct rc_err err;
 
     *f = (struct info_file){.tool = t, .option = option, .name = name};
     if (strcmp(name, "-") == 0)
@@ -31,32 +30,29 @@ info_file_new(struct tool *t, const char *option, const char *name)
     tool_demand_writable(t, option, name);
     if ((f->file = whole_file_open(&f->whole, name)) == NULL)
         failed(f);
-    f->writer = tool_made(t, NULL, rc_writer_new(f->file, &err), &err);
+    f->writer = tool_made(t, NULL, rc_writer_new(f->file, &t->err));
     return f;
 }
 
 void
 info_file_put(struct info_file *f, const struct rc_grid *g)
 {
-    struct rc_err err;
-
     for (size_t k = 0; k < g->nx * g->ny; k++)
         if (!isfinite(g->v[k]))
             tool_die_at(f->tool, g, EXIT_IMPOSSIBLE,
                         "%s: the powers are too large for a number: are the units of heights and "
                         "spacings right?",
                         f->option);
-    if (rc_writer_put(f->writer, g, &err) != RC_OK)
-        tool_die_at(f->tool, g, EXIT_IMPOSSIBLE, "%s %s: %s", f->option, f->name, err.text);
+    if (rc_writer_put(f->writer, g, &f->tool->err) != RC_OK)
+        tool_die_at(f->tool, g, EXIT_IMPOSSIBLE, "%s %s: %s", f->option, f->name,
+                    f->tool->err.text);
 }
 
 void
 info_file_end(struct info_file *f)
 {
-    struct rc_err err;
-
-    if (rc_writer_end(f->writer, &err) != RC_OK)
-        tool_die(f->tool, EXIT_IMPOSSIBLE, "%s %s: %s", f->option, f->name, err.text);
+    if (rc_writer_end(f->writer, &f->tool->err) != RC_OK)
+        tool_die(f->tool, EXIT_IMPOSSIBLE, "%s %s: %s", f->option, f->name, f->tool->err.text);
     rc_writer_free(f->writer);
     if (!whole_file_put(&f->whole, f->file))
         failed(f);

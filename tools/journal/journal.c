@@ -121,16 +121,15 @@ journal_read(const struct journal *j, off_t at)
     const struct rc_share *share;
     struct rc_reader *reader;
     struct rc_grid *g = NULL;
-    struct rc_err err;
 
     if (fseeko(j->file, at, SEEK_SET) != 0)
         tool_die(j->t, EXIT_IMPOSSIBLE, "--checkpoint %s: %s", j->name, strerror(errno));
-    reader = rc_reader_new(j->file, 0, 0, &err);
+    reader = rc_reader_new(j->file, 0, 0, &j->t->err);
     share = ranks_read(j->t, j->name);
     if (reader != NULL)
         rc_reader_share(reader, share);
-    if (reader == NULL || rc_reader_next(reader, &g, &err) != RC_MORE)
-        tool_die(j->t, EXIT_IMPOSSIBLE, "--checkpoint %s: %s", j->name, err.text);
+    if (reader == NULL || rc_reader_next(reader, &g, &j->t->err) != RC_MORE)
+        tool_die(j->t, EXIT_IMPOSSIBLE, "--checkpoint %s: %s", j->name, j->t->err.text);
     rc_reader_free(reader);
     ranks_close(j->t, share);
     return g;

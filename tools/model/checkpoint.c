@@ -80,17 +80,16 @@ static void
 look_through(struct checkpoint *c)
 {
     struct tool *t = c->t;
-    struct rc_err err;
-    struct rc_reader *reader = rc_reader_new(c->journal.file, 0, t->memory, &err);
+    struct rc_reader *reader = rc_reader_new(c->journal.file, 0, t->memory, &t->err);
     const struct rc_share *share = ranks_read(t, c->journal.name);
     struct rc_grid *g;
     enum rc_status status;
     off_t end = 0;
 
     if (reader == NULL)
-        tool_die(t, EXIT_IMPOSSIBLE, "%s", err.text);
+        tool_die(t, EXIT_IMPOSSIBLE, "%s", t->err.text);
     rc_reader_share(reader, share);
-    while ((status = rc_reader_next(reader, &g, &err)) == RC_MORE) {
+    while ((status = rc_reader_next(reader, &g, &t->err)) == RC_MORE) {
         note(c, g, end);
         end = journal_frame_end(&c->journal);
         rc_grid_free(g);
@@ -104,11 +103,11 @@ look_through(struct checkpoint *c)
         tool_die(
             t, EXIT_IMPOSSIBLE,
             "--checkpoint %s: no pressure can be read from it (%s): remove the file to start again",
-            c->journal.name, err.text);
+            c->journal.name, t->err.text);
     if (status != RC_OK && !journal_is_cut_off(&c->journal, end))
         tool_die(t, EXIT_IMPOSSIBLE,
                  "--checkpoint %s: frame %zu cannot be read (%s): remove the file to start again",
-                 c->journal.name, c->count + 1, err.text);
+                 c->journal.name, c->count + 1, t->err.text);
     ranks_wait(t);         /* all ranks have read the file */
     if (!ranks_speak(t)) { /* the first rank shortens the file */
         ranks_wait(t);
@@ -268,15 +267,14 @@ add(struct course *course, const struct rc_grid *shape, const double *v, size_t 
     const char *numbers)
 {
     struct checkpoint *c = course->checkpoint;
-    struct rc_err err;
-    struct rc_grid *out = new_frame(course, &err);
+    struct rc_grid *out = new_frame(course, &c->t->err);
     double *own = out->v;
     bool done;
     off_t at;
 
-    if (rc_grid_set_number(out, "checkpoint.map", (double)map, &err) != RC_OK ||
-        (numbers != NULL && rc_grid_set(out, "checkpoint.numbers", numbers, &err) != RC_OK))
-        tool_die_at(c->t, course->g, EXIT_IMPOSSIBLE, "%s", err.text);
+    if (rc_grid_set_number(out, "checkpoint.map", (double)map, &c->t->err) != RC_OK ||
+        (numbers != NULL && rc_grid_set(out, "checkpoint.numbers", numbers, &c->t->err) != RC_OK))
+        tool_die_at(c->t, course->g, EXIT_IMPOSSIBLE, "%s", c->t->err.text);
     out->nx = shape->nx;
     out->ny = shape->ny;
     out->elsewhere = shape->elsewhere;

@@ -22,14 +22,13 @@ course_set(struct course *c, struct rc_model *m, const struct rc_point *to)
 {
     size_t n;
     double *v = checkpoint_load(c, &n);
-    struct rc_err err;
     bool going;
 
     c->resumed = v != NULL;
-    if (v != NULL && rc_model_restore(m, v, n, &going, &err) != RC_OK)
-        checkpoint_refuse(c, err.text);
-    if (v == NULL && rc_model_go(m, to, &err) == RC_FAIL)
-        tool_die_at(c->t, c->g, EXIT_IMPOSSIBLE, "%s", err.text);
+    if (v != NULL && rc_model_restore(m, v, n, &going, &c->t->err) != RC_OK)
+        checkpoint_refuse(c, c->t->err.text);
+    if (v == NULL && rc_model_go(m, to, &c->t->err) == RC_FAIL)
+        tool_die_at(c->t, c->g, EXIT_IMPOSSIBLE, "%s", c->t->err.text);
     free(v);
 }
 
@@ -169,7 +168,6 @@ course_run(struct course *c, struct rc_model *m)
     enum rc_status status = RC_MORE;
     struct rc_loops loops;
     size_t steps = 0;
-    struct rc_err err;
 
     rc_model_progress(m, &loops);
     while (tool_interrupted() == 0 && status == RC_MORE) {
@@ -177,8 +175,8 @@ course_run(struct course *c, struct rc_model *m)
             tool_demand_memory(c->t, c->g, loops.coming);
             save(c, m);
         }
-        if ((status = rc_model_step(m, &err)) == RC_FAIL)
-            tool_die_at(c->t, c->g, EXIT_IMPOSSIBLE, "%s", err.text);
+        if ((status = rc_model_step(m, &c->t->err)) == RC_FAIL)
+            tool_die_at(c->t, c->g, EXIT_IMPOSSIBLE, "%s", c->t->err.text);
         steps++;
         if (c->stepped != NULL)
             c->stepped(c, m);

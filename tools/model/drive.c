@@ -79,11 +79,9 @@ drive_open(struct drive *d, const struct drive_axis *axes)
 void
 drive_set_number(struct drive *d, struct rc_grid *g, const char *name, double value)
 {
-    struct rc_err err;
-
-    if ((isfinite(value) ? rc_grid_set_number(g, name, value, &err)
-                         : rc_grid_set(g, name, NULL, &err)) != RC_OK)
-        tool_die_at(&d->t, g, EXIT_IMPOSSIBLE, "%s", err.text);
+    tool_must(&d->t, g,
+              (isfinite(value) ? rc_grid_set_number(g, name, value, &d->t.err)
+                               : rc_grid_set(g, name, NULL, &d->t.err)));
 }
 
 struct rc_grid *
@@ -191,26 +189,25 @@ kind_of(const struct rc_model *m, const char *name)
 static void
 set_keys(struct drive *d, struct rc_model *m, struct rc_grid *g, const struct rc_point *at)
 {
-    struct rc_err err;
     bool fine;
 
     if (d->all_keys != NULL) {
         d->all_keys(d, m, g);
         return;
     }
-    fine = rc_grid_set(g, "converged", d->status == RC_OK ? "yes" : "no", &err) == RC_OK &&
-           rc_grid_history(g, tool_history(&d->t), &err) == RC_OK;
+    fine = rc_grid_set(g, "converged", d->status == RC_OK ? "yes" : "no", &d->t.err) == RC_OK &&
+           rc_grid_history(g, tool_history(&d->t), &d->t.err) == RC_OK;
 
     if (d->points > 1)
-        fine = fine && rc_grid_set_number(g, "case", (double)d->course.number, &err) == RC_OK;
+        fine = fine && rc_grid_set_number(g, "case", (double)d->course.number, &d->t.err) == RC_OK;
     for (size_t k = 0; k < RC_AXES && fine; k++) {
         const struct rc_axis_info *axis = rc_axis_info(k);
         if ((d->point[d->at].given >> k & 1 || d->point[d->at].given >> axis->partner & 1) &&
             isfinite(at->at[k]))
-            fine = rc_grid_set_number(g, axis->name, at->at[k], &err) == RC_OK;
+            fine = rc_grid_set_number(g, axis->name, at->at[k], &d->t.err) == RC_OK;
     }
     if (!fine)
-        tool_die_at(&d->t, g, EXIT_IMPOSSIBLE, "%s", err.text);
+        tool_die_at(&d->t, g, EXIT_IMPOSSIBLE, "%s", d->t.err.text);
     if (d->keys != NULL)
         d->keys(d, m, g);
 }
@@ -220,14 +217,12 @@ static const double *
 values_of(struct drive *d, struct rc_model *m, struct rc_grid *as, const char *word, double *buffer)
 {
     const double *own = d->frame != NULL ? d->frame(d, m, as, word) : NULL;
-    struct rc_err err;
 
     if (own != NULL)
         return own;
     if (kind_of(m, word) == NULL)
         return strcmp(word, "height") == 0 ? d->course.g->v : NULL;
-    if (rc_model_frame(m, word, buffer, &err) != RC_OK)
-        tool_die_at(&d->t, d->course.g, EXIT_IMPOSSIBLE, "%s", err.text);
+    tool_must(&d->t, d->course.g, rc_model_frame(m, word, buffer, &d->t.err));
     return buffer;
 }
 
@@ -235,12 +230,11 @@ static void
 put_frames(struct drive *d, struct rc_model *m, const struct rc_point *at)
 {
     const struct rc_grid *g = d->course.g;
-    struct rc_err err;
-    struct rc_grid *as = rc_grid_like(g, g->channel, g->unit, &err);
+    struct rc_grid *as = rc_grid_like(g, g->channel, g->unit, &d->t.err);
     const char *word;
 
     if (as == NULL)
-        tool_die_at(&d->t, g, EXIT_IMPOSSIBLE, "%s", err.text);
+        tool_die_at(&d->t, g, EXIT_IMPOSSIBLE, "%s", d->t.err.text);
     set_keys(d, m, as, at);
     for (size_t k = 0; (word = d->word(k)) != NULL; k++) {
         const struct rc_frame_kind *kind = kind_of(m, word);
@@ -430,10 +424,8 @@ static struct rc_expected
 plan_of(struct drive *d, const struct rc_grid *g, const struct rc_model *m)
 {
     struct rc_expected expected;
-    struct rc_err err;
 
-    if (rc_model_plan(m, &d->point[d->points - 1], &expected, &err) != RC_OK)
-        tool_die_at(&d->t, g, EXIT_IMPOSSIBLE, "%s", err.text);
+    tool_must(&d->t, g, rc_model_plan(m, &d->point[d->points - 1], &expected, &d->t.err));
     return expected;
 }
 
@@ -468,10 +460,8 @@ judge(struct drive *d, struct rc_model *m)
 void
 drive_keep(struct drive *d, struct rc_model *m)
 {
-    struct rc_err err;
-
-    if (d->status != RC_MORE && rc_model_keep(m, &err) != RC_OK)
-        tool_die_at(&d->t, d->course.g, EXIT_IMPOSSIBLE, "%s", err.text);
+    if (d->status != RC_MORE && rc_model_keep(m, &d->t.err) != RC_OK)
+        tool_die_at(&d->t, d->course.g, EXIT_IMPOSSIBLE, "%s", d->t.err.text);
 }
 
 /* Takes the figures of the model at a point; then the point becomes history. */
@@ -479,10 +469,8 @@ static void
 end_point(struct drive *d, struct rc_model *m)
 {
     struct rc_point at;
-    struct rc_err err;
 
-    if (rc_model_look(m, &at, &err) != RC_OK)
-        tool_die_at(&d->t, d->course.g, EXIT_IMPOSSIBLE, "%s", err.text);
+    tool_must(&d->t, d->course.g, rc_model_look(m, &at, &d->t.err));
     d->silent = false;
     (d->judge != NULL ? d->judge : judge)(d, m);
     if (!d->silent)

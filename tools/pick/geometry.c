@@ -345,11 +345,10 @@ pick_geometry_settle(struct tool *t, struct step *step)
     const struct geometry *what = find(step);
     struct request r = {0};
     size_t size = sizeof r.v / sizeof *r.v * (RC_NUMBER_SIZE + 2), n = 0;
-    struct rc_err err;
     char *text;
 
-    if (what->read(step->text, &r, &err) != RC_OK)
-        tool_die(t, EXIT_USAGE, "--%s %s: %s", what->option, step->text, err.text);
+    if (what->read(step->text, &r, &t->err) != RC_OK)
+        tool_die(t, EXIT_USAGE, "--%s %s: %s", what->option, step->text, t->err.text);
     if (!r.lengths)
         return;
     text = tool_room(t, size, 1, "a text");
@@ -389,9 +388,8 @@ pick_geometry_do(struct tool *t, struct rc_grid *g, const struct step *step)
 {
     const struct geometry *what = find(step);
     struct request r = {0};
-    struct rc_err err;
 
     demand_map(t, g, what);
-    if (what->read(step->text, &r, &err) != RC_OK || what->apply(t, g, &r, &err) != RC_OK)
-        tool_die_at(t, g, EXIT_IMPOSSIBLE, "--%s %s: %s", what->option, step->text, err.text);
+    if (what->read(step->text, &r, &t->err) != RC_OK || what->apply(t, g, &r, &t->err) != RC_OK)
+        tool_die_at(t, g, EXIT_IMPOSSIBLE, "--%s %s: %s", what->option, step->text, t->err.text);
 }

@@ -139,7 +139,6 @@ static void
 check_layers(struct tool *t, struct physics *a)
 {
     size_t n = a->layer.n;
-    struct rc_err err;
     char *si;
     bool stressed = false, relaxes;
 
@@ -153,9 +152,9 @@ check_layers(struct tool *t, struct physics *a)
     a->residual = tool_room(t, n, sizeof *a->residual, "the layers of a body");
     for (size_t k = 0; k < n; k++) {
         struct rc_layer *m = &a->layers[k];
-        if (layer_read(a->layer.step[k].text, m, &a->residual[k], a->relaxes, &relaxes, &err) !=
+        if (layer_read(a->layer.step[k].text, m, &a->residual[k], a->relaxes, &relaxes, &t->err) !=
             RC_OK)
-            tool_die(t, EXIT_USAGE, "--layer %s: %s", a->layer.step[k].text, err.text);
+            tool_die(t, EXIT_USAGE, "--layer %s: %s", a->layer.step[k].text, t->err.text);
         warn_of_residual(t, a->layer.step[k].text, a->residual[k], m->e);
         si = tool_room(t, 4, RC_NUMBER_SIZE, "the layers of a body");
         snprintf(si, 4 * RC_NUMBER_SIZE, "%s,%s,%s%s%s", rc_number(m->thickness),
@@ -228,7 +227,6 @@ add_form(struct tool *t, const struct physics *a, struct rc_grid *g)
 {
     const char *form = rc_grid_get(g, "form");
     char name[RC_NUMBER_SIZE + 8];
-    struct rc_err err;
 
     if (form != NULL)
         tool_die_at(t, g, EXIT_IMPOSSIBLE,
@@ -236,7 +234,7 @@ add_form(struct tool *t, const struct physics *a, struct rc_grid *g)
     if (!a->travels)
         add_sphere(t, a, g);
     snprintf(name, sizeof name, "sphere %s", rc_number(a->radius));
-    tool_must(t, g, rc_grid_set(g, "form", name, &err), &err);
+    tool_must(t, g, rc_grid_set(g, "form", name, &t->err));
 }
 
 /* Warns of a periodic map whose opposite edges do not meet: the step there would carry much of the load. */

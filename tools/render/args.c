@@ -112,13 +112,12 @@ read_width(struct tool *t, struct args *a)
                                    axes */
     bool plain = a->width != NULL && a->width[strspn(a->width, "0123456789")] == '\0';
     double width = 0;
-    struct rc_err err;
 
     a->style.paper.dpi = isnan(a->dpi) ? 0 : a->dpi;
     if (a->width == NULL)
         return;
-    if (unit_number(a->width, plain ? UNIT_NONE : UNIT_M, &width, &err) != RC_OK)
-        tool_die(t, EXIT_USAGE, "--width %s: %s", a->width, err.text);
+    if (unit_number(a->width, plain ? UNIT_NONE : UNIT_M, &width, &t->err) != RC_OK)
+        tool_die(t, EXIT_USAGE, "--width %s: %s", a->width, t->err.text);
     if (!plain) {
         a->style.paper.dpi = a->style.paper.dpi > 0 ? a->style.paper.dpi : dpi;
         width *= a->style.paper.dpi / inch;

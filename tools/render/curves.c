@@ -851,12 +851,11 @@ draw(struct curves *c, struct drawn *drawn)
         .note = *c->note == '\0' ? NULL : c->note,
     };
     struct canvas *canvas;
-    struct rc_err err;
 
     wording_axis(c->tool, c->style, 'x', &graph.x);
     wording_axis(c->tool, c->style, 'y', &graph.y);
     wording_legend(c->tool, c->style, c->series, c->n, c->legend, sizeof c->legend);
-    canvas = tool_made(c->tool, NULL, graph_draw(&graph, &err), &err);
+    canvas = tool_made(c->tool, NULL, graph_draw(&graph, &c->tool->err));
     return canvas;
 }
 

@@ -75,7 +75,6 @@ set_draw(struct set *s, struct graph *graph, const char *title, struct drawn *dr
 {
     const char *source = rc_grid_get(s->grid[0], "source");
     struct canvas *canvas;
-    struct rc_err err;
 
     snprintf(drawn->source, sizeof drawn->source, "%s", source == NULL ? "" : source);
     drawn->stamp = NULL;
@@ -88,7 +87,7 @@ set_draw(struct set *s, struct graph *graph, const char *title, struct drawn *dr
     wording_axis(s->tool, s->style, 'x', &graph->x);
     wording_axis(s->tool, s->style, 'y', &graph->y);
     wording_legend(s->tool, s->style, s->series, graph->n, s->legend, sizeof s->legend);
-    canvas = tool_made(s->tool, NULL, graph_draw(graph, &err), &err);
+    canvas = tool_made(s->tool, NULL, graph_draw(graph, &s->tool->err));
     for (size_t k = 0; k <= s->n; k++) {
         free(s->x[k]);
         free(s->y[k]);
@@ -167,15 +166,14 @@ read_cut(struct tool *t, const struct rc_grid *g, const char *cut, const struct 
 {
     const char *is = strchr(cut, '=');
     size_t n = is == NULL ? 0 : (size_t)(is - cut);
-    struct rc_err err;
     double place;
 
     *along_x = n == strlen(down->name) && strncmp(cut, down->name, n) == 0;
     if (is == NULL || (!*along_x && (n != strlen(across->name) || strncmp(cut, across->name, n))))
         tool_die(t, EXIT_USAGE, "--cut %s: it must be %s=PLACE or %s=PLACE, as in %s=0", cut,
                  across->name, down->name, down->name);
-    if (unit_number(is + 1, look_unit(g), &place, &err) != RC_OK)
-        tool_die(t, EXIT_USAGE, "--cut %s: %s", cut, err.text);
+    if (unit_number(is + 1, look_unit(g), &place, &t->err) != RC_OK)
+        tool_die(t, EXIT_USAGE, "--cut %s: %s", cut, t->err.text);
     return place;
 }
 

@@ -10,9 +10,7 @@
 void
 media_read(struct tool *t, const struct rc_grid *g, struct layers *c)
 {
-    struct rc_err err;
-
-    tool_must(t, g, layers_read(g, c, &err), &err);
+    tool_must(t, g, layers_read(g, c, &t->err));
 }
 
 static void

@@ -204,7 +204,6 @@ range_read(struct tool *t, const char *text, const struct rc_grid *g, struct ran
     char list[256];
     char *colon;
     struct numbers n = {0};
-    struct rc_err err;
 
     r->kind = RANGE_SYMMETRIC;
     if (strcmp(text, "symmetric") == 0)
@@ -216,9 +215,9 @@ range_read(struct tool *t, const char *text, const struct rc_grid *g, struct ran
         read_percent(t, text, list, r);
         return;
     }
-    if (unit_numbers(list, unit_of(g), &n, &err) != RC_OK)
-        tool_die(t, EXIT_USAGE, "--range %s: %s (channel %s is in %s)", text, err.text, g->channel,
-                 g->unit);
+    if (unit_numbers(list, unit_of(g), &n, &t->err) != RC_OK)
+        tool_die(t, EXIT_USAGE, "--range %s: %s (channel %s is in %s)", text, t->err.text,
+                 g->channel, g->unit);
     if (n.n != 2 || !(n.v[0] < n.v[1]))
         tool_die(t, EXIT_USAGE,
                  "--range %s: it must be LO:HI, two values with LO below HI, P%%:Q%% or symmetric",

@@ -18,7 +18,6 @@ section_depths(struct tool *t, const struct rc_grid *g)
 {
     const char *text = rc_grid_get(g, "depths");
     struct numbers d = {0};
-    struct rc_err err;
 
     if (text == NULL) {
         d.v = tool_room(t, g->ny, sizeof *d.v, "the depths of a section");
@@ -26,8 +25,8 @@ section_depths(struct tool *t, const struct rc_grid *g)
             d.v[j] = (double)j * g->dy;
         return d.v;
     }
-    if (unit_numbers(text, UNIT_M, &d, &err) != RC_OK)
-        tool_die_at(t, g, EXIT_IMPOSSIBLE, "its key depths: %s", err.text);
+    if (unit_numbers(text, UNIT_M, &d, &t->err) != RC_OK)
+        tool_die_at(t, g, EXIT_IMPOSSIBLE, "its key depths: %s", t->err.text);
     if (d.n != g->ny)
         tool_die_at(t, g, EXIT_IMPOSSIBLE, "its key depths has %zu depths, but there are %zu rows",
                     d.n, g->ny);
@@ -150,8 +149,7 @@ section_even(struct tool *t, const struct rc_grid *g, const double *depth,
     struct rc_shape shape = {times * g->nx, ROWS, g->dx / (double)times, (bottom - top) / ROWS};
     struct rows r = {depth, layers, tool_room(t, g->ny, sizeof *r.medium, "a section"),
                      tool_room(t, g->ny, sizeof *r.v, "a section"), g->ny};
-    struct rc_err err;
-    struct rc_grid *even = tool_made(t, g, rc_grid_new(&shape, g->channel, g->unit, &err), &err);
+    struct rc_grid *even = tool_made(t, g, rc_grid_new(&shape, g->channel, g->unit, &t->err));
     for (size_t j = 0; j < g->ny; j++)
         r.medium[j] = rc_body_material(&layers->body, depth[j]);
     for (size_t i = 0; i < even->nx; i++)
@@ -171,7 +169,6 @@ section_range(struct tool *t, const char *text, const struct rc_grid *g, const d
     char list[128];
     char *colon;
     struct numbers n = {0};
-    struct rc_err err;
 
     *top = first;
     *bottom = last;
@@ -184,8 +181,8 @@ section_range(struct tool *t, const char *text, const struct rc_grid *g, const d
     snprintf(list, sizeof list, "%s", text);
     if ((colon = strchr(list, ':')) != NULL)
         *colon = ',';
-    if (unit_numbers(list, UNIT_M, &n, &err) != RC_OK)
-        tool_die(t, EXIT_USAGE, "--depth-range %s: %s", text, err.text);
+    if (unit_numbers(list, UNIT_M, &n, &t->err) != RC_OK)
+        tool_die(t, EXIT_USAGE, "--depth-range %s: %s", text, t->err.text);
     if (colon == NULL || n.n != 2 || !(n.v[0] < n.v[1]) || n.v[0] < 0)
         tool_die(t, EXIT_USAGE, "--depth-range %s: it must be Z0:Z1, two depths, the lesser first",
                  text);

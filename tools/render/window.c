@@ -126,7 +126,6 @@ read_pair(struct tool *t, const struct rc_grid *g, const char *window, const cha
     char list[128];
     char *colon;
     struct numbers n = {0};
-    struct rc_err err;
 
     snprintf(list, sizeof list, "%s", text);
     if ((colon = strchr(list, ':')) != NULL)
@@ -136,8 +135,8 @@ read_pair(struct tool *t, const struct rc_grid *g, const char *window, const cha
                  "--window %s: it must be X0:X1,Y0:Y1, two lengths with the lower first for each "
                  "axis, contact or all",
                  window);
-    if (unit_numbers(list, look_unit(g), &n, &err) != RC_OK)
-        tool_die(t, EXIT_USAGE, "--window %s: %s", window, err.text);
+    if (unit_numbers(list, look_unit(g), &n, &t->err) != RC_OK)
+        tool_die(t, EXIT_USAGE, "--window %s: %s", window, t->err.text);
     if (n.n != 2 || !(n.v[0] < n.v[1]))
         tool_die(t, EXIT_USAGE,
                  "--window %s: it must be X0:X1,Y0:Y1, two lengths with the lower first for each "

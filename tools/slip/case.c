@@ -90,15 +90,15 @@ void
 slip_set_keys(struct slip_run *run, struct rc_grid *g, bool converged, double load, double approach)
 {
     const char *own = rc_grid_get(g, "converged");
-    struct rc_err err;
 
     converged = converged && (own == NULL || strcmp(own, "no") != 0);
-    if (rc_grid_set(g, "converged", converged ? "yes" : "no", &err) != RC_OK ||
-        rc_grid_set(g, "boundary", run->boundary == RC_PERIODIC ? "periodic" : "free", &err) !=
-            RC_OK ||
-        (tool_given(&run->d.t, "E1") && bodies_set(g, &run->bodies.pair, NULL, &err) != RC_OK) ||
-        rc_grid_history(g, tool_history(&run->d.t), &err) != RC_OK)
-        tool_die_at(&run->d.t, g, EXIT_IMPOSSIBLE, "%s", err.text);
+    if (rc_grid_set(g, "converged", converged ? "yes" : "no", &run->d.t.err) != RC_OK ||
+        rc_grid_set(g, "boundary", run->boundary == RC_PERIODIC ? "periodic" : "free",
+                    &run->d.t.err) != RC_OK ||
+        (tool_given(&run->d.t, "E1") &&
+         bodies_set(g, &run->bodies.pair, NULL, &run->d.t.err) != RC_OK) ||
+        rc_grid_history(g, tool_history(&run->d.t), &run->d.t.err) != RC_OK)
+        tool_die_at(&run->d.t, g, EXIT_IMPOSSIBLE, "%s", run->d.t.err.text);
     if (run->bodies.pair.estar > 0)
         drive_set_number(&run->d, g, "nu", run->bodies.nu);
     if (run->number != rc_grid_case(run->p))
@@ -212,15 +212,13 @@ new_model(struct slip_run *run)
     struct rc_friction_problem law = run->law;
     const double tol = law.slip.tol;
     struct rc_model *m;
-    struct rc_err err;
 
     for (size_t j = 0; j < law.fewer && run->alternates; j++)
         law.inner_of_fewer[j] =
-            tool_made(&run->d.t, run->p, new_contact(run, tol / 10, &err), &err);
+            tool_made(&run->d.t, run->p, new_contact(run, tol / 10, &run->d.t.err));
     m = tool_made(&run->d.t, run->p,
-                  rc_friction_new(new_contact(run, tol, &err), run->solves ? run->height->v : NULL,
-                                  &law, &err),
-                  &err);
+                  rc_friction_new(new_contact(run, tol, &run->d.t.err),
+                                  run->solves ? run->height->v : NULL, &law, &run->d.t.err));
     return m;
 }
 
@@ -338,10 +336,8 @@ forecast(struct slip_run *run)
     const double nodes = (double)rc_grid_nodes(run->p);
     struct rc_expected all = {0}, solver = {0};
     double each;
-    struct rc_err err;
 
-    if (rc_solver_expect(&shape, &contact, &solver, &err) != RC_OK)
-        tool_die_at(&run->d.t, run->p, EXIT_IMPOSSIBLE, "%s", err.text);
+    tool_must(&run->d.t, run->p, rc_solver_expect(&shape, &contact, &solver, &run->d.t.err));
     each = solver.seconds / solver.convolutions;
     for (size_t k = 0; k < run->corners; k++)
         work += runs * (double)run->corner[k].leg.increments * slip_passes(run);

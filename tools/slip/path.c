@@ -60,7 +60,6 @@ static void
 read_path(struct slip_run *run, const char *path)
 {
     struct slip_corner c;
-    struct rc_err err;
     char part[256];
 
     while (*path != '\0') {
@@ -72,8 +71,8 @@ read_path(struct slip_run *run, const char *path)
         path += n + (path[n] == ';');
         if (blank(part))
             continue;
-        if (read_corner(part, &c, &err) != RC_OK)
-            tool_die(&run->d.t, EXIT_USAGE, "--path %s: %s", part, err.text);
+        if (read_corner(part, &c, &run->d.t.err) != RC_OK)
+            tool_die(&run->d.t, EXIT_USAGE, "--path %s: %s", part, run->d.t.err.text);
         add_corner(run, &c);
     }
     if (run->givens == 0)
@@ -86,7 +85,6 @@ read_history(struct slip_run *run, const char *name)
 {
     FILE *file = fopen(name, "r");
     struct slip_corner c;
-    struct rc_err err;
     char line[512];
     size_t number = 0;
 
@@ -99,8 +97,9 @@ read_history(struct slip_run *run, const char *name)
         line[strcspn(line, "#\r\n")] = '\0';
         if (blank(line) || (run->givens == 0 && strpbrk(line, "0123456789") == NULL))
             continue;
-        if (read_corner(line, &c, &err) != RC_OK)
-            tool_die(&run->d.t, EXIT_USAGE, "--history %s: line %zu: %s", name, number, err.text);
+        if (read_corner(line, &c, &run->d.t.err) != RC_OK)
+            tool_die(&run->d.t, EXIT_USAGE, "--history %s: line %zu: %s", name, number,
+                     run->d.t.err.text);
         add_corner(run, &c);
     }
     if (ferror(file))

@@ -126,10 +126,10 @@ new_model(struct slip_run *run)
                                            .force = forced(run),
                                            .path = !run->args->steady,
                                            .known = &run->known};
-    struct rc_err err;
-    struct rc_model *m = tool_made(
-        &run->d.t, run->p,
-        rc_rolling_new(rc_elastic_new(&shape, run->p->v, &contact, NULL, &err), &law, &err), &err);
+    struct rc_model *m =
+        tool_made(&run->d.t, run->p,
+                  rc_rolling_new(rc_elastic_new(&shape, run->p->v, &contact, NULL, &run->d.t.err),
+                                 &law, &run->d.t.err));
     return m;
 }
 
@@ -165,7 +165,6 @@ slip_roll(struct slip_run *run)
     struct rc_point to;
     struct rc_expected expected;
     struct rc_model *m;
-    struct rc_err err;
 
     find_position(run);
     to = point_of(run);
@@ -176,7 +175,7 @@ slip_roll(struct slip_run *run)
     if (run->path == NULL)
         slip_judge_plan(run);
     m = model_of(run);
-    tool_must(&d->t, run->p, rc_model_plan(m, &to, &expected, &err), &err);
+    tool_must(&d->t, run->p, rc_model_plan(m, &to, &expected, &d->t.err));
     if (d->args->dry_run) {
         slip_say_plan(run, &expected);
         if (m != run->path)

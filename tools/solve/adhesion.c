@@ -28,7 +28,6 @@ adhesion_read(struct run *run)
 {
     const struct solve_args *args = run->args;
     struct adhering *a = &run->adhering;
-    struct rc_err err;
 
     a->wanted = args->adhesion != NULL;
     if (!a->wanted && args->pull_off)
@@ -38,8 +37,8 @@ adhesion_read(struct run *run)
         tool_die(&run->d.t, EXIT_USAGE, "--output adhesion needs --adhesion");
     if (!a->wanted)
         return;
-    if (attraction_read(&a->law, args->adhesion, &err) != RC_OK)
-        tool_die(&run->d.t, EXIT_USAGE, "--adhesion %s: %s", args->adhesion, err.text);
+    if (attraction_read(&a->law, args->adhesion, &run->d.t.err) != RC_OK)
+        tool_die(&run->d.t, EXIT_USAGE, "--adhesion %s: %s", args->adhesion, run->d.t.err.text);
     refuse(run, args->yield != NULL, "--yield",
            "plasticity in the volume supports pressures only, no attraction");
     refuse(run, run->tilt, "--tilt free", "with adhesion the bodies move along their normal only");
@@ -72,13 +71,12 @@ adhesion_model(struct run *run, const struct rc_grid *g, const struct rc_problem
 {
     const struct rc_shape shape = rc_grid_shape(g);
     const struct rc_adhesion_problem problem = problem_of(run, contact);
-    struct rc_err err;
     struct rc_model *m = NULL;
 
-    if (rc_adhesion_check(&shape, &problem, &run->adhering.scales, &err) == RC_OK)
-        m = rc_adhesive_new(&shape, g->v, &problem, &err);
+    if (rc_adhesion_check(&shape, &problem, &run->adhering.scales, &run->d.t.err) == RC_OK)
+        m = rc_adhesive_new(&shape, g->v, &problem, &run->d.t.err);
     if (m == NULL)
-        tool_die_at(&run->d.t, g, EXIT_IMPOSSIBLE, "%s", err.text);
+        tool_die_at(&run->d.t, g, EXIT_IMPOSSIBLE, "%s", run->d.t.err.text);
     return m;
 }
 
@@ -97,15 +95,13 @@ void
 adhesion_set_key(struct run *run, struct rc_grid *as, const struct rc_contact *c)
 {
     char law[128];
-    struct rc_err err;
 
     if (!run->adhering.wanted)
         return;
     snprintf(law, sizeof law, "%s,%s,%s", rc_number(run->adhering.law.problem.work),
              run->adhering.scales.law, rc_number(run->adhering.scales.range));
-    if (rc_grid_set(as, "adhesion", law, &err) != RC_OK ||
-        rc_grid_set_number(as, "load", c->load, &err) != RC_OK)
-        tool_die_at(&run->d.t, as, EXIT_IMPOSSIBLE, "%s", err.text);
+    tool_must(&run->d.t, as, rc_grid_set(as, "adhesion", law, &run->d.t.err));
+    tool_must(&run->d.t, as, rc_grid_set_number(as, "load", c->load, &run->d.t.err));
 }
 
 /* ---- warnings ---- */
@@ -257,11 +253,10 @@ adhesion_expect(struct run *run, const struct rc_grid *g, const struct rc_proble
 {
     const struct rc_shape shape = rc_grid_shape(g);
     const struct rc_adhesion_problem problem = problem_of(run, contact);
-    struct rc_err err;
 
-    if (rc_adhesion_check(&shape, &problem, &run->adhering.scales, &err) != RC_OK ||
-        rc_adhesion_expect(&shape, &problem, expected, &err) != RC_OK)
-        tool_die_at(&run->d.t, g, EXIT_IMPOSSIBLE, "%s", err.text);
+    tool_must(&run->d.t, g,
+              rc_adhesion_check(&shape, &problem, &run->adhering.scales, &run->d.t.err));
+    tool_must(&run->d.t, g, rc_adhesion_expect(&shape, &problem, expected, &run->d.t.err));
 }
 
 const char *

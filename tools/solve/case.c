@@ -101,23 +101,23 @@ set_keys(struct drive *d, const struct rc_model *m, struct rc_grid *g)
     const struct rc_contact *c = &run->solution.contact;
     const struct rc_yield *law = &run->yielding.law;
     const bool yields = run->yielding.on;
-    struct rc_err err;
 
     (void)m;
-    if (rc_grid_set(g, "boundary", run->args->physics.periodic ? "periodic" : "free", &err) !=
+    if (rc_grid_set(g, "boundary", run->args->physics.periodic ? "periodic" : "free",
+                    &run->d.t.err) != RC_OK ||
+        rc_grid_set(g, "converged", c->converged ? "yes" : "no", &run->d.t.err) != RC_OK ||
+        bodies_set(g, &run->args->physics.pair, run->args->physics.residual, &run->d.t.err) !=
             RC_OK ||
-        rc_grid_set(g, "converged", c->converged ? "yes" : "no", &err) != RC_OK ||
-        bodies_set(g, &run->args->physics.pair, run->args->physics.residual, &err) != RC_OK ||
-        rc_grid_history(g, tool_history(&run->d.t), &err) != RC_OK)
-        tool_die_at(&run->d.t, g, EXIT_IMPOSSIBLE, "%s", err.text);
+        rc_grid_history(g, tool_history(&run->d.t), &run->d.t.err) != RC_OK)
+        tool_die_at(&run->d.t, g, EXIT_IMPOSSIBLE, "%s", run->d.t.err.text);
     if (d->points > 1)
         drive_set_number(d, g, "case", (double)run->d.course.number);
     /* the requested and the reached load differ by rounding only */
     drive_set_number(d, g, "load",
                      run->args->physics.load.n > 0 ? problem_of(run, g, run->step).load : c->load);
     drive_set_number(d, g, "hardness", run->args->physics.hardness);
-    if (run->hardness != NULL && rc_grid_set(g, "hardness_map", "yes", &err) != RC_OK)
-        tool_die_at(&run->d.t, g, EXIT_IMPOSSIBLE, "%s", err.text);
+    if (run->hardness != NULL && rc_grid_set(g, "hardness_map", "yes", &run->d.t.err) != RC_OK)
+        tool_die_at(&run->d.t, g, EXIT_IMPOSSIBLE, "%s", run->d.t.err.text);
     drive_set_number(d, g, "approach", c->approach);
     /* slabs: a reader of the stream then expects the frames of plastic strain */
     drive_set_number(d, g, "slabs", yields ? (double)run->yielding.found->slabs : NAN);
@@ -155,13 +155,11 @@ keep_shape(struct drive *d, struct rc_model *m)
     struct run *run = (struct run *)(void *)d;
     struct solution *s = &run->solution;
     struct rc_grid *g = run->g;
-    struct rc_err err;
 
     if (!run->args->physics.history)
         return;
     if (s->contact.yielded_nodes > 0 && !run->travelling.wanted) {
-        if (rc_model_frame(m, "plastic", g->v, &err) != RC_OK)
-            tool_die_at(&d->t, g, EXIT_IMPOSSIBLE, "%s", err.text);
+        tool_must(&d->t, g, rc_model_frame(m, "plastic", g->v, &d->t.err));
         g->type = RC_F64;
         if (!run->adhering.wanted)
             drive_set_number(d, g, HEIGHT_ERROR, s->contact.shape_error);
@@ -204,10 +202,8 @@ look_at_contact(struct run *run, const struct rc_grid *g, const double *touch, s
                                        .each = report_wanted(&run->d.report),
                                        .threads = run->d.t.threads,
                                        .ranks = ranks_of(&run->d.t)};
-    struct rc_err err;
 
-    if (rc_patches_find(&shape, touch, &options, &s->patches, &err) != RC_OK)
-        tool_die_at(&run->d.t, g, EXIT_IMPOSSIBLE, "%s", err.text);
+    tool_must(&run->d.t, g, rc_patches_find(&shape, touch, &options, &s->patches, &run->d.t.err));
     s->slope = rc_measure_contact_slope(ranks_of(&run->d.t), &shape, g->v, touch);
     look_inside(run, g, touch, s);
 }
@@ -249,17 +245,15 @@ static void
 find_stiffness(struct run *run, const struct rc_grid *g, struct rc_solver *solver,
                struct solution *s)
 {
-    struct rc_err err;
-
-    if (run->conductance &&
-        rc_solver_conductance(solver, run->k[0], run->k[1], &s->conductance, &err) != RC_OK)
-        tool_die_at(&run->d.t, g, EXIT_IMPOSSIBLE, "%s", err.text);
+    if (run->conductance && rc_solver_conductance(solver, run->k[0], run->k[1], &s->conductance,
+                                                  &run->d.t.err) != RC_OK)
+        tool_die_at(&run->d.t, g, EXIT_IMPOSSIBLE, "%s", run->d.t.err.text);
     if (!run->stiffness)
         return;
     if (run->conductance && s->contact.plastic_nodes == 0)
         s->stiffness = s->conductance.stiffness;
-    else if (rc_solver_stiffness(solver, &s->stiffness, &err) != RC_OK)
-        tool_die_at(&run->d.t, g, EXIT_IMPOSSIBLE, "%s", err.text);
+    else if (rc_solver_stiffness(solver, &s->stiffness, &run->d.t.err) != RC_OK)
+        tool_die_at(&run->d.t, g, EXIT_IMPOSSIBLE, "%s", run->d.t.err.text);
 }
 
 /* Finds the figures of this load, and warns. */
@@ -417,11 +411,10 @@ static struct rc_model *
 elastic_model(struct run *run, const struct rc_problem *problem)
 {
     const struct rc_shape shape = rc_grid_shape(run->g);
-    struct rc_err err;
-    struct rc_model *m = rc_elastic_new(&shape, run->g->v, problem, NULL, &err);
+    struct rc_model *m = rc_elastic_new(&shape, run->g->v, problem, NULL, &run->d.t.err);
 
     if (m == NULL)
-        tool_die_at(&run->d.t, run->g, EXIT_IMPOSSIBLE, "%s", err.text);
+        tool_die_at(&run->d.t, run->g, EXIT_IMPOSSIBLE, "%s", run->d.t.err.text);
     return m;
 }
 

@@ -27,7 +27,6 @@ relax_read(struct run *run, struct solve_args *args)
     struct relaxing *x = &run->relaxing;
     struct physics *a = &args->physics;
     struct tool *t = &run->d.t;
-    struct rc_err err;
 
     x->wanted = args->relaxation != NULL && args->speed.n == 0;
     if (args->relaxation == NULL && (args->time.n > 0 || tool_given(t, "shift")))
@@ -38,8 +37,8 @@ relax_read(struct run *run, struct solve_args *args)
            "the moduli of body 1 are those of --relaxation (or --E1 rigid below a layer of it)");
     refuse(run, tool_given(t, "estar"), "--estar",
            "body 1 needs its Poisson's ratio: give --nu1, and --E2 --nu2 or --E2 rigid");
-    if (relaxation_law_read(&x->law, args->relaxation, args->shift, &err) != RC_OK)
-        tool_die(t, EXIT_USAGE, "--relaxation %s: %s", args->relaxation, err.text);
+    if (relaxation_law_read(&x->law, args->relaxation, args->shift, &t->err) != RC_OK)
+        tool_die(t, EXIT_USAGE, "--relaxation %s: %s", args->relaxation, t->err.text);
     a->relaxes = 1 / x->law.material->instant;
     a->history = x->wanted; /* each time continues from the last one */
 }
@@ -190,11 +189,10 @@ relax_model(struct run *run, struct rc_model *inner)
         .longest = run->args->time.v[run->args->time.n - 1],
         .points = relax_points(run),
         .increments = x->increments};
-    struct rc_err err;
-    struct rc_model *m = rc_viscoelastic_new(inner, run->g->v, &problem, &err);
+    struct rc_model *m = rc_viscoelastic_new(inner, run->g->v, &problem, &run->d.t.err);
 
     if (m == NULL)
-        tool_die_at(&run->d.t, run->g, EXIT_IMPOSSIBLE, "%s", err.text);
+        tool_die_at(&run->d.t, run->g, EXIT_IMPOSSIBLE, "%s", run->d.t.err.text);
     return m;
 }
 

@@ -293,7 +293,6 @@ solve_plan(struct run *run, const struct rc_grid *g, const struct rc_problem *pr
     struct rc_shape shape = rc_grid_shape(g);
     const char *why = NULL, *engine = rc_solver_choice(&shape, problem, &why);
     struct rc_expected e;
-    struct rc_err err;
     const bool travels = run->travelling.wanted;
     const bool relaxes = run->relaxing.wanted;
     const bool slides = run->sliding.wanted;
@@ -313,10 +312,11 @@ solve_plan(struct run *run, const struct rc_grid *g, const struct rc_problem *pr
         loads = 1 + next * (loads - 1) + (run->args->pull_off ? retraction : 0);
     } else if (run->yielding.wanted)
         loads = yield_expect(run, problem->load, &e);
-    else if ((run->relaxing.wanted  ? relax_expect(run, problem, &e, &err)
-              : run->sliding.wanted ? slide_expect(run, problem, &e, &err)
-                                    : rc_solver_expect(&shape, problem, &e, &err)) != RC_OK)
-        tool_die_at(&run->d.t, g, EXIT_IMPOSSIBLE, "%s", err.text);
+    else if ((run->relaxing.wanted ? relax_expect(run, problem, &e, &run->d.t.err)
+              : run->sliding.wanted
+                  ? slide_expect(run, problem, &e, &run->d.t.err)
+                  : rc_solver_expect(&shape, problem, &e, &run->d.t.err)) != RC_OK)
+        tool_die_at(&run->d.t, g, EXIT_IMPOSSIBLE, "%s", run->d.t.err.text);
     each = e.convolutions + (run->conductance ? STIFFNESS + 1 : 0) +
            (run->stiffness && !(run->conductance && isinf(run->hardness_min)) ? STIFFNESS : 0);
     memory = ranks_most(&run->d.t, (double)before + (double)(run->adhering.wanted

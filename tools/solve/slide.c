@@ -160,11 +160,10 @@ slide_model(struct run *run, const struct rc_problem *problem)
         .compliance = fmax(1 / a->surface_estar - (1 - a->nu1 * a->nu1) / a->e1, 0),
         .along_y = slides_along_y(run),
         .repeats = repeats(run)};
-    struct rc_err err;
-    struct rc_model *m = rc_slide_new(&shape, run->g->v, problem, &law, &err);
+    struct rc_model *m = rc_slide_new(&shape, run->g->v, problem, &law, &run->d.t.err);
 
     if (m == NULL)
-        tool_die_at(&run->d.t, run->g, EXIT_IMPOSSIBLE, "%s", err.text);
+        tool_die_at(&run->d.t, run->g, EXIT_IMPOSSIBLE, "%s", run->d.t.err.text);
     return m;
 }
 

@@ -97,7 +97,6 @@ window_of(struct run *run, const struct rc_grid *g)
 {
     const struct travelling *w = &run->travelling;
     struct rc_grid of = *g, *to;
-    struct rc_err err;
 
     if (w->window[0] > g->nx || w->window[1] > g->ny)
         tool_die_at(&run->d.t, g, EXIT_IMPOSSIBLE,
@@ -107,11 +106,10 @@ window_of(struct run *run, const struct rc_grid *g)
         of.nx = w->window[0];
         of.ny = w->window[1];
     }
-    if ((to = rc_grid_like(&of, g->channel, g->unit, &err)) == NULL)
-        tool_die_at(&run->d.t, g, EXIT_IMPOSSIBLE, "%s", err.text);
+    to = tool_made(&run->d.t, g, rc_grid_like(&of, g->channel, g->unit, &run->d.t.err));
     memset(to->v, 0, rc_grid_nodes(to) * sizeof *to->v);
     if (w->window[0] > 0)
-        tool_must(&run->d.t, g, rc_grid_set(to, "periodic", NULL, &err), &err);
+        tool_must(&run->d.t, g, rc_grid_set(to, "periodic", NULL, &run->d.t.err));
     return to;
 }
 
@@ -158,7 +156,6 @@ travel_model(struct run *run, struct rc_model *inner)
                                         .h1 = g->v,
                                         .repeats = run->args->physics.periodic || repeats(g),
                                         .ratio = run->args->counter_travel};
-    struct rc_err err;
     struct rc_model *m;
 
     if (other != NULL) {
@@ -168,8 +165,7 @@ travel_model(struct run *run, struct rc_model *inner)
     }
     if (!isnan(run->args->physics.radius))
         problem.radius = run->args->physics.radius;
-    if ((m = rc_travel_new(inner, &problem, &err)) == NULL)
-        tool_die_at(&run->d.t, g, EXIT_IMPOSSIBLE, "%s", err.text);
+    m = tool_made(&run->d.t, g, rc_travel_new(inner, &problem, &run->d.t.err));
     return m;
 }
 
@@ -254,12 +250,10 @@ travel_look(struct run *run, struct rc_model *m)
 {
     static const size_t none = 0;
     struct travelling *w = &run->travelling;
-    struct rc_err err;
 
     if (!w->wanted)
         return;
-    if (rc_model_frame(m, "height", run->g->v, &err) != RC_OK)
-        tool_die_at(&run->d.t, run->g, EXIT_IMPOSSIBLE, "%s", err.text);
+    tool_must(&run->d.t, run->g, rc_model_frame(m, "height", run->g->v, &run->d.t.err));
     w->found = rc_travel_result(m);
     run->d.output = pass_of(run) < w->passes ? &none : &run->args->output;
 }

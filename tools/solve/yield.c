@@ -25,7 +25,6 @@ static void
 read_count(struct run *run, const char *name, const char *text, size_t *count,
            struct numbers *lengths)
 {
-    struct rc_err err;
     char *end;
     unsigned long n;
 
@@ -40,8 +39,8 @@ read_count(struct run *run, const char *name, const char *text, size_t *count,
     if (lengths == NULL || (end != text && *end == '\0'))
         tool_die(&run->d.t, EXIT_USAGE, "--%s %s: it must be auto%s or a number from 1 to %d", name,
                  text, lengths == NULL ? "" : ", a list of thicknesses", RC_YIELDING_INCREMENTS);
-    if (unit_numbers(text, UNIT_M, lengths, &err) != RC_OK)
-        tool_die(&run->d.t, EXIT_USAGE, "--%s %s: %s", name, text, err.text);
+    if (unit_numbers(text, UNIT_M, lengths, &run->d.t.err) != RC_OK)
+        tool_die(&run->d.t, EXIT_USAGE, "--%s %s: %s", name, text, run->d.t.err.text);
     for (size_t k = 0; k < lengths->n; k++)
         if (!(lengths->v[k] > 0))
             tool_die(&run->d.t, EXIT_USAGE, "--%s %s: a slab must have a thickness above 0", name,
@@ -82,7 +81,6 @@ yield_read(struct run *run)
     const struct solve_args *args = run->args;
     const struct physics *a = &args->physics;
     struct yielding *y = &run->yielding;
-    struct rc_err err;
 
     y->wanted = args->yield != NULL;
     if (!y->wanted && (args->slabs != NULL || (args->increments != NULL && !run->relaxing.wanted)))
@@ -93,8 +91,8 @@ yield_read(struct run *run)
                      solve_frame_word((size_t)f));
     if (!y->wanted)
         return;
-    if (yield_law_read(&y->read, args->yield, &err) != RC_OK)
-        tool_die(&run->d.t, EXIT_USAGE, "--yield %s: %s", args->yield, err.text);
+    if (yield_law_read(&y->read, args->yield, &run->d.t.err) != RC_OK)
+        tool_die(&run->d.t, EXIT_USAGE, "--yield %s: %s", args->yield, run->d.t.err.text);
     y->law = y->read.law;
     read_increments(run, args->increments);
     read_count(run, "slabs", args->slabs, &y->slab_count, &y->list);
@@ -176,11 +174,10 @@ yield_model(struct run *run, const struct rc_grid *g, const struct rc_problem *c
                                                .thickness = y->list.n > 0 ? y->list.v : NULL,
                                                .increments = y->asked,
                                                .companion = y->companion};
-    struct rc_err err;
-    struct rc_model *m = rc_yielding_new(&shape, g->v, &problem, &err);
+    struct rc_model *m = rc_yielding_new(&shape, g->v, &problem, &run->d.t.err);
 
     if (m == NULL)
-        tool_die_at(&run->d.t, g, EXIT_IMPOSSIBLE, "%s", err.text);
+        tool_die_at(&run->d.t, g, EXIT_IMPOSSIBLE, "%s", run->d.t.err.text);
     return m;
 }
 
@@ -206,17 +203,16 @@ yield_expect(struct run *run, double load, struct rc_expected *expected)
     enum rc_status status;
     struct rc_loops loops;
     double most = 0, loads = 0;
-    struct rc_err err;
 
     yield_plan(run, run->model, load);
     rc_point_set(&to, RC_LOAD, load);
-    status = rc_model_go(run->model, &to, &err);
+    status = rc_model_go(run->model, &to, &run->d.t.err);
     do
         rc_model_progress(run->model, &loops);
     while (tool_interrupted() == 0 && status == RC_MORE && loops.coming == 0 &&
-           (status = rc_model_step(run->model, &err)) == RC_MORE);
-    if (status == RC_FAIL || rc_model_plan(run->model, &to, expected, &err) != RC_OK)
-        tool_die_at(&run->d.t, run->g, EXIT_IMPOSSIBLE, "%s", err.text);
+           (status = rc_model_step(run->model, &run->d.t.err)) == RC_MORE);
+    if (status == RC_FAIL || rc_model_plan(run->model, &to, expected, &run->d.t.err) != RC_OK)
+        tool_die_at(&run->d.t, run->g, EXIT_IMPOSSIBLE, "%s", run->d.t.err.text);
     for (size_t k = 0; k < run->steps->n; k++) {
         loads += run->steps->v[k] > most ? 1 : other;
         most = fmax(most, run->steps->v[k]);
@@ -302,11 +298,10 @@ put_slab(struct run *run, const struct rc_model *m, struct rc_grid *frame, size_
     static const char *const names[RC_PLASTIC_STRAINS] = {"exx", "eyy", "exy",
                                                           "exz", "eyz", "peeq"};
     const struct yielding *y = &run->yielding;
-    struct rc_err err;
 
-    if (rc_grid_set_number(frame, "depth", depth, &err) != RC_OK ||
-        rc_grid_set_number(frame, "thickness", y->found->thickness[slab], &err) != RC_OK)
-        tool_die_at(&run->d.t, frame, EXIT_IMPOSSIBLE, "%s", err.text);
+    tool_must(&run->d.t, frame, rc_grid_set_number(frame, "depth", depth, &run->d.t.err));
+    tool_must(&run->d.t, frame,
+              rc_grid_set_number(frame, "thickness", y->found->thickness[slab], &run->d.t.err));
     for (size_t c = 0; c < RC_PLASTIC_STRAINS; c++) {
         double *to[RC_PLASTIC_STRAINS] = {NULL};
         struct rc_grid as = *frame; /* the frame in the output stream */
@@ -324,14 +319,12 @@ yield_put_strain(struct run *run, const struct rc_model *m, const struct rc_grid
 {
     const struct yielding *y = &run->yielding;
     struct rc_grid *frame;
-    struct rc_err err;
     double z = 0;
 
     if (!y->on)
         return;
-    frame = rc_grid_like(like, like->channel, like->unit, &err);
-    if (frame == NULL)
-        tool_die_at(&run->d.t, like, EXIT_IMPOSSIBLE, "%s", err.text);
+    frame =
+        tool_made(&run->d.t, like, rc_grid_like(like, like->channel, like->unit, &run->d.t.err));
     for (size_t k = 0; k < y->found->slabs; k++) {
         put_slab(run, m, frame, k, z + y->found->thickness[k] / 2, like->v);
         z += y->found->thickness[k];

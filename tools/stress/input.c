@@ -54,9 +54,7 @@ static void
 set_material(struct tool *t, const struct stress_asked *asked, const struct rc_grid *p,
              struct stress_input *in, struct rc_stress_options *o)
 {
-    struct rc_err err;
-
-    tool_must(t, p, layers_read(p, &in->layers, &err), &err);
+    tool_must(t, p, layers_read(p, &in->layers, &t->err));
     if (in->layers.text != NULL && !isnan(asked->nu))
         tool_die_at(t, p, EXIT_IMPOSSIBLE,
                     "its body is coated and each material has its own Poisson's ratio: --nu "
@@ -212,12 +210,11 @@ stress_depths_read(struct tool *t, const struct rc_grid *p, const struct rc_stre
 {
     struct rc_shape shape = rc_grid_shape(p);
     const bool automatic = depths->n == 0;
-    struct rc_err err;
 
     warn_of_depths(t, p, depths);
     if (automatic && rc_stress_depths(o->ranks, &shape, p->v, o->boundary, &o->body, &depths->v,
-                                      &depths->n, &err) != RC_OK)
-        tool_die_at(t, p, EXIT_IMPOSSIBLE, "%s", err.text);
+                                      &depths->n, &t->err) != RC_OK)
+        tool_die_at(t, p, EXIT_IMPOSSIBLE, "%s", t->err.text);
     refuse_rigid(t, p, &o->body, depths);
     if (automatic)
         tool_note(t, "%zu depths, down to %g m", depths->n, depths->v[depths->n - 1]);
