@@ -7,6 +7,7 @@
 
 #include "memory.h"
 #include "pipe.h"
+#include "waits.h"
 #include "whole_file.h"
 
 #endif
