@@ -53,7 +53,7 @@ rc_point_between(const struct rc_point *from, const struct rc_point *to, double 
 {
     struct rc_point p = *to;
 
-    for (int k = 0; k < RC_AXES && part < 1; k++)
+    for (enum rc_axis k = 0; k < RC_AXES && part < 1; k++)
         p.at[k] = from->at[k] + part * (to->at[k] - from->at[k]);
     return p;
 }
@@ -78,7 +78,7 @@ static enum rc_status
 aim(const struct rc_model *m, const struct rc_point *to, struct rc_point *next, struct rc_err *err)
 {
     *next = m->from;
-    for (int k = 0; k < RC_AXES; k++) {
+    for (enum rc_axis k = 0; k < RC_AXES; k++) {
         const struct rc_axis_info *a = &axes[k];
         const double v = to->at[k];
         if (!rc_point_has(to, k))
@@ -93,7 +93,7 @@ aim(const struct rc_model *m, const struct rc_point *to, struct rc_point *next, 
                               a->name, v, a->unit, m->from.at[k]);
         rc_point_set(next, k, v);
     }
-    for (int k = 0; k < RC_AXES; k++)
+    for (enum rc_axis k = 0; k < RC_AXES; k++)
         if (m->row->needs >> k & 1 && !rc_point_has(next, k) &&
             !rc_point_has(next, axes[k].partner))
             return rc_err_set(err, "a point of the %s model needs the %s", m->row->name,
@@ -146,7 +146,7 @@ rc_model_look(struct rc_model *m, struct rc_point *at, struct rc_err *err)
     if (m->inner != NULL) {
         if (rc_model_look(m->inner, &own, err) != RC_OK)
             return RC_FAIL;
-        for (int k = 0; k < RC_AXES; k++)
+        for (enum rc_axis k = 0; k < RC_AXES; k++)
             if (rc_point_has(&m->to, k))
                 own.at[k] = m->to.at[k];
         own.given = m->to.given;
@@ -173,7 +173,8 @@ rc_model_keep(struct rc_model *m, struct rc_err *err)
         return RC_FAIL;
     m->from = m->to;
     m->moved = false;
-    for (int k = 0; k < RC_AXES; k++) /* the next point may give an axis that the model has found
+    for (enum rc_axis k = 0; k < RC_AXES;
+         k++) /* the next point may give an axis that the model has found
                                          here */
         if (isfinite(at.at[k]) && !(rc_point_has(&m->to, k) && isfinite(m->to.at[k])))
             m->from.at[k] = at.at[k];

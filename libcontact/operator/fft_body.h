@@ -433,14 +433,14 @@ products(COMPLEX *to, bool more, REAL weight, const COMPLEX *z, size_t n, const 
     if (power == 2)
         sign = -sign;
     if (power == 1) {
-#pragma GCC ivdep
+#pragma omp simd
         for (size_t k = 0; k < n; k++) {
             REAL a = sign * s[(ptrdiff_t)k * step], re = v[2 * k], im = v[2 * k + 1];
             w[2 * k] = put(more, weight, w[2 * k], a * im);
             w[2 * k + 1] = put(more, weight, w[2 * k + 1], -a * re);
         }
     } else {
-#pragma GCC ivdep
+#pragma omp simd
         for (size_t k = 0; k < n; k++) {
             REAL a = sign * s[(ptrdiff_t)k * step], re = v[2 * k], im = v[2 * k + 1];
             w[2 * k] = put(more, weight, w[2 * k], a * re);

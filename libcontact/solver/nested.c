@@ -344,7 +344,7 @@ share(struct over *o, double low)
             for (size_t q = 0; q < 4; q++) {
                 double v = o->y[q][i] + mu[i], high = o->high[q][i], p = v > low ? v : low;
                 excess += o->on[q][i] * (p < high ? p : high);
-                between += (v > low) & (v < high) ? o->on[q][i] : 0;
+                between += ((v > low) & (v < high)) ? o->on[q][i] : 0;
             }
             next = was - excess / between;
             next = fabs(excess) > 4 * DBL_EPSILON * o->load[i] ? next : was;
