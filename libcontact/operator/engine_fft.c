@@ -32,28 +32,26 @@ plan_free(void *at)
     free(plan);
 }
 
+RC_OWNER(plan)
+
 static void *
 plan_new(const struct rc_sum *sum, struct rc_err *err)
 {
-    struct plan *plan = calloc(1, sizeof *plan);
+    RC_OWN(plan, plan) = calloc(1, sizeof *plan);
 
     if (plan == NULL)
         rc_err_set(err, "out of memory for a plan");
-    if (rc_ranks_agree(sum->ranks, plan == NULL ? RC_FAIL : RC_OK, err) != RC_OK) {
-        free(plan);
+    if (rc_ranks_agree(sum->ranks, plan == NULL ? RC_FAIL : RC_OK, err) != RC_OK)
         return NULL;
-    }
     plan->fft =
         rc_fft_new(sum->ranks, NULL, &sum->shape, sum->boundary, precision(sum), sum->threads, err);
     if (plan->fft == NULL || (plan->kernel = rc_spectrum_new(plan->fft, err)) == NULL ||
-        rc_spectrum_set(plan->kernel, plan->fft, &sum->kernel, err) != RC_OK) {
-        plan_free(plan);
+        rc_spectrum_set(plan->kernel, plan->fft, &sum->kernel, err) != RC_OK)
         return NULL;
-    }
     /* rounding grows with the depth of the transforms */
     plan->error = (precision(sum) == RC_SINGLE ? 6e-8 : 1e-16) *
                   log2(4 * (double)sum->shape.nx * (double)sum->shape.ny);
-    return plan;
+    return rc_give(&plan);
 }
 
 static void

@@ -102,7 +102,7 @@ spectrum_of(const struct own *w, const struct rc_fft *fft, struct extremes *seen
 {
     const struct rc_surface surface = {&w->bodies, w->whole.length, w->whole.modulus};
     const struct rc_kernel kernel = rc_surface_kernel(&surface);
-    struct rc_spectrum *k = rc_spectrum_new(fft, err);
+    RC_OWN(rc_spectrum, k) = rc_spectrum_new(fft, err);
     enum rc_status status;
 
     if (k == NULL)
@@ -111,10 +111,7 @@ spectrum_of(const struct own *w, const struct rc_fft *fft, struct extremes *seen
         status = rc_spectrum_set(k, fft, &kernel, err);
     else
         status = rc_spectrum_set_by(k, fft, &kernel, see_column, seen, err);
-    if (status == RC_OK)
-        return k;
-    rc_spectrum_free(k);
-    return NULL;
+    return status == RC_OK ? rc_give(&k) : NULL;
 }
 
 static enum rc_status

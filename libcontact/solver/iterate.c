@@ -8,20 +8,12 @@
 
 #include "libcontact/memory.h"
 
-enum rc_status
+void
 rc_iterate_new(struct rc_solver *s)
 {
     s->it = (struct rc_iterate){.error = NAN, .next_check = 1};
-    s->it.p = rc_alloc(s->posed.n, sizeof *s->it.p);
-    s->it.v = rc_alloc(s->posed.n, sizeof *s->it.v);
-    return s->it.p != NULL && s->it.v != NULL ? RC_OK : RC_FAIL;
-}
-
-void
-rc_iterate_free(struct rc_solver *s)
-{
-    free(s->it.p);
-    free(s->it.v);
+    s->it.p = rc_store_take(&s->own, s->posed.n, sizeof *s->it.p);
+    s->it.v = rc_store_take(&s->own, s->posed.n, sizeof *s->it.v);
 }
 
 void

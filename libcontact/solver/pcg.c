@@ -78,6 +78,7 @@ struct pcg {
     double rate;              /* ratio of the last two estimates, at most 1 */
     double best;              /* the least estimate                         */
     size_t best_at;           /* and its iteration                          */
+    struct rc_store own;
 };
 
 /* Context of the passes over all nodes. */
@@ -94,10 +95,7 @@ state_free(void *at)
 
     if (s == NULL)
         return;
-    free(s->delta);
-    free(s->q);
-    free(s->tiles);
-    rc_tile_line_free(&s->line);
+    rc_store_free(&s->own);
     free(s);
 }
 
@@ -120,12 +118,12 @@ state_new(const struct rc_solver *solver, struct rc_err *err)
     size_t n = solver->posed.n;
 
     if (s != NULL) {
-        s->delta = rc_alloc(n, sizeof *s->delta);
-        s->q = rc_alloc(n, sizeof *s->q);
-        s->tiles = rc_alloc(rc_tiles(&solver->posed.shape), sizeof *s->tiles);
+        s->delta = rc_store_take(&s->own, n, sizeof *s->delta);
+        s->q = rc_store_take(&s->own, n, sizeof *s->q);
+        s->tiles = rc_store_take(&s->own, rc_tiles(&solver->posed.shape), sizeof *s->tiles);
+        rc_tile_line_new(&s->line, &solver->posed, &s->own);
     }
-    if (s == NULL || rc_tile_line_new(&s->line, &solver->posed) != RC_OK || s->delta == NULL ||
-        s->q == NULL || s->tiles == NULL) {
+    if (s == NULL || s->own.failed) {
         rc_err_set(err, "out of memory for the iteration of %zu nodes", n);
         state_free(s);
         return NULL;

@@ -24,6 +24,7 @@ struct state {
     double delta; /* 0: the next direction is steepest descent       */
     double tau;   /* last step length, 0 before the first            */
     struct rc_safeguard safeguard;
+    struct rc_store own;
 };
 
 static void
@@ -33,9 +34,7 @@ state_free(void *at)
 
     if (s == NULL)
         return;
-    free(s->t);
-    free(s->r);
-    free(s->old);
+    rc_store_free(&s->own);
     free(s);
 }
 
@@ -45,11 +44,11 @@ state_new(const struct rc_solver *solver, struct rc_err *err)
     struct state *s = calloc(1, sizeof *s);
 
     if (s != NULL) {
-        s->t = calloc(solver->posed.n, sizeof *s->t);
-        s->r = rc_alloc(solver->posed.n, sizeof *s->r);
-        s->old = rc_alloc(solver->posed.n, sizeof *s->old);
+        s->t = rc_store_zeros(&s->own, solver->posed.n, sizeof *s->t);
+        s->r = rc_store_take(&s->own, solver->posed.n, sizeof *s->r);
+        s->old = rc_store_take(&s->own, solver->posed.n, sizeof *s->old);
     }
-    if (s == NULL || s->t == NULL || s->r == NULL || s->old == NULL) {
+    if (s == NULL || s->own.failed) {
         rc_err_set(err, "out of memory for the iteration of %zu nodes", solver->posed.n);
         state_free(s);
         return NULL;

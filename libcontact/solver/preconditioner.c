@@ -37,6 +37,7 @@ struct rc_preconditioner {
     float *place, *sum;
     /* Where rows are split off: the residual less its mean on each row, and these means. NULL: not needed. */
     float *flat, *mean;
+    struct rc_store own;
 };
 
 /* ---- the frame ---- */
@@ -167,12 +168,12 @@ make_room(struct rc_preconditioner *e, struct rc_err *err)
     const struct rc_operator *op = e->op;
     size_t frame;
 
-    e->node = rc_alloc(op->shape.nx * op->shape.ny, sizeof *e->node);
-    e->row = rc_alloc((size_t)e->threads * framed_nx(e), sizeof *e->row);
+    e->node = rc_store_take(&e->own, op->shape.nx * op->shape.ny, sizeof *e->node);
+    e->row = rc_store_take(&e->own, (size_t)e->threads * framed_nx(e), sizeof *e->row);
     frame = frame_before(e, e->above + op->shape.ny + e->below);
     if (frame > 0)
-        e->frame = rc_alloc(frame, sizeof *e->frame);
-    if (e->node != NULL && e->row != NULL && (frame == 0 || e->frame != NULL))
+        e->frame = rc_store_take(&e->own, frame, sizeof *e->frame);
+    if (!e->own.failed)
         return RC_OK;
     return rc_err_set(err, "out of memory for the error estimate of %zu x %zu nodes", op->shape.nx,
                       op->shape.ny);
@@ -212,8 +213,8 @@ make_split(struct rc_preconditioner *e, struct rc_err *err)
 
     if (!splits(e) || e->mean != NULL)
         return RC_OK;
-    e->flat = rc_alloc(e->op->shape.nx * ny, sizeof *e->flat);
-    e->mean = rc_alloc(ny, sizeof *e->mean);
+    e->flat = rc_store_take(&e->own, e->op->shape.nx * ny, sizeof *e->flat);
+    e->mean = rc_store_take(&e->own, ny, sizeof *e->mean);
     return e->flat != NULL && e->mean != NULL
                ? RC_OK
                : rc_err_set(err, "out of memory for the motion of %zu rows", ny);
@@ -222,7 +223,7 @@ make_split(struct rc_preconditioner *e, struct rc_err *err)
 struct rc_preconditioner *
 rc_preconditioner_new(struct rc_operator *op, struct rc_err *err)
 {
-    struct rc_preconditioner *e = calloc(1, sizeof *e);
+    RC_OWN(rc_preconditioner, e) = calloc(1, sizeof *e);
     struct rc_pyramid_base base =
         base_of(&op->whole, op->boundary, op->frame, rc_ranks_count(op->rows.ranks), &op->rows);
     enum rc_status status;
@@ -242,11 +243,9 @@ rc_preconditioner_new(struct rc_operator *op, struct rc_err *err)
         status = make_room(e, err) == RC_OK ? make_split(e, err) : RC_FAIL;
     }
     if (rc_ranks_agree(op->rows.ranks, status, err) != RC_OK ||
-        (e->pyramid = rc_pyramid_new(&base, power, op, err)) == NULL) {
-        rc_preconditioner_free(e);
+        (e->pyramid = rc_pyramid_new(&base, power, op, err)) == NULL)
         return NULL;
-    }
-    return e;
+    return rc_give(&e);
 }
 
 static float
@@ -284,9 +283,9 @@ set_levels(struct rc_preconditioner *e, double *weight, struct rc_err *err)
     e->levels = 1 + (size_t)fmin(ceil(log(most / e->first) / log(apart)), LEVELS - 1);
     e->ratio = pow(most / e->first, 1 / (double)(e->levels - 1));
     if (e->place == NULL)
-        e->place = rc_alloc(n, sizeof *e->place);
+        e->place = rc_store_take(&e->own, n, sizeof *e->place);
     if (e->sum == NULL)
-        e->sum = rc_alloc(n, sizeof *e->sum);
+        e->sum = rc_store_take(&e->own, n, sizeof *e->sum);
     if (e->place == NULL || e->sum == NULL)
         return rc_err_set(err, "out of memory for the compliance of %zu nodes", n);
     for (size_t k = 0; k < n; k++) {
@@ -331,13 +330,7 @@ rc_preconditioner_free(struct rc_preconditioner *e)
     if (e == NULL)
         return;
     rc_pyramid_free(e->pyramid);
-    free(e->node);
-    free(e->row);
-    free(e->frame);
-    free(e->place);
-    free(e->sum);
-    free(e->flat);
-    free(e->mean);
+    rc_store_free(&e->own);
     free(e);
 }
 

@@ -31,6 +31,7 @@ enum rc_status rc_preconditioner_tune(struct rc_preconditioner *e, struct rc_err
 /* Convolutions in one rc_preconditioner_apply: 1 unless the diagonal differs by node. */
 double rc_preconditioner_factors(const struct rc_preconditioner *e);
 void rc_preconditioner_free(struct rc_preconditioner *e);
+RC_OWNER(rc_preconditioner)
 /* The working set: entries 1 of w (0 elsewhere), at least one. w is read until the next set. The call does no
  * convolution. If entries of w change afterwards, the map r -> z stays symmetric but E gets less accurate. */
 void rc_preconditioner_set(struct rc_preconditioner *e, const unsigned char *w);

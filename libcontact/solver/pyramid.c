@@ -153,6 +153,7 @@ struct rc_pyramid {
     size_t *dealt; /* the first of these rows, for each rank */
     /* rows of a shared level: the first and last one held here, and their neighbours on other ranks */
     float *edge;
+    struct rc_store own;
 };
 
 /* The grid of a level, from the base to the coarsest one. */
@@ -229,31 +230,23 @@ some(size_t n)
     return n > 0 ? n : 1; /* a rank without rows */
 }
 
-static bool
-level_new(const struct rc_pyramid *p, struct level *l)
+static void
+level_new(struct rc_pyramid *p, struct level *l)
 {
-    bool room = true;
-
     l->threads = nodes(l) < FEW ? 1 : p->base.threads;
-    for (int c = 0; c < p->weights && room; c++) {
-        l->weight[c] = rc_alloc(some(nodes(l)), sizeof(float));
-        l->value[c] = rc_alloc(some(nodes(l)), sizeof(float));
-        room = l->weight[c] != NULL && l->value[c] != NULL;
-        if (room && p->base.pairs)
-            room = (l->most[c] = rc_alloc(some(nodes(l)), sizeof(float))) != NULL;
+    for (int c = 0; c < p->weights; c++) {
+        l->weight[c] = rc_store_take(&p->own, some(nodes(l)), sizeof(float));
+        l->value[c] = rc_store_take(&p->own, some(nodes(l)), sizeof(float));
+        if (p->base.pairs)
+            l->most[c] = rc_store_take(&p->own, some(nodes(l)), sizeof(float));
     }
     if (l->shared)
-        l->beside = rc_alloc(2 * l->x.coarse, sizeof *l->beside);
-    return room && (!l->shared || l->beside != NULL);
-}
-
-static bool
-room_of_ranks(struct rc_pyramid *p, const struct level *l)
-{
-    p->room = rc_alloc(some(l->own * l->x.coarse), sizeof *p->room);
-    p->dealt = malloc((p->base.count + 1) * sizeof *p->dealt);
-    p->edge = rc_alloc(4 * p->base.shape.nx, sizeof *p->edge);
-    return p->room != NULL && p->dealt != NULL && p->edge != NULL;
+        l->beside = rc_store_take(&p->own, 2 * l->x.coarse, sizeof *l->beside);
+    if (!l->parts || l->shared)
+        return;
+    p->room = rc_store_take(&p->own, some(l->own * l->x.coarse), sizeof *p->room);
+    p->dealt = rc_store_take(&p->own, p->base.count + 1, sizeof *p->dealt);
+    p->edge = rc_store_take(&p->own, 4 * p->base.shape.nx, sizeof *p->edge);
 }
 
 /* Decides which rows of the first unshared level each rank computes. */
@@ -274,7 +267,7 @@ struct rc_pyramid *
 rc_pyramid_new(const struct rc_pyramid_base *base, rc_power_at *power, const void *of,
                struct rc_err *err)
 {
-    struct rc_pyramid *p = calloc(1, sizeof *p);
+    RC_OWN(rc_pyramid, p) = calloc(1, sizeof *p);
     struct grid g = finest(base);
     bool fine = p != NULL;
 
@@ -282,23 +275,20 @@ rc_pyramid_new(const struct rc_pyramid_base *base, rc_power_at *power, const voi
         p->base = *base;
         p->weights = base->pairs ? 3 : 1;
         p->components = base->pairs ? 2 : 1;
-        p->scratch = rc_alloc(3 * (size_t)base->threads * g.nx, sizeof *p->scratch);
-        fine = p->scratch != NULL;
-    }
-    for (struct level *l; fine && coarser(base, &g, l = &p->level[p->levels + 1]); p->levels++) {
-        fine = level_new(p, l) && (!l->parts || l->shared || room_of_ranks(p, l));
+        p->scratch = rc_store_take(&p->own, 3 * (size_t)base->threads * g.nx, sizeof *p->scratch);
+        for (struct level *l; coarser(base, &g, l = &p->level[p->levels + 1]); p->levels++)
+            level_new(p, l);
+        fine = !p->own.failed;
     }
     if (!fine)
         rc_err_set(err, "out of memory for the error estimate of %zu x %zu nodes", base->shape.nx,
                    base->shape.ny);
-    if (rc_ranks_agree(base->ranks, fine ? RC_OK : RC_FAIL, err) != RC_OK) {
-        rc_pyramid_free(p);
+    if (rc_ranks_agree(base->ranks, fine ? RC_OK : RC_FAIL, err) != RC_OK)
         return NULL;
-    }
     if (p->dealt != NULL)
         deal(p);
     rc_pyramid_tune(p, power, of);
-    return p;
+    return rc_give(&p);
 }
 
 void
@@ -316,18 +306,7 @@ rc_pyramid_free(struct rc_pyramid *p)
 {
     if (p == NULL)
         return;
-    for (size_t m = 1; m <= p->levels + 1 && m < MOST_LEVELS; m++) {
-        for (int c = 0; c < 3; c++) {
-            free(p->level[m].weight[c]);
-            free(p->level[m].most[c]);
-            free(p->level[m].value[c]);
-        }
-        free(p->level[m].beside);
-    }
-    free(p->scratch);
-    free(p->room);
-    free(p->dealt);
-    free(p->edge);
+    rc_store_free(&p->own);
     free(p);
 }
 

@@ -50,6 +50,7 @@ struct rc_pyramid *rc_pyramid_new(const struct rc_pyramid_base *base, rc_power_a
 /* Changes the power, from the next set on. */
 void rc_pyramid_tune(struct rc_pyramid *pyramid, rc_power_at *power, const void *of);
 void rc_pyramid_free(struct rc_pyramid *pyramid);
+RC_OWNER(rc_pyramid)
 
 /* Adds `weight` times row j (of those held here) of component c to `to`; several threads call it. */
 typedef void rc_pyramid_add(const void *of, int c, size_t j, float weight, float *to);

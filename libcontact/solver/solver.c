@@ -167,10 +167,11 @@ make_room(struct rc_solver *s, struct rc_err *err)
     const struct rc_shape *whole = &s->posed.whole;
     enum rc_status status = RC_OK;
 
-    s->z = rc_alloc(s->posed.n, sizeof *s->z);
-    s->partial = rc_alloc(rc_reduce_partials(&s->posed.shape), RC_SUMS * sizeof *s->partial);
-    if (s->z == NULL || s->partial == NULL || rc_iterate_new(s) != RC_OK ||
-        rc_working_set_new(s) != RC_OK)
+    s->z = rc_store_take(&s->own, s->posed.n, sizeof *s->z);
+    s->partial =
+        rc_store_take(&s->own, rc_reduce_partials(&s->posed.shape), RC_SUMS * sizeof *s->partial);
+    rc_iterate_new(s);
+    if (rc_working_set_new(s) != RC_OK)
         status =
             rc_err_set(err, "out of memory for a contact of %zu x %zu nodes", whole->nx, whole->ny);
     if (status == RC_OK && (s->state = s->method->new (s, err)) == NULL)
@@ -185,31 +186,27 @@ solver_new(const struct rc_ranks *all, const struct rc_shape *shape, const doubl
            const struct rc_problem *problem, const struct rc_method *method, struct rc_operator *op,
            struct rc_err *err)
 {
-    struct rc_solver *s = calloc(1, sizeof *s);
+    RC_OWN(rc_solver, s) = calloc(1, sizeof *s);
 
     if (s == NULL)
         rc_err_set(err, "out of memory for a contact of %zu x %zu nodes", shape->nx, shape->ny);
     if (rc_ranks_agree(problem->ranks, s == NULL || op == NULL ? RC_FAIL : RC_OK, err) != RC_OK) {
         rc_operator_free(op);
-        free(s);
         return NULL;
     }
     s->op = op;
     s->method = method;
     s->coarse = (struct rc_discretization){NAN, NAN, NAN};
     if (pose(&s->posed, shape, h, problem, err) != RC_OK || make_room(s, err) != RC_OK)
-        goto fail;
+        return NULL;
     s->posed.rough = !op->exact;
     s->posed.all = all;
     if (rc_load_first(s, problem, err) != RC_OK || rc_tilt_new(s, problem, err) != RC_OK ||
         (s->preconditioner = rc_preconditioner_new(op, err)) == NULL)
-        goto fail;
+        return NULL;
     rc_iterate_level(s);
     rc_nested_new(s);
-    return s;
-fail:
-    rc_solver_free(s);
-    return NULL;
+    return rc_give(&s);
 }
 
 struct rc_solver *
@@ -243,13 +240,9 @@ rc_solver_free(struct rc_solver *s)
         s->method->free(s->state);
     rc_preconditioner_free(s->preconditioner);
     rc_operator_free(s->op);
-    rc_tilt_free(s);
-    rc_iterate_free(s);
-    rc_working_set_free(s);
     free(s->posed.h);
     rc_bounds_free(&s->posed.bounds);
-    free(s->z);
-    free(s->partial);
+    rc_store_free(&s->own);
     free(s);
 }
 

@@ -16,6 +16,7 @@
 #include <math.h>
 
 #include "bounds.h"
+#include "libcontact/memory.h"
 #include "libcontact/operator/operator.h"
 #include "preconditioner.h"
 #include "pyramid.h"
@@ -150,7 +151,8 @@ struct rc_solver {
     struct rc_discretization coarse; /* comparison with the coarser grid; NAN: none */
     float *z;                        /* n numbers: corrections, times per_pressure  */
     double *partial;                 /* sums of blocks and rows, for reduce.c       */
-    enum rc_stage {                  /* to refuse a call that comes too early       */
+    struct rc_store own;
+    enum rc_stage { /* to refuse a call that comes too early       */
         RC_STAGE_NEW,
         RC_STAGE_STEPPED,
         RC_STAGE_JUDGED /* rc_solver_result describes this pressure */
@@ -201,8 +203,7 @@ double rc_history_goal(const struct rc_solver *solver);
 
 /* ---- iterate.c ---- */
 
-enum rc_status rc_iterate_new(struct rc_solver *solver);
-void rc_iterate_free(struct rc_solver *solver);
+void rc_iterate_new(struct rc_solver *solver);
 /* Sets p to the mean pressure everywhere, within the bounds. */
 void rc_iterate_level(struct rc_solver *solver);
 /* The caller changed p or the load: v and the estimate are unknown. */
@@ -249,7 +250,6 @@ double rc_iterate_judge(struct rc_solver *solver);
 /* ---- working_set.c ---- */
 
 enum rc_status rc_working_set_new(struct rc_solver *solver);
-void rc_working_set_free(struct rc_solver *solver);
 /* Finds the working set and its residual from v and the shift; `sift`: without nodes that the next step would
  * return to their bound. */
 void rc_working_set_find(struct rc_solver *solver, bool sift);
@@ -329,7 +329,6 @@ bool rc_stiffness_turning(struct rc_solver *solver, float *room, double k[3][3])
 /* RC_FAIL when the problem has no solution with a free tilt, or memory is short. */
 enum rc_status rc_tilt_new(struct rc_solver *solver, const struct rc_problem *problem,
                            struct rc_err *err);
-void rc_tilt_free(struct rc_solver *solver);
 /* Coordinate of node k (of those held here) along an axis (0: x, 1: y). It is counted from the point of the
  * force, and divided by the length of the map. */
 double rc_arm(const struct rc_solver *solver, size_t axis, size_t k);
@@ -429,9 +428,8 @@ struct rc_tile_line {
     struct rc_tile *tiles; /* tiles of all ranks */
     size_t *from;          /* the first tile of each rank, and their number */
 };
-/* RC_FAIL when memory is short; rc_tile_line_free in either case. */
-enum rc_status rc_tile_line_new(struct rc_tile_line *line, const struct rc_posed *posed);
-void rc_tile_line_free(struct rc_tile_line *line);
+void rc_tile_line_new(struct rc_tile_line *line, const struct rc_posed *posed,
+                      struct rc_store *own);
 /* Moves by a shift of each tile of the map. A node at its bound that would leave the bounds stays there and
  * does not count as clipped. False when the load cannot be kept this way; delta then holds the changes so
  * far. */

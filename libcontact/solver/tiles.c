@@ -468,32 +468,22 @@ share(struct tiles *a, double rest)
 /* ---- on a line ---- */
 
 /* The tiles of a row or a column form one sequence across all ranks; every rank processes all of them. */
-enum rc_status
-rc_tile_line_new(struct rc_tile_line *line, const struct rc_posed *posed)
+void
+rc_tile_line_new(struct rc_tile_line *line, const struct rc_posed *posed, struct rc_store *own)
 {
     const struct rc_shape *whole = &posed->whole;
     size_t count = rc_ranks_count(posed->rows.ranks), unit = rc_rows_unit(whole->nx);
 
     *line = (struct rc_tile_line){0};
     if (count == 1 || (whole->nx > 1 && whole->ny > 1))
-        return RC_OK;
-    line->tiles = rc_alloc(rc_tiles(whole), sizeof *line->tiles);
-    line->from = malloc((count + 1) * sizeof *line->from);
-    if (line->tiles == NULL || line->from == NULL)
-        return RC_FAIL;
-    for (size_t r = 0; r <= count; r++) {
+        return;
+    line->tiles = rc_store_take(own, rc_tiles(whole), sizeof *line->tiles);
+    line->from = rc_store_take(own, count + 1, sizeof *line->from);
+    for (size_t r = 0; r <= count && line->from != NULL; r++) {
         struct rc_shape before = *whole;
         before.ny = rc_rows_dealt(whole->ny, unit, count, r);
         line->from[r] = rc_tiles(&before);
     }
-    return RC_OK;
-}
-
-void
-rc_tile_line_free(struct rc_tile_line *line)
-{
-    free(line->tiles);
-    free(line->from);
 }
 
 /* A line of tiles, and which of them are held here. */

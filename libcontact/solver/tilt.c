@@ -122,10 +122,10 @@ rc_tilt_new(struct rc_solver *s, const struct rc_problem *problem, struct rc_err
         return RC_OK;
     if (check(w, problem, err) != RC_OK)
         return RC_FAIL;
-    s->tilt = t = calloc(1, sizeof *t);
+    s->tilt = t = rc_store_zeros(&s->own, 1, sizeof *t);
     if (t != NULL)
-        t->room = rc_alloc(s->posed.n, 3 * sizeof *t->room);
-    if (t == NULL || t->room == NULL)
+        t->room = rc_store_take(&s->own, s->posed.n, 3 * sizeof *t->room);
+    if (s->own.failed)
         status = rc_err_set(err, "out of memory for the tilt of %zu x %zu nodes", w->nx, w->ny);
     if (rc_ranks_agree(s->posed.rows.ranks, status, err) != RC_OK)
         return RC_FAIL;
@@ -136,15 +136,6 @@ rc_tilt_new(struct rc_solver *s, const struct rc_problem *problem, struct rc_err
     t->length = fmax((double)w->nx * w->dx, (double)w->ny * w->dy);
     t->touch = NAN;
     return RC_OK;
-}
-
-void
-rc_tilt_free(struct rc_solver *s)
-{
-    if (s->tilt != NULL)
-        free(s->tilt->room);
-    free(s->tilt);
-    s->tilt = NULL;
 }
 
 /* ---- turning ---- */

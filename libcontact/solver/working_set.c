@@ -51,30 +51,19 @@ rc_working_set_forget(struct rc_solver *s)
 enum rc_status
 rc_working_set_new(struct rc_solver *s)
 {
-    s->set.w = rc_alloc(s->posed.n, sizeof *s->set.w);
-    s->set.r = rc_alloc(s->posed.n, sizeof *s->set.r);
+    s->set.w = rc_store_take(&s->own, s->posed.n, sizeof *s->set.w);
+    s->set.r = rc_store_take(&s->own, s->posed.n, sizeof *s->set.r);
     if (s->posed.rows.ranks != NULL) {
-        s->set.beside_w = rc_alloc(2 * s->posed.shape.nx, sizeof *s->set.beside_w);
-        s->set.beside_r = rc_alloc(2 * s->posed.shape.nx, sizeof *s->set.beside_r);
-        if (s->set.beside_w == NULL || s->set.beside_r == NULL)
-            return RC_FAIL;
+        s->set.beside_w = rc_store_take(&s->own, 2 * s->posed.shape.nx, sizeof *s->set.beside_w);
+        s->set.beside_r = rc_store_take(&s->own, 2 * s->posed.shape.nx, sizeof *s->set.beside_r);
     }
-    if (s->set.w == NULL || s->set.r == NULL)
+    if (s->own.failed)
         return RC_FAIL;
 #pragma omp parallel for num_threads(s->posed.threads) schedule(static)
     for (size_t k = 0; k < s->posed.n; k++)
         s->set.w[k] = 0;
     rc_working_set_forget(s);
     return RC_OK;
-}
-
-void
-rc_working_set_free(struct rc_solver *s)
-{
-    free(s->set.w);
-    free(s->set.r);
-    free(s->set.beside_w);
-    free(s->set.beside_r);
 }
 
 /* ---- nodes that the next step would return to their bound ---- */

@@ -14,5 +14,6 @@ struct rc_direct *rc_direct_new(const struct rc_sum *sum, const struct rc_lattic
                                 size_t ny, int threads, struct rc_err *err);
 void rc_direct_apply(struct rc_direct *direct, const double *p, double *u);
 void rc_direct_free(struct rc_direct *direct);
+RC_OWNER(rc_direct)
 
 #endif

@@ -57,16 +57,13 @@ struct rc_direct *
 rc_direct_new(const struct rc_sum *sum, const struct rc_lattice *at, size_t nx, size_t ny,
               int threads, struct rc_err *err)
 {
-    struct rc_direct *d = calloc(1, sizeof *d);
+    RC_OWN(rc_direct, d) = calloc(1, sizeof *d);
     unsigned parity = sum->kernel.parity;
 
     if (d == NULL || width(nx) > SIZE_MAX / sizeof(double) / ny ||
         (d->k = calloc(width(nx) * ny, sizeof(double))) == NULL ||
-        (d->scratch = malloc((size_t)threads * scratch(nx) * sizeof(double))) == NULL) {
-        rc_err_set(err, "out of memory for a kernel of %zu x %zu values", width(nx), ny);
-        rc_direct_free(d);
-        return NULL;
-    }
+        (d->scratch = malloc((size_t)threads * scratch(nx) * sizeof(double))) == NULL)
+        return rc_err_null(err, "out of memory for a kernel of %zu x %zu values", width(nx), ny);
     d->nx = nx;
     d->ny = ny;
     d->width = width(nx);
@@ -81,7 +78,7 @@ rc_direct_new(const struct rc_sum *sum, const struct rc_lattice *at, size_t nx, 
         for (size_t i = 1; i < nx; i++)
             *(row - i) = parity & RC_ODD_X ? -row[i] : row[i];
     }
-    return d;
+    return rc_give(&d);
 }
 
 /* q[a RC_BLOCK + i] = p[first + i - d][a] + mirror p[first + i + d][a], nothing outside the map.
