@@ -13,11 +13,13 @@
 
 RC_OWNER(rc_fatigue)
 RC_OWNER(rc_heat)
+RC_OWNER(rc_leak)
 RC_OWNER(rc_model)
 RC_OWNER(rc_patches)
 RC_OWNER(rc_psd)
 RC_OWNER(rc_relaxation)
 RC_OWNER(rc_solver)
+RC_OWNER(rc_stress)
 
 #define RC_PI 3.14159265358979323846
 

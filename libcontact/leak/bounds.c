@@ -156,25 +156,23 @@ rc_leak_bounds(const struct rc_passage *a, const uint8_t *tree, const struct rc_
 {
     size_t n = (size_t)a->nodes;
     struct repair r = {.a = a, .levels = levels};
+    RC_ENDS(rc_store_free) struct rc_store own = {0};
+    RC_OWNED double *partial = NULL;
     struct rc_sums rows;
     double sums[SUMS];
 
-    /* all three arrays */
-    r.down = rc_alloc(n, sizeof *r.down + sizeof *r.order + sizeof *r.way);
-    if (rc_sums_new(&rows, a->ny, SUMS, 0, threads) != RC_OK || r.down == NULL) {
-        free(r.down);
-        free(rows.row);
+    r.down = rc_store_take(&own, n, sizeof *r.down);
+    r.order = rc_store_take(&own, n, sizeof *r.order);
+    r.way = rc_store_take(&own, n, sizeof *r.way);
+    own.failed |= rc_sums_new(&rows, a->ny, SUMS, 0, threads) != RC_OK;
+    partial = rows.row;
+    if (own.failed)
         return rc_err_set(err, "out of memory for the bounds of the flow through %zu x %zu nodes",
                           a->nx, a->ny);
-    }
-    r.order = (int32_t *)(void *)(r.down + n);
-    r.way = (uint8_t *)(r.order + n);
     set_parents(&r, tree);
     send_down(&r, threads);
     rc_sums_rows(&rows, add_row, &r, sums);
     *upper = sums[ENERGY];
     *lower = sums[FLOW] / sums[DISSIPATED] * sums[FLOW];
-    free(rows.row);
-    free(r.down);
     return RC_OK;
 }

@@ -53,6 +53,7 @@ struct rc_elimination {
     struct front **kept; /* rows of the eliminated nodes of each part */
     double **work;       /* of each thread, for fronts below WIDE     */
     bool short_of_memory;
+    struct rc_store own;
 };
 
 static int
@@ -77,32 +78,28 @@ work_size(size_t n)
 struct rc_elimination *
 rc_elimination_new(const struct rc_passage *a, int threads, struct rc_err *err)
 {
-    struct rc_elimination *e = calloc(1, sizeof *e);
+    RC_OWN(rc_elimination, e) = calloc(1, sizeof *e);
     size_t nodes = (size_t)a->nodes;
 
-    if (e != NULL)
-        *e = (struct rc_elimination){.a = a, .threads = threads};
-    if (e == NULL || rc_order_set(&e->order, a, err) != RC_OK ||
-        (e->place = malloc((nodes + 2) * sizeof *e->place)) == NULL ||
-        (e->kept = calloc((size_t)e->order.parts + 1, sizeof *e->kept)) == NULL ||
-        (e->work = calloc((size_t)threads, sizeof *e->work)) == NULL) {
-        rc_err_set(err, "out of memory for the flow through %zu x %zu nodes", a->nx, a->ny);
-        rc_elimination_free(e);
+    if (e == NULL)
+        return rc_err_null(err, "out of memory for a plan");
+    *e = (struct rc_elimination){.a = a, .threads = threads};
+    if (rc_order_set(&e->order, a, err) != RC_OK)
         return NULL;
-    }
-    for (int t = 0; t < threads; t++)
-        if ((e->work[t] = rc_alloc(work_size(WIDE), sizeof **e->work)) == NULL) {
-            rc_err_set(err, "out of memory for the flow through %zu x %zu nodes", a->nx, a->ny);
-            rc_elimination_free(e);
-            return NULL;
-        }
+    e->place = rc_store_take(&e->own, nodes + 2, sizeof *e->place);
+    e->kept = rc_store_zeros(&e->own, (size_t)e->order.parts + 1, sizeof *e->kept);
+    e->work = rc_store_zeros(&e->own, (size_t)threads, sizeof *e->work);
+    for (int t = 0; t < threads && e->work != NULL; t++)
+        e->work[t] = rc_store_take(&e->own, work_size(WIDE), sizeof **e->work);
+    if (e->own.failed)
+        return rc_err_null(err, "out of memory for the flow through %zu x %zu nodes", a->nx, a->ny);
     for (size_t k = 0; k < nodes; k++)
         e->place[k] = -1;
     for (int32_t j = 0; j < e->order.n; j++)
         e->place[e->order.node[j]] = j;
     e->place[a->inlet] = e->order.n;
     e->place[a->outlet] = e->order.n + 1;
-    return e;
+    return rc_give(&e);
 }
 
 /* ---- one front ---- */
@@ -488,11 +485,7 @@ rc_elimination_free(struct rc_elimination *e)
         return;
     for (int32_t part = 0; e->kept != NULL && part < e->order.parts; part++)
         free(e->kept[part]);
-    for (int t = 0; e->work != NULL && t < e->threads; t++)
-        free(e->work[t]);
-    free(e->work);
-    free(e->kept);
-    free(e->place);
+    rc_store_free(&e->own);
     free(e->order.node);
     free(e->order.part);
     free(e);

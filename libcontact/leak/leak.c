@@ -29,6 +29,7 @@ struct rc_leak {
     double largest;       /* gap, m                                     */
     int threads;
     struct rc_passage a;
+    struct rc_store own;
     uint8_t *tree;
     struct rc_levels levels; /* pressures of the nodes of the passage; p NAN: no fluid, or
                                 unknown */
@@ -179,11 +180,11 @@ set_figures(struct rc_leak *l, const struct rc_critical *critical)
 static struct rc_leak *
 new_passage(const struct rc_shape *s, const struct rc_leak_options *o, struct rc_err *err)
 {
-    struct rc_leak *l = calloc(1, sizeof *l);
+    RC_OWN(rc_leak, l) = calloc(1, sizeof *l);
     size_t n = s->nx * s->ny;
 
     if (l == NULL)
-        goto failed;
+        return rc_err_null(err, "out of memory for a plan");
     l->shape = *s;
     l->down = o->direction == 'y';
     l->along = l->down ? s->dy : s->dx;
@@ -196,15 +197,12 @@ new_passage(const struct rc_shape *s, const struct rc_leak_options *o, struct rc
                                .outlet = (int32_t)n + 1,
                                .aspect = l->across / l->along,
                                .around = o->around};
-    l->a.g = rc_alloc(n, sizeof *l->a.g);
-    l->a.state = malloc(n);
-    l->tree = malloc(n);
-    if (l->a.g != NULL && l->a.state != NULL && l->tree != NULL)
-        return l;
-failed:
-    rc_err_set(err, "out of memory for the gap of %zu x %zu nodes", s->nx, s->ny);
-    rc_leak_free(l);
-    return NULL;
+    l->a.g = rc_store_take(&l->own, n, sizeof *l->a.g);
+    l->a.state = rc_store_take(&l->own, n, 1);
+    l->tree = rc_store_take(&l->own, n, 1);
+    if (l->own.failed)
+        return rc_err_null(err, "out of memory for the gap of %zu x %zu nodes", s->nx, s->ny);
+    return rc_give(&l);
 }
 
 /* Takes the gap, and finds the percolating path while other threads find the order of elimination. */
@@ -246,15 +244,11 @@ struct rc_leak *
 rc_leak_new(const struct rc_shape *shape, const double *p, const double *g,
             const struct rc_leak_options *options, struct rc_err *err)
 {
-    struct rc_leak *l;
+    RC_OWN(rc_leak, l) = NULL;
 
     if (check(shape, p, g, options, err) != RC_OK || (l = new_passage(shape, options, err)) == NULL)
         return NULL;
-    if (begin(l, p, g, err) != RC_OK) {
-        rc_leak_free(l);
-        return NULL;
-    }
-    return l;
+    return begin(l, p, g, err) == RC_OK ? rc_give(&l) : NULL;
 }
 
 enum rc_status
@@ -431,10 +425,8 @@ rc_leak_free(struct rc_leak *l)
 {
     if (l == NULL)
         return;
-    free(l->a.g);
-    free(l->a.state);
     free(l->levels.p);
-    free(l->tree);
     rc_elimination_free(l->elimination);
+    rc_store_free(&l->own);
     free(l);
 }

@@ -10,6 +10,7 @@
 #include <stdint.h>
 
 #include "libcontact/contact.h"
+#include "libcontact/memory.h"
 
 struct rc_passage {
     size_t nx, ny; /* along the flow, across it                                            */
@@ -163,6 +164,7 @@ enum rc_status rc_elimination_run(struct rc_elimination *e, enum rc_face_rule ru
                                   const struct rc_levels *levels, int32_t keep, double *conductance,
                                   struct rc_err *err);
 void rc_elimination_free(struct rc_elimination *e); /* NULL is allowed */
+RC_OWNER(rc_elimination)
 
 /* ---- bounds.c ---- */
 
