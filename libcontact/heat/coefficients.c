@@ -35,6 +35,7 @@ struct rc_heat_cells {
     size_t n; /* points */
     double *tau, *w;
     struct factor x, y;
+    struct rc_store own;
 };
 
 /* ---- points ---- */
@@ -111,11 +112,11 @@ span_of(size_t n, double d, double p, double tau)
 }
 
 static bool
-factor_new(struct factor *f, const struct rc_heat_cells *c, size_t n, double d, double p)
+factor_new(struct factor *f, struct rc_heat_cells *c, size_t n, double d, double p)
 {
     size_t total = 0;
 
-    if ((f->span = malloc(c->n * sizeof *f->span)) == NULL)
+    if ((f->span = rc_store_take(&c->own, c->n, sizeof *f->span)) == NULL)
         return false;
     for (size_t k = 0; k < c->n; k++) {
         f->span[k] = n == 1 ? (struct span){0, 1, 0} : span_of(n, d, p, c->tau[k]);
@@ -123,7 +124,7 @@ factor_new(struct factor *f, const struct rc_heat_cells *c, size_t n, double d, 
         total += f->span[k].n;
     }
     for (int odd = 0; odd <= (p != 0); odd++)
-        if ((f->v[odd] = rc_alloc(total, sizeof(double))) == NULL)
+        if ((f->v[odd] = rc_store_take(&c->own, total, sizeof(double))) == NULL)
             return false;
     for (size_t k = 0; k < c->n; k++)
         for (size_t i = 0; i < f->span[k].n; i++) {
@@ -137,14 +138,6 @@ factor_new(struct factor *f, const struct rc_heat_cells *c, size_t n, double d, 
     return true;
 }
 
-static void
-factor_free(struct factor *f)
-{
-    free(f->span);
-    free(f->v[0]);
-    free(f->v[1]);
-}
-
 /* ---- the interface ---- */
 
 void
@@ -152,39 +145,31 @@ rc_heat_cells_free(struct rc_heat_cells *c)
 {
     if (c == NULL)
         return;
-    factor_free(&c->x);
-    factor_free(&c->y);
-    free(c->tau);
-    free(c->w);
+    rc_store_free(&c->own);
     free(c);
 }
 
 struct rc_heat_cells *
 rc_heat_cells_new(const struct rc_shape *s, const struct rc_heated *b, struct rc_err *err)
 {
-    struct rc_heat_cells *c = calloc(1, sizeof *c);
-    size_t n;
+    RC_OWN(rc_heat_cells, c) = calloc(1, sizeof *c);
 
     if (c == NULL)
-        goto fail;
+        return rc_err_null(err, "out of memory for a plan");
     add_panels(c, s, b);
-    n = c->n;
-    c->w = malloc(n * sizeof *c->w);
-    c->tau = c->w == NULL ? NULL : malloc(n * sizeof *c->tau);
-    if (c->tau == NULL)
-        goto fail;
-    add_panels(c, s, b);
-    for (size_t k = 0; k < n; k++) {
-        const double z = b->depth / c->tau[k];
-        c->w[k] *= exp(-z * z) / (b->k * sqrt(RC_PI));
+    c->w = rc_store_take(&c->own, c->n, sizeof *c->w);
+    c->tau = c->w == NULL ? NULL : rc_store_take(&c->own, c->n, sizeof *c->tau);
+    if (c->tau != NULL) {
+        add_panels(c, s, b);
+        for (size_t k = 0; k < c->n; k++) {
+            const double z = b->depth / c->tau[k];
+            c->w[k] *= exp(-z * z) / (b->k * sqrt(RC_PI));
+        }
+        if (factor_new(&c->x, c, s->nx, s->dx, b->px) &&
+            factor_new(&c->y, c, s->ny, s->dy, s->ny > 1 ? b->py : 0))
+            return rc_give(&c);
     }
-    if (factor_new(&c->x, c, s->nx, s->dx, b->px) &&
-        factor_new(&c->y, c, s->ny, s->dy, s->ny > 1 ? b->py : 0))
-        return c;
-fail:
-    rc_err_set(err, "out of memory for the temperatures of %zu x %zu cells", s->nx, s->ny);
-    rc_heat_cells_free(c);
-    return NULL;
+    return rc_err_null(err, "out of memory for the temperatures of %zu x %zu cells", s->nx, s->ny);
 }
 
 static void

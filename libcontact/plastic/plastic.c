@@ -906,8 +906,7 @@ rc_plastic_free(struct rc_plastic *p)
     rc_solver_free(p->solver);
     rc_slabs_free(p->slabs);
     rc_voxels_free(&p->voxels);
-    free(p->h); /* with the other maps */
-    free(p->thickness);
+    rc_store_free(&p->own);
     free(p);
 }
 
@@ -945,18 +944,14 @@ make_room(struct rc_plastic *p, const double *h, const struct rc_plastic_problem
 {
     size_t slabs = problem->slabs;
 
-    p->h = rc_alloc(4 * p->n, sizeof *p->h);
-    p->thickness = malloc(slabs * sizeof *p->thickness);
-    if (p->h == NULL || p->thickness == NULL ||
-        rc_voxels_new(&p->voxels, slabs, p->shape.ny) != RC_OK)
+    p->h = rc_store_copy(&p->own, p->n, sizeof *h, h);
+    p->u = rc_store_zeros(&p->own, p->n, sizeof *p->u);
+    p->form = rc_store_take(&p->own, p->n, sizeof *p->form);
+    p->other = rc_store_take(&p->own, p->n, sizeof *p->other);
+    p->thickness = rc_store_copy(&p->own, slabs, sizeof *p->thickness, problem->thickness);
+    if (p->own.failed || rc_voxels_new(&p->voxels, slabs, p->shape.ny) != RC_OK)
         return rc_err_set(err, "out of memory for the plasticity of %zu x %zu nodes", p->shape.nx,
                           p->shape.ny);
-    p->u = p->h + p->n;
-    p->form = p->u + p->n;
-    p->other = p->form + p->n;
-    memcpy(p->h, h, p->n * sizeof *h);
-    memset(p->u, 0, p->n * sizeof *p->u);
-    memcpy(p->thickness, problem->thickness, slabs * sizeof *p->thickness);
     return RC_OK;
 }
 
@@ -967,7 +962,7 @@ rc_plastic_new(const struct rc_shape *shape, const double *h,
     const struct rc_body *one = &problem->contact.pair.one;
     struct rc_problem contact = problem->contact;
     struct rc_progress at;
-    struct rc_plastic *p;
+    RC_OWN(rc_plastic, p) = NULL;
     struct rc_slabs_options options = {.slabs = problem->slabs,
                                        .thickness = problem->thickness,
                                        .shear = one->e / (2 * (1 + one->nu)),
@@ -979,12 +974,8 @@ rc_plastic_new(const struct rc_shape *shape, const double *h,
     contact.hurry = NULL; /* an unfinished contact would change the strain */
     if (rc_plastic_check(problem, err) != RC_OK)
         return NULL;
-    p = calloc(1, sizeof *p);
-    if (p == NULL) {
-        rc_err_set(err, "out of memory for the plasticity of %zu x %zu nodes", shape->nx,
-                   shape->ny);
-        return NULL;
-    }
+    if ((p = calloc(1, sizeof *p)) == NULL)
+        return rc_err_null(err, "out of memory for a plan");
     *p = (struct rc_plastic){.shape = *shape,
                              .n = shape->nx * shape->ny,
                              .threads = rc_useful_threads(shape, contact.threads),
@@ -1005,11 +996,9 @@ rc_plastic_new(const struct rc_shape *shape, const double *h,
         contact.load = 1; /* placeholder; rc_plastic_set_load replaces it */
     if (make_room(p, h, problem, err) != RC_OK ||
         (p->slabs = rc_slabs_new(shape, &options, err)) == NULL ||
-        (p->solver = rc_solver_new(shape, h, &contact, err)) == NULL) {
-        rc_plastic_free(p);
+        (p->solver = rc_solver_new(shape, h, &contact, err)) == NULL)
         return NULL;
-    }
     rc_solver_progress(p->solver, &at);
     p->tol = p->asked_tol = at.tol;
-    return p;
+    return rc_give(&p);
 }

@@ -30,6 +30,7 @@ struct rc_plastic {
     double shear, nu, yield, lag; /* mu, Poisson's ratio, initial yield stress, allowed lag */
     double *h, *u, *form; /* heights, displacement of the surface by e, heights minus that */
     double *thickness;
+    struct rc_store own;
     struct rc_solver *solver;
     struct rc_slabs *slabs;
     struct rc_voxels voxels;
@@ -81,6 +82,7 @@ enum rc_status rc_plastic_step(struct rc_plastic *plastic, struct rc_err *err);
 void rc_plastic_strain(const struct rc_plastic *plastic, size_t slab,
                        double *const e[RC_PLASTIC_STRAINS]);
 void rc_plastic_free(struct rc_plastic *plastic); /* NULL is allowed */
+RC_OWNER(rc_plastic)
 /* Checks that the body can yield. */
 enum rc_status rc_plastic_check(const struct rc_plastic_problem *problem, struct rc_err *err);
 /* Slabs for a body that would yield under the elastic contact pressure p (nx ny, Pa). The first is half a

@@ -78,21 +78,18 @@ static enum rc_status
 collect(const struct rc_shape *s, const double *p, struct bins *b, struct rc_err *err)
 {
     size_t columns = rc_fourier_columns(s);
-    double complex *wave = malloc(rc_fourier_size(s) * sizeof *wave);
+    RC_OWNED double complex *wave = malloc(rc_fourier_size(s) * sizeof *wave);
     struct scan c = scan_of(s, b);
 
     if (wave == NULL)
         return rc_err_set(err, "out of memory for the waves of %zu x %zu nodes", s->nx, s->ny);
-    if (rc_fourier_forward(s, p, wave, err) != RC_OK) {
-        free(wave);
+    if (rc_fourier_forward(s, p, wave, err) != RC_OK)
         return RC_FAIL;
-    }
     for (size_t j = 0; j < s->ny; j++)
         for (size_t i = 0; i < columns; i++) {
             double a = cabs(wave[j * columns + i]);
             collect_wave(&c, i, j, a * a);
         }
-    free(wave);
     return RC_OK;
 }
 
@@ -105,6 +102,7 @@ struct shared {
                                                 column */
     double *part;                            /* a column's real or imaginary part               */
     double *power;                           /* power of all ranks, bin by bin */
+    struct rc_store own;
 };
 
 static void
@@ -113,11 +111,7 @@ shared_free(struct shared *w)
     rc_turn_free(&w->turn);
     rc_line_free(w->along_x);
     rc_line_free(w->along_y);
-    free(w->pieces);
-    free(w->columns);
-    free(w->line);
-    free(w->part);
-    free(w->power);
+    rc_store_free(&w->own);
 }
 
 static enum rc_status
@@ -133,13 +127,12 @@ shared_new(struct shared *w, const struct rc_ranks *ranks, const struct rc_shape
                     err) == RC_OK) {
         rows = w->turn.row[w->turn.own + 1] - w->turn.row[w->turn.own];
         here = w->turn.column[w->turn.own + 1] - w->turn.column[w->turn.own];
-        w->pieces = rc_alloc(rows * columns, sizeof *w->pieces);
-        w->columns = rc_alloc(here * s->ny, sizeof *w->columns);
-        w->line = rc_alloc(2 * most, sizeof *w->line);
-        w->part = rc_alloc(s->ny, sizeof *w->part);
-        w->power = rc_alloc(rc_ranks_count(ranks) * BINS, sizeof *w->power);
-        if (w->along_x != NULL && w->along_y != NULL && w->pieces != NULL && w->columns != NULL &&
-            w->line != NULL && w->part != NULL && w->power != NULL)
+        w->pieces = rc_store_take(&w->own, rows * columns, sizeof *w->pieces);
+        w->columns = rc_store_take(&w->own, here * s->ny, sizeof *w->columns);
+        w->line = rc_store_take(&w->own, 2 * most, sizeof *w->line);
+        w->part = rc_store_take(&w->own, s->ny, sizeof *w->part);
+        w->power = rc_store_take(&w->own, rc_ranks_count(ranks) * BINS, sizeof *w->power);
+        if (w->along_x != NULL && w->along_y != NULL && !w->own.failed)
             status = RC_OK;
         else
             rc_err_set(err, "out of memory for the waves of %zu x %zu nodes", s->nx, s->ny);
@@ -174,13 +167,11 @@ collect_shared(const struct rc_ranks *ranks, const struct rc_shape *s, const dou
 {
     struct rc_rows rows = rc_rows_of(ranks, s);
     struct scan c = scan_of(s, b);
-    struct shared w;
+    RC_ENDS(shared_free) struct shared w;
     size_t first, n;
 
-    if (shared_new(&w, ranks, s, err) != RC_OK) {
-        shared_free(&w);
+    if (shared_new(&w, ranks, s, err) != RC_OK)
         return RC_FAIL;
-    }
     for (size_t j = 0; j < rows.n; j++) {
         rc_line_forward(w.along_x, p + j * s->nx, w.line);
         rc_turn_put(&w.turn, j, w.line, w.pieces);
@@ -196,7 +187,6 @@ collect_shared(const struct rc_ranks *ranks, const struct rc_shape *s, const dou
         for (size_t q = 0; q < rc_ranks_count(ranks); q++)
             b->power[k] += w.power[q * BINS + (size_t)k];
     }
-    shared_free(&w);
     return RC_OK;
 }
 
@@ -323,29 +313,24 @@ rc_stress_depths(const struct rc_ranks *ranks, const struct rc_shape *shape, con
 {
     enum rc_status status = RC_OK;
     struct descent d = {.body = body};
-    struct bins *b;
+    RC_OWNED struct bins *b = malloc(sizeof *b);
+    RC_OWNED double *found = malloc(MOST * sizeof *found);
     double radius, all, left;
 
     *depths = NULL;
     *n = 0;
     if (rc_shape_check(shape, err) != RC_OK)
         return RC_FAIL;
-    b = malloc(sizeof *b);
-    *depths = malloc(MOST * sizeof **depths);
-    if (b == NULL || *depths == NULL)
+    if (b == NULL || found == NULL)
         status = rc_err_set(err, "out of memory for depths");
     status = rc_ranks_agree(ranks, status, err);
     if (status == RC_OK)
         status = rc_ranks_count(ranks) > 1 ? collect_shared(ranks, shape, p, b, err)
                                            : collect(shape, p, b, err);
-    if (status != RC_OK) {
-        free(b);
-        free(*depths);
-        *depths = NULL;
+    if (status != RC_OK)
         return RC_FAIL;
-    }
     radius = contact_radius(ranks, shape, p);
-    d.depths = *depths;
+    d.depths = found;
     d.bottom = in_layer(&d) ? body->layer[0].thickness : INFINITY;
     add(&d, 0);
     wave_number(b, 0, &all);
@@ -360,6 +345,6 @@ rc_stress_depths(const struct rc_ranks *ranks, const struct rc_shape *shape, con
             break;
     }
     *n = d.n;
-    free(b);
+    *depths = rc_give(&found);
     return RC_OK;
 }

@@ -16,6 +16,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "libcontact/memory.h"
+
 enum {
     PARTS = 16 /* partial sums, added in order: the result is the same for any number of threads */
 };
@@ -48,6 +50,7 @@ struct plan {
     size_t scratch_size;
     double complex *sum;      /* `waves` for each part and component */
     struct rc_inside *inside; /* at the depth */
+    struct rc_store own;
 };
 
 static bool
@@ -71,13 +74,11 @@ plan_free(void *at)
         return;
     rc_line_free(plan->line);
     rc_dct_free(plan->dct);
-    free(plan->source);
-    free(plan->place);
-    free(plan->pair);
-    free(plan->scratch);
-    free(plan->sum);
+    rc_store_free(&plan->own);
     free(plan);
 }
+
+RC_OWNER(plan)
 
 static struct plan
 sizes(const struct rc_stress_task *t)
@@ -202,15 +203,14 @@ carries(const struct plan *plan, size_t j)
 }
 
 /* Finds the lines with pressure, the only ones that take memory. */
-static bool
+static void
 place_lines(struct plan *plan)
 {
     plan->lines = 0;
-    plan->place = malloc(plan->m * sizeof *plan->place);
-    plan->pair = malloc(plan->m * sizeof *plan->pair);
+    plan->place = rc_store_take(&plan->own, plan->m, sizeof *plan->place);
+    plan->pair = rc_store_take(&plan->own, plan->m, sizeof *plan->pair);
     for (size_t j = 0; plan->place != NULL && j < plan->m; j++)
         plan->place[j] = carries(plan, j) ? plan->lines++ : nowhere;
-    return plan->place != NULL && plan->pair != NULL;
 }
 
 static enum rc_status
@@ -238,38 +238,28 @@ transform_sources(struct plan *plan, double *v, struct rc_err *err)
 static void *
 plan_new(const struct rc_stress_task *task, struct rc_err *err)
 {
-    struct plan *plan = malloc(sizeof *plan);
-    bool periodic = task->options.boundary == RC_PERIODIC, placed;
+    RC_OWN(plan, plan) = malloc(sizeof *plan);
+    const bool periodic = task->options.boundary == RC_PERIODIC;
+    RC_OWNED double *p = NULL;
     size_t threads;
-    double *p = NULL;
-    enum rc_status status = RC_FAIL;
 
-    if (plan == NULL) {
-        rc_err_set(err, "out of memory for a plan");
-        return NULL;
-    }
+    if (plan == NULL)
+        return rc_err_null(err, "out of memory for a plan");
     *plan = sizes(task);
     threads = (size_t)plan->threads;
     p = malloc(plan->n * plan->m * sizeof *p);
-    placed = periodic || place_lines(plan);
-    plan->source = malloc((task->sources * plan->lines * plan->waves + 1) * sizeof *plan->source);
-    plan->scratch = malloc(threads * plan->scratch_size * sizeof *plan->scratch);
-    plan->sum = malloc(PARTS * RC_COMPONENTS * plan->waves * sizeof *plan->sum);
-    if (p == NULL || !placed || plan->source == NULL || plan->scratch == NULL ||
-        plan->sum == NULL) {
-        rc_err_set(err, "out of memory for a section of %zu x %zu nodes", plan->n, plan->m);
-        goto done;
-    }
+    if (!periodic)
+        place_lines(plan);
+    plan->source = rc_store_take(&plan->own, task->sources * plan->lines * plan->waves + 1,
+                                 sizeof *plan->source);
+    plan->scratch = rc_store_take(&plan->own, threads * plan->scratch_size, sizeof *plan->scratch);
+    plan->sum = rc_store_take(&plan->own, PARTS * RC_COMPONENTS * plan->waves, sizeof *plan->sum);
+    if (p == NULL || plan->own.failed)
+        return rc_err_null(err, "out of memory for a section of %zu x %zu nodes", plan->n, plan->m);
     if ((plan->line = rc_line_new(plan->length, threads, err)) == NULL ||
         (!periodic && (plan->dct = rc_dct_new(plan->waves, threads, err)) == NULL))
-        goto done;
-    status = transform_sources(plan, p, err);
-done:
-    free(p);
-    if (status == RC_OK)
-        return plan;
-    plan_free(plan);
-    return NULL;
+        return NULL;
+    return transform_sources(plan, p, err) == RC_OK ? rc_give(&plan) : NULL;
 }
 
 /* Adds the field of a load on one pair of lines; `k` is the kernel's transform along. */

@@ -94,8 +94,8 @@ rc_strained_new(const struct rc_stress_task *task, struct rc_err *err)
 {
     const struct rc_slabs_options options = slabs_options(&task->options);
     const struct rc_rows rows = rc_rows_of(task->options.ranks, &task->shape);
-    struct rc_strained *p = calloc(1, sizeof *p);
-    bool *strained = calloc(options.slabs, sizeof *strained);
+    RC_OWN(rc_strained, p) = calloc(1, sizeof *p);
+    RC_OWNED bool *strained = calloc(options.slabs, sizeof *strained);
     enum rc_status status = RC_OK;
 
     if (p == NULL || strained == NULL)
@@ -104,14 +104,10 @@ rc_strained_new(const struct rc_stress_task *task, struct rc_err *err)
         *p = (struct rc_strained){.task = task, .shape = rc_rows_shape(&rows, &task->shape)};
         p->slabs = rc_slabs_new(&task->shape, &options, err);
     }
-    if (p == NULL || p->slabs == NULL) {
-        rc_strained_free(p);
-        p = NULL;
-    } else {
-        sweep(p, strained);
-    }
-    free(strained);
-    return p;
+    if (p == NULL || p->slabs == NULL)
+        return NULL;
+    sweep(p, strained);
+    return rc_give(&p);
 }
 
 void

@@ -190,7 +190,7 @@ rc_stress_new(const struct rc_shape *shape, const double *p,
               const struct rc_stress_options *options, struct rc_err *err)
 {
     enum rc_status status = RC_OK;
-    struct rc_stress *stress;
+    RC_OWN(rc_stress, stress) = NULL;
 
     if (rc_stress_check(shape, options, err) != RC_OK)
         return NULL;
@@ -198,10 +198,8 @@ rc_stress_new(const struct rc_shape *shape, const double *p,
         status = rc_err_set(err, "out of memory for a plan");
     else if ((stress->solid = rc_body_type(&options->body)->new (&options->body, err)) == NULL)
         status = RC_FAIL;
-    if (rc_ranks_agree(options->ranks, status, err) != RC_OK) {
-        rc_stress_free(stress);
+    if (rc_ranks_agree(options->ranks, status, err) != RC_OK)
         return NULL;
-    }
     stress->task = task_of(shape, p, stress->solid, options, &stress->counts);
     stress->evaluator = evaluator_of(&stress->task);
     stress->body = options->body;
@@ -210,19 +208,15 @@ rc_stress_new(const struct rc_shape *shape, const double *p,
         if ((stress->task.components & ~options->wanted) >> c & 1 &&
             (stress->own[c] = rc_alloc(stress->values, sizeof *stress->own[c])) == NULL)
             status = rc_err_set(err, "out of memory for %zu values of a stress", stress->values);
-    if (rc_ranks_agree(options->ranks, status, err) != RC_OK) {
-        rc_stress_free(stress);
+    if (rc_ranks_agree(options->ranks, status, err) != RC_OK)
         return NULL;
-    }
     if ((stress->plan = stress->evaluator->new (&stress->task, err)) == NULL ||
         (options->strain != NULL &&
-         (stress->strained = rc_strained_new(&stress->task, err)) == NULL)) {
-        rc_stress_free(stress);
+         (stress->strained = rc_strained_new(&stress->task, err)) == NULL))
         return NULL;
-    }
     if (stress->strained != NULL)
         rc_strained_count(stress->strained, &stress->counts);
-    return stress;
+    return rc_give(&stress);
 }
 
 void

@@ -55,6 +55,7 @@ struct rc_strained;
 enum rc_status rc_strained_check(const struct rc_stress_options *options, struct rc_err *err);
 struct rc_strained *rc_strained_new(const struct rc_stress_task *task, struct rc_err *err);
 void rc_strained_free(struct rc_strained *strained); /* NULL is allowed */
+RC_OWNER(rc_strained)
 /* Adds it to the components at this depth, a map or a line of each; NULL: not needed. */
 void rc_strained_add(struct rc_strained *strained, double depth, double *const to[RC_COMPONENTS]);
 /* The transforms so far. */

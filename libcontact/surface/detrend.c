@@ -57,6 +57,7 @@ struct fit {
     double *lines;           /* memory for each thread: e, w and w e of a row */
     gsl_matrix *normal;
     gsl_vector *scale, *right;
+    struct rc_store own;
 };
 
 static size_t
@@ -87,11 +88,11 @@ rc_box_of(const struct rc_shape *shape, const double *h)
 
 /* T_0 ... T_(orders-1) at the n nodes of a side, first..last being -1..1. */
 static double *
-chebyshev(size_t orders, size_t n, size_t first, size_t last)
+chebyshev(struct rc_store *own, size_t orders, size_t n, size_t first, size_t last)
 {
     double middle = 0.5 * ((double)first + (double)last);
     double half = last > first ? 0.5 * (double)(last - first) : 1;
-    double *p = rc_alloc(n, orders * sizeof *p);
+    double *p = rc_store_take(own, n, orders * sizeof *p);
 
     for (size_t i = 0; i < n && p != NULL; i++) {
         double s = ((double)i - middle) / half, before = s, now = 1;
@@ -111,13 +112,7 @@ fit_free(struct fit *f)
     gsl_matrix_free(f->normal);
     gsl_vector_free(f->scale);
     gsl_vector_free(f->right);
-    free(f->px);
-    free(f->py);
-    free(f->c);
-    free(f->residual);
-    free(f->rows);
-    free(f->of_weights);
-    free(f->lines);
+    rc_store_free(&f->own);
 }
 
 static size_t
@@ -136,20 +131,18 @@ fit_allocate(struct fit *f, const struct rc_box *box, bool robust, struct rc_err
 {
     const struct rc_shape *s = f->shape;
 
-    f->px = chebyshev(f->nx_orders, s->nx, box->left, box->right);
-    f->py = chebyshev(f->ny_orders, s->ny, box->top, box->bottom);
-    f->c = calloc(2 * f->terms, sizeof *f->c);
-    f->rows = rc_alloc(ROWS, row_sums(f) * sizeof *f->rows);
-    f->of_weights = rc_alloc(row_sums(f), f->ny_orders * sizeof *f->of_weights);
-    f->lines = rc_alloc(s->nx, 3 * (size_t)f->threads * sizeof *f->lines);
+    f->px = chebyshev(&f->own, f->nx_orders, s->nx, box->left, box->right);
+    f->py = chebyshev(&f->own, f->ny_orders, s->ny, box->top, box->bottom);
+    f->c = rc_store_zeros(&f->own, 2 * f->terms, sizeof *f->c);
+    f->rows = rc_store_take(&f->own, ROWS, row_sums(f) * sizeof *f->rows);
+    f->of_weights = rc_store_take(&f->own, row_sums(f), f->ny_orders * sizeof *f->of_weights);
+    f->lines = rc_store_take(&f->own, s->nx, 3 * (size_t)f->threads * sizeof *f->lines);
     f->normal = gsl_matrix_alloc(f->terms, f->terms);
     f->scale = gsl_vector_alloc(f->terms);
     f->right = gsl_vector_alloc(f->terms);
     if (robust)
-        f->residual = rc_alloc(s->nx * s->ny, sizeof *f->residual);
-    if (f->px == NULL || f->py == NULL || f->c == NULL || f->rows == NULL ||
-        f->of_weights == NULL || f->lines == NULL || f->normal == NULL || f->scale == NULL ||
-        f->right == NULL || (robust && f->residual == NULL))
+        f->residual = rc_store_take(&f->own, s->nx * s->ny, sizeof *f->residual);
+    if (f->own.failed || f->normal == NULL || f->scale == NULL || f->right == NULL)
         return rc_err_set(err, "out of memory for a polynomial of degree %zu", f->degree);
     f->step = f->c + f->terms;
     f->of_residuals = f->of_weights + f->nx_orders * f->ny_orders;
