@@ -11,7 +11,7 @@
 #include "grid.h"
 
 /* Before a declaration: f(&variable) is called at the end of its scope. */
-#define RC_ENDS(f) __attribute__((cleanup(f)))
+#define RC_ENDS(f) __attribute__((cleanup(f), unused))
 /* Memory of malloc or rc_alloc: RC_OWNED double *v = malloc(n * sizeof *v); */
 #define RC_OWNED RC_ENDS(rc_release)
 /* A handle: RC_OWN(rc_grid, g) = rc_grid_new(...); declares struct rc_grid *g. */

@@ -66,7 +66,7 @@ find_others(const struct rc_field *f, size_t k, size_t n, unsigned char *restric
         const uint32_t *beyond = hill + by;
         for (size_t i = 0; i < n; i++) {
             double z = sign * h[i], up = sign * above[i];
-            higher[i] += (up > z) | ((up == z) & first) | !rc_there(up) ? bit : 0;
+            higher[i] += ((up > z) | ((up == z) & first) | !rc_there(up)) ? bit : 0;
         }
         for (size_t i = 0; i < n; i++)
             differs[i] |= hill[i] != beyond[i] ? 1U << d : 0;

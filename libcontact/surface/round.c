@@ -266,7 +266,7 @@ add_sums(size_t n, size_t unknowns, const size_t *column, double *restrict e, do
 #pragma omp simd reduction(+ : outside)
     for (size_t i = 0; i < n; i++) {
         bool there = e[i] == e[i];
-        outside += !there & (w[i] > 0) ? 1 : 0;
+        outside += (!there & (w[i] > 0)) ? 1 : 0;
         w[i] = there ? w[i] : 0;
         e[i] = there ? e[i] : 0;
     }
