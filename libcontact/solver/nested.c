@@ -149,28 +149,23 @@ coarse_map(const struct rc_solver *s, const double *map, const struct rc_shape *
            const struct rc_rows *rows)
 {
     const struct rc_ranks *ranks = s->posed.rows.ranks;
-    double *h = rc_alloc(rows_under(&s->posed.rows) * shape->nx, sizeof *h), *own = NULL;
-    struct dealt d = {NULL, NULL};
+    RC_OWNED double *h = rc_alloc(rows_under(&s->posed.rows) * shape->nx, sizeof *h);
+    RC_OWNED double *own = NULL;
+    RC_ENDS(dealt_free) struct dealt d = {NULL, NULL};
     bool fine = h != NULL;
 
     if (ranks != NULL) {
         own = rc_alloc(rows->n * shape->nx, sizeof *own);
         fine = deal(&s->posed, rows, &d) && fine && own != NULL;
     }
-    if (rc_ranks_agree(s->posed.all, fine ? RC_OK : RC_FAIL, NULL) != RC_OK) {
-        free(h);
-        free(own);
-        dealt_free(&d);
+    if (rc_ranks_agree(s->posed.all, fine ? RC_OK : RC_FAIL, NULL) != RC_OK)
         return NULL;
-    }
     coarsen(&s->posed, map, shape->nx, h);
     if (ranks == NULL)
-        return h;
+        return rc_give(&h);
     rc_ranks_move(ranks, shape->nx * sizeof *h, d.under, rows->ranks == NULL ? NULL : d.own, 0, h,
                   own);
-    dealt_free(&d);
-    free(h);
-    return own;
+    return rc_give(&own);
 }
 
 /* Returns the rows of a coarse map that cover the fine rows held here. Where several ranks share the coarse
@@ -180,7 +175,7 @@ map_under(const struct rc_solver *s, const struct rc_solver *c, const double *ma
 {
     const struct rc_ranks *ranks = s->posed.rows.ranks;
     size_t nx = c->posed.whole.nx;
-    struct dealt d;
+    RC_ENDS(dealt_free) struct dealt d = {NULL, NULL};
     bool fine;
 
     *room = NULL;
@@ -192,7 +187,6 @@ map_under(const struct rc_solver *s, const struct rc_solver *c, const double *ma
         rc_ranks_move(ranks, nx * sizeof **room, d.own, d.under, 0, map, *room);
     else
         fine = false;
-    dealt_free(&d);
     if (!fine) {
         free(*room);
         *room = NULL;
@@ -228,17 +222,17 @@ coarse_new(const struct rc_solver *s, bool *sought)
                                  .hurry = s->posed.hurry};
     struct rc_rows rows = rc_rows_of(problem.ranks, &shape);
     const double *fine_highs = s->posed.bounds.box.highs;
-    double *h = coarse_map(s, s->posed.h, &shape, &rows), *highs = NULL, lower;
-    struct rc_solver *c;
+    RC_OWNED double *h = coarse_map(s, s->posed.h, &shape, &rows);
+    RC_OWNED double *highs = NULL;
+    RC_OWN(rc_solver, c) = NULL;
+    double lower;
 
     /* The bound of a coarse node is the mean of the bounds of its four nodes. If one of them has no bound,
      * the coarse node has none. */
     if (h != NULL && fine_highs != NULL)
         highs = coarse_map(s, fine_highs, &shape, &rows);
-    if (h == NULL || (fine_highs != NULL && highs == NULL)) {
-        free(h);
+    if (h == NULL || (fine_highs != NULL && highs == NULL))
         return NULL;
-    }
     rc_bounds_pose(&s->posed.bounds, highs, &problem);
     lower = -largest(rows.ranks, h, rows.n * shape.nx); /* the largest fine height is 0 */
     rc_tilt_pose(s, &problem);
@@ -248,12 +242,8 @@ coarse_new(const struct rc_solver *s, bool *sought)
     if (*sought)
         problem.approach = s->load.target - lower;
     c = rc_solver_coarse(s, &shape, h, &problem, NULL);
-    free(h);
-    free(highs);
-    if (rc_ranks_agree(s->posed.all, c == NULL ? RC_FAIL : RC_OK, NULL) == RC_OK)
-        return c;
-    rc_solver_free(c);
-    return NULL;
+    return rc_ranks_agree(s->posed.all, c == NULL ? RC_FAIL : RC_OK, NULL) == RC_OK ? rc_give(&c)
+                                                                                    : NULL;
 }
 
 /* ---- up ---- */
@@ -447,17 +437,14 @@ static void
 refine(struct rc_solver *s, struct rc_solver *c)
 {
     bool known = c->it.known && !rc_solver_hurried(s); /* repeating takes half the time */
-    struct known k;
+    RC_ENDS(known_free) struct known k;
 
-    if (!known_under(s, c, &k)) {
-        known_free(&k);
+    if (!known_under(s, c, &k))
         return;
-    }
 #pragma omp parallel for num_threads(s->posed.threads) schedule(static)
     for (size_t j = 0; j < k.rows; j++)
         for (size_t i = 0; i < k.nx; i += MANY)
             refine_some(s, &k, known ? rc_low(rc_box(s, 0), 0) : INFINITY, i, j);
-    known_free(&k);
     if (fabs(rc_iterate_carried(s) - s->load.sum) <= 1e-14 * s->load.sum)
         return;
     /* an odd line was counted twice; if nodes have to join, the highest joins first */

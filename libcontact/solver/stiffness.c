@@ -143,7 +143,6 @@ system_free(struct system *c)
     free(c->t);
     free(c->d);
     free(c->q);
-    *c = (struct system){.s = c->s};
 }
 
 static enum rc_status
@@ -158,11 +157,7 @@ system_new(struct system *c, struct rc_solver *s, struct rc_err *err)
     c->q = rc_alloc(n, sizeof *c->q);
     if (c->t == NULL || c->d == NULL || c->q == NULL)
         status = rc_err_set(err, "out of memory for the stiffness of %zu nodes", n);
-    if (rc_ranks_agree(s->posed.rows.ranks, status, err) != RC_OK) {
-        system_free(c);
-        return RC_FAIL;
-    }
-    return RC_OK;
+    return rc_ranks_agree(s->posed.rows.ranks, status, err);
 }
 
 static enum rc_status
@@ -256,7 +251,7 @@ free_to_turn(double k[3][3])
 enum rc_status
 rc_solver_stiffness(struct rc_solver *s, double *stiffness, struct rc_err *err)
 {
-    struct system c;
+    RC_ENDS(system_free) struct system c = {0};
     double k[3][3];
 
     *stiffness = NAN;
@@ -266,7 +261,6 @@ rc_solver_stiffness(struct rc_solver *s, double *stiffness, struct rc_err *err)
         *stiffness = stiffness_of(&c, false);
     else if (turning(&c, k))
         *stiffness = free_to_turn(k) * s->posed.cell;
-    system_free(&c);
     return RC_OK;
 }
 
@@ -302,8 +296,9 @@ energy_block(void *at, size_t first, size_t n, double *sums)
 static enum rc_status
 bound_below(struct rc_solver *s, const float *t, double *bound, struct rc_err *err)
 {
-    struct bound b = {
-        .t = t, .p = rc_alloc(s->posed.n, sizeof *b.p), .u = rc_alloc(s->posed.n, sizeof *b.u)};
+    RC_OWNED double *p = rc_alloc(s->posed.n, sizeof *p);
+    RC_OWNED double *u = rc_alloc(s->posed.n, sizeof *u);
+    struct bound b = {t, p, u};
     enum rc_status status = RC_OK;
     double total[RC_SUMS];
 
@@ -318,8 +313,6 @@ bound_below(struct rc_solver *s, const float *t, double *bound, struct rc_err *e
         rc_reduce_blocks(s, energy_block, &b, total);
         *bound = total[0] * total[0] / total[1] * s->posed.cell / (1 + s->op->error);
     }
-    free(b.p);
-    free(b.u);
     return status;
 }
 
@@ -329,7 +322,7 @@ rc_solver_conductance(struct rc_solver *s, double k1, double k2, struct rc_condu
 {
     double stiffness, lower = NAN, per_stiffness;
     enum rc_status status = RC_OK;
-    struct system c;
+    RC_ENDS(system_free) struct system c = {0};
 
     *found = (struct rc_conductance){NAN, NAN, NAN};
     if (!(k1 > 0) || !(k2 > 0) || isinf(k1) || isinf(k2))
@@ -338,15 +331,13 @@ rc_solver_conductance(struct rc_solver *s, double k1, double k2, struct rc_condu
     if (check_judged(s, err) != RC_OK || system_new(&c, s, err) != RC_OK)
         return RC_FAIL;
     if (!isnan(s->op->estar) && !isnan(stiffness = stiffness_of(&c, true))) {
-        float *t = c.t;
-        c.t = NULL;
-        system_free(&c);
-        status = bound_below(s, t, &lower, err);
+        free(c.d); /* the bound takes the memory */
+        free(c.q);
+        c.d = c.q = NULL;
+        status = bound_below(s, c.t, &lower, err);
         per_stiffness = 2 / (s->op->estar * (1 / k1 + 1 / k2));
         *found = (struct rc_conductance){stiffness, per_stiffness * fmax(stiffness, lower),
                                          per_stiffness * lower};
-        free(t);
     }
-    system_free(&c);
     return status;
 }
