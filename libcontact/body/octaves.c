@@ -68,7 +68,7 @@ fit(const double t[TERMS], double v[TERMS], double out[TERMS])
 struct rc_octaves *
 rc_octaves_new(double first, double last, rc_octaves_of *f, const void *ctx)
 {
-    struct rc_octaves *o = calloc(1, sizeof *o);
+    RC_OWN(rc_octaves, o) = calloc(1, sizeof *o);
     double t[TERMS], v[TERMS], in;
 
     if (o == NULL)
@@ -77,10 +77,8 @@ rc_octaves_new(double first, double last, rc_octaves_of *f, const void *ctx)
     o->ctx = ctx;
     o->first = piece_of(first, &in);
     o->n = (size_t)(piece_of(last, &in) - o->first + 1);
-    if ((o->piece = rc_alloc(o->n, sizeof *o->piece)) == NULL) {
-        free(o);
+    if ((o->piece = rc_alloc(o->n, sizeof *o->piece)) == NULL)
         return NULL;
-    }
     for (int k = 0; k < TERMS; k++)
         t[k] = cos(RC_PI * (k + 0.5) / TERMS) / 2;
     for (size_t n = 0; n < o->n; n++) {
@@ -89,7 +87,7 @@ rc_octaves_new(double first, double last, rc_octaves_of *f, const void *ctx)
             v[k] = f(ctx, from + (t[k] + 0.5) * (to - from));
         fit(t, v, o->piece[n]);
     }
-    return o;
+    return rc_give(&o);
 }
 
 void

@@ -72,37 +72,30 @@ scratch_size(const struct rc_mlms *m)
 /* ---- plan ---- */
 
 static void
-plan_free(void *at)
+rc_mlms_free(void *at)
 {
     struct rc_mlms *m = at;
 
     if (m == NULL)
         return;
-    for (size_t q = 0; q <= m->d.levels; q++) {
-        struct rc_mlms_level *l = &m->level[q];
-        rc_mlms_stencils_free(l);
-        free(l->p);
-        free(l->u);
-        free(l->loaded);
-    }
+    for (size_t q = 0; q <= m->d.levels; q++)
+        rc_mlms_stencils_free(&m->level[q]);
     rc_direct_free(m->direct);
-    free(m->scratch);
-    free(m->scratch_memory);
+    rc_store_free(&m->own);
     free(m);
 }
+
+RC_OWNER(rc_mlms)
 
 static bool
 allocate_scratch(struct rc_mlms *m)
 {
     size_t size = scratch_size(m), threads = (size_t)m->d.threads;
-    double *at;
+    double *at = rc_store_zeros(&m->own, threads * size, sizeof *at);
 
-    m->scratch = calloc(threads, sizeof *m->scratch);
-    m->scratch_memory = aligned_alloc(64, threads * size * sizeof(double));
-    if (m->scratch == NULL || m->scratch_memory == NULL)
+    m->scratch = rc_store_zeros(&m->own, threads, sizeof *m->scratch);
+    if (m->own.failed)
         return false;
-    memset(m->scratch_memory, 0, threads * size * sizeof(double));
-    at = m->scratch_memory;
     for (size_t k = 0; k < threads; k++) {
         struct rc_mlms_scratch *w = &m->scratch[k];
         for (int c = 0; c < 4; c++, at += m->plane_size)
@@ -127,12 +120,12 @@ allocate_levels(struct rc_mlms *m, const struct rc_sum *sum)
         struct rc_mlms_level *l = &m->level[q];
         size_t n = m->d.axis[q][RC_X].n * m->d.axis[q][RC_Y].n;
         l->axis = m->d.axis[q];
-        if ((l->loaded = calloc(tiles(l->axis), 1)) == NULL)
-            return false;
-        if (q > 0 &&
-            ((l->p = calloc(n, sizeof *l->p)) == NULL || (l->u = calloc(n, sizeof *l->u)) == NULL))
-            return false;
-        if (q < m->d.levels && !rc_mlms_stencils(m, sum, q))
+        l->loaded = rc_store_zeros(&m->own, tiles(l->axis), 1);
+        if (q > 0) {
+            l->p = rc_store_zeros(&m->own, n, sizeof *l->p);
+            l->u = rc_store_zeros(&m->own, n, sizeof *l->u);
+        }
+        if (m->own.failed || (q < m->d.levels && !rc_mlms_stencils(m, sum, q)))
             return false;
     }
     return true;
@@ -141,39 +134,28 @@ allocate_levels(struct rc_mlms *m, const struct rc_sum *sum)
 static void *
 plan_new(const struct rc_sum *sum, struct rc_err *err)
 {
-    struct rc_mlms *m = calloc(1, sizeof *m);
+    RC_OWN(rc_mlms, m) = calloc(1, sizeof *m);
     struct rc_lattice lattice;
     const struct rc_mlms_axis *last;
     unsigned parity = sum->kernel.parity;
 
-    if (m == NULL) {
-        rc_err_set(err, "out of memory for a plan");
+    if (m == NULL)
+        return rc_err_null(err, "out of memory for a plan");
+    if (!rc_mlms_design(sum, &m->d, err))
         return NULL;
-    }
-    if (!rc_mlms_design(sum, &m->d, err)) {
-        free(m);
-        return NULL;
-    }
     m->sign[RC_X] = parity & RC_ODD_X ? -1 : 1;
     m->sign[RC_Y] = parity & RC_ODD_Y ? -1 : 1;
     m->simd = rc_simd();
     rc_mlms_weights(m->d.t, m->s);
     set_sizes(m);
-    if (!allocate_levels(m, sum) || !allocate_scratch(m)) {
-        rc_err_set(err, "out of memory for the multi-level sum over %zu x %zu nodes", sum->shape.nx,
-                   sum->shape.ny);
-        plan_free(m);
-        return NULL;
-    }
+    if (!allocate_levels(m, sum) || !allocate_scratch(m))
+        return rc_err_null(err, "out of memory for the multi-level sum over %zu x %zu nodes",
+                           sum->shape.nx, sum->shape.ny);
     last = m->d.axis[m->d.levels];
     lattice = (struct rc_lattice){sum->shape.dx, sum->shape.dy, last[RC_X].step, last[RC_Y].step};
     m->direct = rc_direct_new(sum, &lattice, last[RC_X].n, last[RC_Y].n,
                               m->d.levels == 0 ? m->d.threads : 1, err);
-    if (m->direct == NULL) {
-        plan_free(m);
-        return NULL;
-    }
-    return m;
+    return m->direct != NULL ? rc_give(&m) : NULL;
 }
 
 /* ---- apply ---- */
@@ -266,5 +248,5 @@ const struct rc_engine rc_engine_mlms = {
     .new = plan_new,
     .apply = apply,
     .error = error,
-    .free = plan_free,
+    .free = rc_mlms_free,
 };

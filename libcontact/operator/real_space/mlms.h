@@ -21,6 +21,7 @@
 #define RC_MLMS_H
 
 #include "direct.h"
+#include "libcontact/memory.h"
 #include "simd.h"
 
 enum {
@@ -95,7 +96,7 @@ struct rc_mlms {
     size_t plane_stride, plane_size, out_stride, out_size; /* doubles, enough on every level */
     size_t ring_size, mid_stride, mid_size, zeros_size, out_lead;
     struct rc_mlms_scratch *scratch;
-    void *scratch_memory; /* memory of all threads */
+    struct rc_store own;
 };
 
 /* mlms_design.c */
