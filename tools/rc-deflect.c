@@ -78,14 +78,13 @@ static size_t
 memory_by(const void *ctx, const char *engine)
 {
     const struct demand *d = ctx;
-    const struct rc_shape shape = rc_grid_shape(d->p);
     struct rc_conv_options options = *d->options;
     const struct rc_engine_info *e;
     const char *reason, *name;
     double bytes = sizeof *d->p->v;
 
     options.engine = engine;
-    name = rc_conv_choice(&shape, &options, &reason);
+    name = rc_conv_choice(rc_shape_of(d->p), &options, &reason);
     for (size_t k = 0; (e = rc_engine_info(k)) != NULL; k++)
         if (strcmp(e->name, name) == 0) {
             if (e->mixed && !(options.tol >= RC_SINGLE_FLOOR))
@@ -110,7 +109,6 @@ demand_memory(struct tool *t, const struct rc_grid *p, const struct rc_conv_opti
 static void
 do_case(struct tool *t, const struct rc_grid *p)
 {
-    struct rc_shape shape = rc_grid_shape(p);
     struct rc_conv_options options = {.boundary = contact_boundary(t, p, args.periodic),
                                       .engine = args.kernel,
                                       .tol = isnan(args.tol) ? 0 : args.tol,
@@ -127,7 +125,7 @@ do_case(struct tool *t, const struct rc_grid *p)
 
     tool_demand_finite(t, p, "recompute the map");
     demand_memory(t, p, &options);
-    conv = tool_made(t, p, rc_conv_new(&shape, &pair, &options, &t->err));
+    conv = tool_made(t, p, rc_conv_new(rc_shape_of(p), &pair, &options, &t->err));
     tool_note(t, "summed by %s, because %s; error at most %.1e of the sum of |K| |p|",
               rc_conv_engine(conv), rc_conv_reason(conv), rc_conv_error(conv));
     u = rc_grid_like(p, "displacement", "m", &t->err);

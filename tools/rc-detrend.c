@@ -44,13 +44,12 @@ end_period(struct tool *t, struct rc_grid *g, struct rc_err *err)
 static enum rc_status
 remove_form(struct tool *t, struct rc_grid *g, struct rc_form form, struct rc_err *err)
 {
-    struct rc_shape shape = rc_grid_shape(g);
     const char *where = tool_where(t, g);
     double radius;
 
     form.robust = args.robust;
     form.threads = t->threads;
-    if (rc_detrend_form(&shape, &form, g->v, &radius, err) != RC_OK)
+    if (rc_detrend_form(rc_shape_of(g), &form, g->v, &radius, err) != RC_OK)
         return RC_FAIL;
     if (form.kind != RC_POLYNOMIAL) {
         tool_note(t, "%s: a %s of radius %sm", where, radius > 0 ? "bump" : "hollow",
@@ -79,9 +78,7 @@ poly(struct tool *t, struct rc_grid *g, double degree, struct rc_err *err)
 static enum rc_status
 rows(struct tool *t, struct rc_grid *g, double degree, struct rc_err *err)
 {
-    struct rc_shape shape = rc_grid_shape(g);
-
-    if (rc_detrend_rows(&shape, (size_t)degree, args.robust, g->v, err) != RC_OK)
+    if (rc_detrend_rows(rc_shape_of(g), (size_t)degree, args.robust, g->v, err) != RC_OK)
         return RC_FAIL;
     return degree > 0 ? end_period(t, g, err) : RC_OK;
 }
@@ -103,14 +100,13 @@ cylinder(struct tool *t, struct rc_grid *g, double value, struct rc_err *err)
 static enum rc_status
 filter(struct tool *t, struct rc_grid *g, double cutoff, bool high, struct rc_err *err)
 {
-    struct rc_shape shape = rc_grid_shape(g);
     const struct rc_filter what = {.cutoff = cutoff,
                                    .high = high,
                                    .robust = args.robust,
                                    .periodic = is_periodic(g),
                                    .threads = t->threads};
 
-    return rc_filter(&shape, &what, g->v, err);
+    return rc_filter(rc_shape_of(g), &what, g->v, err);
 }
 
 static enum rc_status
@@ -139,11 +135,10 @@ add_to_key(struct rc_grid *g, const char *key, size_t count, struct rc_err *err)
 static enum rc_status
 outliers(struct tool *t, struct rc_grid *g, double times, struct rc_err *err)
 {
-    struct rc_shape shape = rc_grid_shape(g);
     size_t count, nodes = g->nx * g->ny;
     const char *where = tool_where(t, g);
 
-    if (rc_outliers(&shape, times, is_periodic(g), t->threads, g->v, &count, err) != RC_OK)
+    if (rc_outliers(rc_shape_of(g), times, is_periodic(g), t->threads, g->v, &count, err) != RC_OK)
         return RC_FAIL;
     t->missing = true;
     tool_note(t, "%s: %zu of %zu points are outliers", where, count, nodes);
@@ -240,13 +235,12 @@ count_missing(const struct rc_grid *g)
 static enum rc_status
 warn_of_holes(struct tool *t, const struct rc_grid *g, size_t missing, struct rc_err *err)
 {
-    struct rc_shape shape = rc_grid_shape(g);
     size_t nodes = g->nx * g->ny;
     double width;
 
     if ((double)missing <= filled_much * (double)nodes || missing == nodes || t->quiet)
         return RC_OK;
-    if (rc_hole_width(&shape, g->v, &width, err) != RC_OK)
+    if (rc_hole_width(rc_shape_of(g), g->v, &width, err) != RC_OK)
         return RC_FAIL;
     tool_warn(t,
               "%s: %.3g %% of the points were missing (%zu of %zu) and are filled from their "
@@ -259,13 +253,12 @@ warn_of_holes(struct tool *t, const struct rc_grid *g, size_t missing, struct rc
 static enum rc_status
 fill(struct tool *t, struct rc_grid *g, double value, struct rc_err *err)
 {
-    struct rc_shape shape = rc_grid_shape(g);
     size_t filled, nodes = g->nx * g->ny, missing = count_missing(g);
 
     (void)value;
     if (warn_of_holes(t, g, missing, err) != RC_OK)
         return RC_FAIL;
-    if (rc_inpaint(&shape, g->v, &filled, err) != RC_OK)
+    if (rc_inpaint(rc_shape_of(g), g->v, &filled, err) != RC_OK)
         return RC_FAIL;
     tool_note(t, "%s: %zu of %zu points filled", tool_where(t, g), filled, nodes);
     return add_to_key(g, "filled", filled, err);

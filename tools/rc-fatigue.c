@@ -283,9 +283,7 @@ lines_of(const struct run *run)
 static size_t
 columns_of(const struct run *run)
 {
-    const struct rc_shape shape = rc_grid_shape(run->position[0].p);
-
-    return rc_fatigue_shape(&shape, &run->problem).nx;
+    return rc_fatigue_shape(rc_shape_of(run->position[0].p), &run->problem).nx;
 }
 
 static void
@@ -574,13 +572,12 @@ static double
 expect(struct run *run, const struct rc_shape *result)
 {
     const struct rc_grid *first = run->position[0].p;
-    const struct rc_shape shape = rc_grid_shape(first);
     double began = tool_now(), made;
     struct rc_fatigue *f;
 
     if (run->needs > tool_memory_left(&run->t))
         return NAN;
-    f = tool_made(&run->t, first, rc_fatigue_new(&shape, &run->problem, &run->t.err));
+    f = tool_made(&run->t, first, rc_fatigue_new(rc_shape_of(first), &run->problem, &run->t.err));
     for (int c = 0; c < RC_FATIGUES; c++)
         run->frame[c] = wanted(c) ? new_frame(run, result, c) : NULL;
     made = tool_now();

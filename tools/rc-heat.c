@@ -390,13 +390,13 @@ judge(struct run *run, const struct rc_grid *g, const struct rc_heat_figures *f)
 static void
 show_plan(struct run *run, const struct rc_grid *g)
 {
-    const struct rc_shape shape = rc_grid_shape(g);
     struct rc_expected expected;
     size_t below = 0;
 
     for (size_t k = 0; k < args.depths.n && (args.output & 3) != 0; k++)
         below += args.depths.v[k] > 0;
-    tool_must(&run->t, g, rc_heat_expect(&shape, &run->problem, below, &expected, &run->t.err));
+    tool_must(&run->t, g,
+              rc_heat_expect(rc_shape_of(g), &run->problem, below, &expected, &run->t.err));
     course_show(&run->t, g, expected);
     free(run->touch);
     run->touch = NULL;
@@ -405,7 +405,6 @@ show_plan(struct run *run, const struct rc_grid *g)
 static void
 do_case(struct run *run, struct rc_grid *g)
 {
-    const struct rc_shape shape = rc_grid_shape(g);
     const double began = tool_now();
     enum rc_status status;
     struct rc_heat *h;
@@ -415,7 +414,8 @@ do_case(struct run *run, struct rc_grid *g)
         show_plan(run, g);
         return;
     }
-    h = tool_made(&run->t, g, rc_heat_new(&shape, &run->problem, g->v, run->touch, &run->t.err));
+    h = tool_made(&run->t, g,
+                  rc_heat_new(rc_shape_of(g), &run->problem, g->v, run->touch, &run->t.err));
     while ((status = rc_heat_step(h, &run->t.err)) == RC_MORE)
         tool_progress(&run->t, NAN, "temperatures of %zu x %zu nodes", g->nx, g->ny);
     tool_progress_end(&run->t);

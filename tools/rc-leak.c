@@ -195,7 +195,6 @@ do_case(struct run *run, const struct rc_grid *gap)
                           .rough = args.sliding.n > 1 ? args.sliding.v[1] : 0};
     const struct rc_leak_options options = {
         .direction = c.direction, .around = c.around, .threads = run->t.threads};
-    struct rc_shape shape = rc_grid_shape(gap);
     const struct rc_grid *touch;
     double began = tool_now();
     struct rc_leak *leak;
@@ -206,9 +205,9 @@ do_case(struct run *run, const struct rc_grid *gap)
         show_plan(run, &c);
         return;
     }
-    leak = tool_made(
-        &run->t, gap,
-        rc_leak_new(&shape, touch == NULL ? NULL : touch->v, gap->v, &options, &run->t.err));
+    leak = tool_made(&run->t, gap,
+                     rc_leak_new(rc_shape_of(gap), touch == NULL ? NULL : touch->v, gap->v,
+                                 &options, &run->t.err));
     c.figures = rc_leak_result(leak);
     c.setup = tool_now() - began;
     solve(run, &c, leak);

@@ -124,8 +124,6 @@ check_arguments(struct run *run)
 static void
 set_options(struct run *run, const struct rc_grid *p)
 {
-    struct rc_shape shape = rc_grid_shape(p);
-
     stress_input_read(&run->t, p, &args.asked, &run->input, &run->options);
     run->options.wanted = (unsigned)args.components;
     if (stress_strain_whole(&run->t, p, &run->strain)) {
@@ -138,7 +136,7 @@ set_options(struct run *run, const struct rc_grid *p)
         tool_die_at(&run->t, p, EXIT_IMPOSSIBLE,
                     "--residual: the case has no plastic strain: see rc-solve --yield and --output "
                     "strain, or --layer for a residual stress of layers");
-    tool_must(&run->t, p, rc_stress_check(&shape, &run->options, &run->t.err));
+    tool_must(&run->t, p, rc_stress_check(rc_shape_of(p), &run->options, &run->t.err));
 }
 
 static void
@@ -307,14 +305,13 @@ plan_case(struct run *run, const struct rc_grid *p)
 static void
 do_case(struct run *run, const struct rc_grid *p)
 {
-    struct rc_shape shape = rc_grid_shape(p);
     struct rc_stress *stress;
 
     tool_must(&run->t, p,
               stress_report_begin(&run->report, p, &run->options, &run->depths,
                                   report_wanted(&run->out), &run->t.err));
     tool_demand_memory(&run->t, p, memory_for(run, p));
-    stress = tool_made(&run->t, p, rc_stress_new(&shape, p->v, &run->options, &run->t.err));
+    stress = tool_made(&run->t, p, rc_stress_new(rc_shape_of(p), p->v, &run->options, &run->t.err));
     stress_report_ready(&run->report);
     for (int c = 0; c < RC_STRESSES; c++)
         if (wanted(c))

@@ -402,7 +402,6 @@ static void
 add_counter(struct run *run, const struct rc_grid *g)
 {
     struct tool *t = &run->d.t;
-    const struct rc_shape shape = rc_grid_shape(g);
     struct rc_statistics other;
 
     if (strcmp(rc_grid_get(g, "boundary"), "periodic") != 0)
@@ -417,7 +416,7 @@ add_counter(struct run *run, const struct rc_grid *g)
     physics_counter_beside(t, args.counter, run->counter, g, true);
     run->law.h2 = run->counter->v;
     run->d.maps = rc_crc32_add(run->d.maps, run->counter->v, rc_grid_nodes(g) * sizeof *g->v);
-    rc_measure(&shape, run->counter->v, &other);
+    rc_measure(rc_shape_of(g), run->counter->v, &other);
     run->relief += other.maximum - other.minimum;
 }
 
@@ -458,7 +457,6 @@ static void
 judge_map(struct run *run, struct rc_model *m, struct rc_grid *room)
 {
     struct drive *d = &run->d;
-    const struct rc_shape shape = rc_grid_shape(room);
     const double deepest = rc_wear_result(m)->max_wear_depth;
     double *p = malloc(rc_grid_nodes(room) * sizeof *p);
     char where[512];
@@ -468,7 +466,8 @@ judge_map(struct run *run, struct rc_model *m, struct rc_grid *room)
         rc_model_frame(m, "height", room->v, &err) != RC_OK)
         tool_die_at(&d->t, room, EXIT_IMPOSSIBLE, "%s", err.text);
     drive_where(d, room, where, sizeof where);
-    drive_judge_slope(&d->course, rc_measure_contact_slope(NULL, &shape, room->v, p), where);
+    drive_judge_slope(&d->course, rc_measure_contact_slope(NULL, rc_shape_of(room), room->v, p),
+                      where);
     free(p);
     if (run->relief > 0 && deepest > run->relief)
         course_warn(&d->course, "nothing is left of the surface before wear",

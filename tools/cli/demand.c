@@ -67,9 +67,7 @@ tool_ask_memory(const struct tool *t, const struct rc_shape *shape, size_t bytes
 void
 tool_demand_memory(struct tool *t, const struct rc_grid *g, size_t bytes)
 {
-    const struct rc_shape shape = rc_grid_shape(g);
-
-    tool_must(t, g, tool_ask_memory(t, &shape, bytes, &t->err));
+    tool_must(t, g, tool_ask_memory(t, rc_shape_of(g), bytes, &t->err));
 }
 
 size_t

@@ -416,10 +416,9 @@ tool_frame_of_file(struct tool *t, const char *option, const char *name, const c
 size_t
 tool_first_row(const struct tool *t, const struct rc_grid *g)
 {
-    struct rc_shape shape = rc_grid_shape(g);
     size_t first, n;
 
-    ranks_rows(t, &shape, &first, &n);
+    ranks_rows(t, rc_shape_of(g), &first, &n);
     return first;
 }
 

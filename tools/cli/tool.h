@@ -295,6 +295,8 @@ int tool_interrupted(void);
 /* The same for this process only, at the address that the handler sets. */
 const volatile sig_atomic_t *tool_signal(void);
 
+/* The shape of a grid, for an argument; it lives until the end of the block. */
+#define rc_shape_of(grid) ((struct rc_shape[]){rc_grid_shape(grid)})
 /* "bench.x3p, case 2, frame 1 (height)": the place of a frame, for messages, until the end of the block. */
 enum {
     WHERE = 256

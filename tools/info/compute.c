@@ -56,10 +56,9 @@ info_end(struct info_wanted *w, struct tool *t)
 static void
 find_smr(const struct info_wanted *w, const struct rc_grid *g, struct info_figures *f)
 {
-    const struct rc_shape shape = rc_grid_shape(g);
     struct rc_statistics s;
 
-    rc_measure(&shape, g->v, &s);
+    rc_measure(rc_shape_of(g), g->v, &s);
     for (size_t c = 0; c < w->smr.n; c++) {
         size_t above = 0, there = 0;
 
@@ -117,7 +116,6 @@ find_psd(struct info_wanted *w, struct tool *t, const struct rc_grid *g, struct 
 {
     struct rc_psd_options options = {
         .boundary = map_boundary(g), .window = w->window, .threads = t->threads};
-    const struct rc_shape shape = rc_grid_shape(g);
     struct rc_grid *map = NULL;
 
     tool_demand_finite(t, g, "fill them first, with rc-detrend --fill");
@@ -129,7 +127,7 @@ find_psd(struct info_wanted *w, struct tool *t, const struct rc_grid *g, struct 
         map = map_frame(w, t, g);
         options.map = map->v;
     }
-    f->psd = tool_made(t, g, rc_psd_new(&shape, g->v, &options, &t->err));
+    f->psd = tool_made(t, g, rc_psd_new(rc_shape_of(g), g->v, &options, &t->err));
     if (map != NULL) {
         tool_must(t, g, rc_grid_set(map, "window", f->psd->window, &t->err));
         info_file_put(w->file, map);
@@ -169,11 +167,10 @@ find_patches(struct tool *t, const struct rc_grid *g, const double *touch, struc
 {
     const struct rc_patch_options options = {
         .boundary = map_boundary(g), .each = true, .threads = t->threads};
-    const struct rc_shape shape = rc_grid_shape(g);
 
     tool_demand_finite(t, g, "solve the contact again");
     f->patches = tool_room(t, 1, sizeof *f->patches, "the patches of a contact");
-    tool_must(t, g, rc_patches_find(&shape, touch, &options, f->patches, &t->err));
+    tool_must(t, g, rc_patches_find(rc_shape_of(g), touch, &options, f->patches, &t->err));
     count_pressures(t, g, touch, f);
 }
 

@@ -293,11 +293,9 @@ resample(struct tool *t, struct rc_grid *g, const struct request *r, struct rc_e
 static enum rc_status
 mirror(struct tool *t, struct rc_grid *g, const struct request *r, struct rc_err *err)
 {
-    struct rc_shape shape = rc_grid_shape(g);
-
     (void)t;
     (void)err;
-    rc_mirror(&shape, (char)r->v[0], g->v);
+    rc_mirror(rc_shape_of(g), (char)r->v[0], g->v);
     return RC_OK;
 }
 

@@ -242,10 +242,9 @@ static void
 warn_of_seam(struct tool *t, const struct rc_grid *g)
 {
     static const char *const line[] = {"column", "row"};
-    struct rc_shape shape = rc_grid_shape(g);
     struct rc_seam seam;
 
-    rc_measure_seam(ranks_of(t), &shape, g->v, &seam);
+    rc_measure_seam(ranks_of(t), rc_shape_of(g), g->v, &seam);
     for (int side = 0; side < 2; side++)
         if (seam.across[side] > 3 * seam.inside[side])
             tool_warn(t,
@@ -378,7 +377,6 @@ struct rc_grid *
 physics_counter(struct tool *t, const char *name)
 {
     struct rc_grid *g = tool_frame_of_file(t, "counter", name, "height");
-    struct rc_shape shape = rc_grid_shape(g);
 
     if (strcmp(g->unit, "m") != 0)
         tool_die(
@@ -387,7 +385,7 @@ physics_counter(struct tool *t, const char *name)
             "--z-unit",
             name, g->unit);
     tool_demand_finite(t, g, "fill them with rc-detrend --fill");
-    rc_mirror(&shape, 'x', g->v);
+    rc_mirror(rc_shape_of(g), 'x', g->v);
     return g;
 }
 

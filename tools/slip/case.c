@@ -197,13 +197,13 @@ find_state(struct slip_run *run, const struct rc_model *m, struct slip_state *s)
 static struct rc_model *
 new_contact(const struct slip_run *run, double tol, struct rc_err *err)
 {
-    const struct rc_shape shape = rc_grid_shape(run->p);
     const struct rc_problem problem = {.boundary = run->boundary,
                                        .pair = run->bodies.pair,
                                        .threads = run->d.t.threads,
                                        .tol = run->alternates ? tol / 4 : tol};
 
-    return rc_elastic_new(&shape, run->solves ? run->height->v : run->p->v, &problem, NULL, err);
+    return rc_elastic_new(rc_shape_of(run->p), run->solves ? run->height->v : run->p->v, &problem,
+                          NULL, err);
 }
 
 static struct rc_model *
@@ -327,7 +327,6 @@ forecast(struct slip_run *run)
     };
     /* bytes a node, measured on 1024 x 1024 nodes: free, periodic; second row: dissimilar bodies */
     static const double bytes[2][2] = {{343, 248}, {375, 268}};
-    const struct rc_shape shape = rc_grid_shape(run->p);
     const struct rc_problem contact = {.boundary = run->boundary,
                                        .pair = run->bodies.pair,
                                        .load = fmax(run->load, 1),
@@ -337,7 +336,8 @@ forecast(struct slip_run *run)
     struct rc_expected all = {0}, solver = {0};
     double each;
 
-    tool_must(&run->d.t, run->p, rc_solver_expect(&shape, &contact, &solver, &run->d.t.err));
+    tool_must(&run->d.t, run->p,
+              rc_solver_expect(rc_shape_of(run->p), &contact, &solver, &run->d.t.err));
     each = solver.seconds / solver.convolutions;
     for (size_t k = 0; k < run->corners; k++)
         work += runs * (double)run->corner[k].leg.increments * slip_passes(run);

@@ -119,17 +119,16 @@ find_position(struct slip_run *run)
 static struct rc_model *
 new_model(struct slip_run *run)
 {
-    const struct rc_shape shape = rc_grid_shape(run->p);
     const struct rc_problem contact = {
         .boundary = run->boundary, .pair = run->bodies.pair, .threads = run->d.t.threads};
     const struct rc_rolling_problem law = {.slip = run->law.slip,
                                            .force = forced(run),
                                            .path = !run->args->steady,
                                            .known = &run->known};
-    struct rc_model *m =
-        tool_made(&run->d.t, run->p,
-                  rc_rolling_new(rc_elastic_new(&shape, run->p->v, &contact, NULL, &run->d.t.err),
-                                 &law, &run->d.t.err));
+    struct rc_model *m = tool_made(&run->d.t, run->p,
+                                   rc_rolling_new(rc_elastic_new(rc_shape_of(run->p), run->p->v,
+                                                                 &contact, NULL, &run->d.t.err),
+                                                  &law, &run->d.t.err));
     return m;
 }
 

@@ -173,14 +173,13 @@ keep_shape(struct drive *d, struct rc_model *m)
 static void
 look_inside(struct run *run, const struct rc_grid *g, const double *touch, struct solution *s)
 {
-    const struct rc_shape shape = rc_grid_shape(g);
     size_t columns, rows, first = tool_first_row(&run->d.t, g);
     double width, touching = 0, inside;
 
     s->inside_area = s->inside_fraction = NAN;
     if (!rc_grid_number(g, "taper", &width))
         return;
-    rc_taper_frame(&shape, width, &columns, &rows);
+    rc_taper_frame(rc_shape_of(g), width, &columns, &rows);
     for (size_t k = 0; touch != NULL && k < rc_grid_nodes(g); k++) {
         size_t i = k % g->nx, j = first + k / g->nx;
         if (i >= columns && i + columns < g->nx && j >= rows && j + rows < g->ny &&
@@ -410,8 +409,8 @@ make_points(struct run *run)
 static struct rc_model *
 elastic_model(struct run *run, const struct rc_problem *problem)
 {
-    const struct rc_shape shape = rc_grid_shape(run->g);
-    struct rc_model *m = rc_elastic_new(&shape, run->g->v, problem, NULL, &run->d.t.err);
+    struct rc_model *m =
+        rc_elastic_new(rc_shape_of(run->g), run->g->v, problem, NULL, &run->d.t.err);
 
     if (m == NULL)
         tool_die_at(&run->d.t, run->g, EXIT_IMPOSSIBLE, "%s", run->d.t.err.text);
@@ -479,11 +478,10 @@ void
 solve_case(struct run *run, const struct rc_grid *hardness)
 {
     struct rc_grid *g = run->g;
-    const struct rc_shape shape = rc_grid_shape(g);
 
     take_hardness(run, hardness);
     run->rms_slope = report_wanted(&run->d.report)
-                         ? rc_measure_contact_slope(ranks_of(&run->d.t), &shape, g->v, NULL)
+                         ? rc_measure_contact_slope(ranks_of(&run->d.t), rc_shape_of(g), g->v, NULL)
                          : NAN;
     physics_heights(&run->d.t, &run->args->physics, g);
     if (!rc_grid_number(g, HEIGHT_ERROR, &run->height_error))

@@ -261,7 +261,6 @@ solve_report(struct drive *d, const struct rc_model *m)
 size_t
 solve_memory(const struct run *run, const struct rc_grid *g, const struct rc_problem *problem)
 {
-    struct rc_shape shape = rc_grid_shape(g);
     const size_t dents = run->args->physics.history && !isinf(run->hardness_min) ? sizeof *g->v : 0;
     const size_t small = 2 << 20; /* blocks whose size does not grow with the map; measured */
     const size_t later = run->conductance
@@ -280,7 +279,7 @@ solve_memory(const struct run *run, const struct rc_grid *g, const struct rc_pro
     else if (run->sliding.wanted)
         (void)slide_expect(run, problem, &expected, &err);
     else
-        (void)rc_solver_expect(&shape, problem, &expected, &err);
+        (void)rc_solver_expect(rc_shape_of(g), problem, &expected, &err);
     return expected.memory + small + (dents + later + travel_bytes(run)) * rc_grid_nodes(g);
 }
 

@@ -154,13 +154,12 @@ struct rc_model *
 slide_model(struct run *run, const struct rc_problem *problem)
 {
     const struct physics *a = &run->args->physics;
-    const struct rc_shape shape = rc_grid_shape(run->g);
     const struct rc_slide_problem law = {
         .material = run->sliding.material,
         .compliance = fmax(1 / a->surface_estar - (1 - a->nu1 * a->nu1) / a->e1, 0),
         .along_y = slides_along_y(run),
         .repeats = repeats(run)};
-    struct rc_model *m = rc_slide_new(&shape, run->g->v, problem, &law, &run->d.t.err);
+    struct rc_model *m = rc_slide_new(rc_shape_of(run->g), run->g->v, problem, &law, &run->d.t.err);
 
     if (m == NULL)
         tool_die_at(&run->d.t, run->g, EXIT_IMPOSSIBLE, "%s", run->d.t.err.text);

@@ -167,14 +167,13 @@ struct rc_model *
 yield_model(struct run *run, const struct rc_grid *g, const struct rc_problem *contact)
 {
     struct yielding *y = &run->yielding;
-    const struct rc_shape shape = rc_grid_shape(g);
     const struct rc_plastic_problem problem = {.contact = *contact,
                                                .yield = y->law,
                                                .slabs = y->list.n > 0 ? y->list.n : y->slab_count,
                                                .thickness = y->list.n > 0 ? y->list.v : NULL,
                                                .increments = y->asked,
                                                .companion = y->companion};
-    struct rc_model *m = rc_yielding_new(&shape, g->v, &problem, &run->d.t.err);
+    struct rc_model *m = rc_yielding_new(rc_shape_of(g), g->v, &problem, &run->d.t.err);
 
     if (m == NULL)
         tool_die_at(&run->d.t, g, EXIT_IMPOSSIBLE, "%s", run->d.t.err.text);

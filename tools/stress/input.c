@@ -208,12 +208,11 @@ void
 stress_depths_read(struct tool *t, const struct rc_grid *p, const struct rc_stress_options *o,
                    struct numbers *depths)
 {
-    struct rc_shape shape = rc_grid_shape(p);
     const bool automatic = depths->n == 0;
 
     warn_of_depths(t, p, depths);
-    if (automatic && rc_stress_depths(o->ranks, &shape, p->v, o->boundary, &o->body, &depths->v,
-                                      &depths->n, &t->err) != RC_OK)
+    if (automatic && rc_stress_depths(o->ranks, rc_shape_of(p), p->v, o->boundary, &o->body,
+                                      &depths->v, &depths->n, &t->err) != RC_OK)
         tool_die_at(t, p, EXIT_IMPOSSIBLE, "%s", t->err.text);
     refuse_rigid(t, p, &o->body, depths);
     if (automatic)

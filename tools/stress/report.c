@@ -288,7 +288,6 @@ expect(const struct tool *t, const struct rc_grid *p, const struct rc_stress_opt
        const struct numbers *depths, size_t memory, double *expected, struct rc_err *err)
 {
     const double value = 12e-9; /* s to derive, count and write one */
-    const struct rc_shape shape = rc_grid_shape(p);
     const size_t n = rc_grid_nodes(p), trials = depths->n > 1 ? 2 : 1;
     double *v, *s[RC_STRESSES], start = tool_now(), setup;
     struct rc_stress *stress = NULL;
@@ -303,7 +302,7 @@ expect(const struct tool *t, const struct rc_grid *p, const struct rc_stress_opt
         goto done;
     for (int c = 0; c < RC_STRESSES; c++)
         s[c] = v + (size_t)c * n;
-    if ((stress = rc_stress_new(&shape, p->v, o, err)) == NULL)
+    if ((stress = rc_stress_new(rc_shape_of(p), p->v, o, err)) == NULL)
         status = RC_FAIL;
     setup = tool_now() - start;
     start = tool_now();
