@@ -21,6 +21,7 @@ static const double vanishing = 1e-12;       /* relative to the largest traction
 static const double rounding = 4e-15;        /* error of A u in double precision, L1 */
 static const double fresh =
     1e-4; /* when the error has fallen by this factor, A u is computed again */
+static const double linear = 1e-2; /* an error below which the corrections are those of the state */
 static const double most_cut = 0.2; /* part of the error from neglected coefficients */
 static const double exact = 1e-3;   /* part of the slope that a line search may leave */
 enum {
@@ -287,10 +288,7 @@ direction_row(void *ctx, size_t j, double *sums)
     const struct by *c = ctx;
     struct rc_gap *g = c->g;
     size_t m = on_map(g, j);
-    float *wd = rc_gap_wd(g) + j * g->px;
 
-    for (size_t i = 0; i < g->px && !g->mode.known; i++)
-        wd[i] = (float)(g->r[j * g->px + i] + g->way.beta * (double)wd[i]);
     for (size_t i = 0; i < g->px; i++) {
         size_t at = j * g->px + i;
         double is = g->off[at] ? 0 : g->z[at] - c->a + g->way.beta * g->d[at];
@@ -359,6 +357,7 @@ ad_out(void *ctx, size_t j, void *from)
     const float *row = from;
     const double *d = g->d + j * g->px, *au = g->au + j * g->px;
     double *ad = g->ad + j * g->px, *sums = rc_sums_of(&g->sums, j), plus = added(g);
+    float *az = g->mode.e[RC_GAP_AZ] + j * g->px;
     size_t m = on_map(g, j);
 
     for (size_t i = 0; i < g->px; i++) {
@@ -372,6 +371,7 @@ ad_out(void *ctx, size_t j, void *from)
         sums[3] += is;
         sums[4] += d[i];
         sums[5] += fabs(is * d[i]);
+        az[i] = (float)(is - g->way.beta * ad[i]);
         ad[i] = is;
     }
     return true;
@@ -381,7 +381,7 @@ static void
 mark_row(void *ctx, size_t j, double *sums)
 {
     struct rc_gap *g = ctx;
-    float *mark = rc_gap_mark(g) + j * g->px;
+    float *mark = g->told.at_mark + j * g->px;
 
     for (size_t i = 0; i < on_map(g, j); i++) {
         float p = (float)rc_gap_pressure_at(g, j * g->px + i);
@@ -867,6 +867,8 @@ rc_gap_look(struct rc_gap *g)
     if (g->way.rd > 0) {
         g->way.dad = find_ad(g, &g->way.mean);
         measure_ratio(g);
+        if (!g->mode.known && g->told.error < linear)
+            rc_gap_track(g, g->control == RC_GAP_MEAN ? sum_z / (double)g->free : 0);
         return;
     }
     if (g->told.drift > 0) { /* the residual is rounding, perhaps of A u: compute A u again */
@@ -1016,7 +1018,7 @@ rc_gap_begin(struct rc_gap *g, enum rc_gap_control control, double given)
     memset(g->z, 0, g->n * sizeof *g->z);
     memset(g->d, 0, g->n * sizeof *g->d);
     memset(g->ad, 0, g->n * sizeof *g->ad);
-    memset(rc_gap_wd(g), 0, g->n * sizeof(float));
+    g->mode.tracked = false;
     find_au(g);
     g->from.fall = 0;
     rows(g, residual_row, g, sums);
@@ -1044,8 +1046,7 @@ rc_gap_jumped(struct rc_gap *g)
 }
 
 enum {
-    DOUBLES = 7,
-    FLOATS = RC_GAP_FLOATS + 2
+    DOUBLES = 7
 };
 
 enum rc_status
@@ -1070,7 +1071,12 @@ rc_gap_new(struct rc_gap *g, struct rc_whole *whole, const struct rc_attraction 
     for (size_t k = 0; k < DOUBLES; k++)
         all &= (*room[k] = rc_alloc(n, sizeof(double))) != NULL;
     for (size_t k = 0; k < RC_GAP_FLOATS; k++)
-        all &= (g->mode.e[k] = rc_alloc(n, sizeof(float))) != NULL;
+        if (k != RC_GAP_AZ - 1 && k != RC_GAP_AZ - 2)
+            all &= (g->mode.e[k] = rc_alloc(n, sizeof(float))) != NULL;
+    g->mode.e[RC_GAP_AZ - 2] = (float *)g->step;
+    g->mode.e[RC_GAP_AZ - 1] = g->mode.e[RC_GAP_AZ - 2] + n;
+    all &= (g->told.at_mark = rc_alloc(n, sizeof(float))) != NULL;
+    all &= (g->near.ah = rc_alloc(n, sizeof(float))) != NULL;
     all &= (g->from.x = rc_alloc(n, sizeof(float))) != NULL;
     all &= (g->from.slope = rc_alloc(n, sizeof(float))) != NULL;
     all &= (g->off = rc_alloc(n, 1)) != NULL;
@@ -1092,7 +1098,10 @@ rc_gap_free(struct rc_gap *g)
     for (size_t k = 0; k < DOUBLES; k++)
         free(room[k]);
     for (size_t k = 0; k < RC_GAP_FLOATS; k++)
-        free(g->mode.e[k]);
+        if (k != RC_GAP_AZ - 1 && k != RC_GAP_AZ - 2)
+            free(g->mode.e[k]);
+    free(g->told.at_mark);
+    free(g->near.ah);
     free(g->from.x);
     free(g->from.slope);
     free(g->off);

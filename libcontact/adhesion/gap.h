@@ -29,6 +29,7 @@ enum {
                          before: their sums */
     RC_GAP_SUMS = 16,
     RC_GAP_FLOATS = 9, /* maps of the softest mode */
+    RC_GAP_AZ = 5,     /* the map of A z; the two maps before it use the memory of `step` */
     RC_GAP_LINE = 512  /* most nodes of a row in one call of a law */
 };
 
@@ -49,8 +50,9 @@ struct rc_gap_told {
                      yet */
     double drift; /* error of A u since then, because steps add to it in single precision */
     double size,
-        change;   /* |p|, |A z|                                                                 */
-    double moves; /* |A d| of a step */
+        change;     /* |p|, |A z|                                                                 */
+    double moves;   /* |A d| of a step */
+    float *at_mark; /* the marked pressure */
     double mark, ratios[2]; /* |A z| with drift at the marked pressure, 0: none; error over |A z| at
                                the last two marks, INFINITY: not yet measured */
     double last, calm;      /* `error` of the last step; `error`, at least half the last one */
@@ -65,6 +67,7 @@ struct rc_gap_mode {
     double stiffness;        /* stiffness of the mode of the previous state without attraction */
     bool known, watched;     /* e[1] holds the mode; e[0] the mode of the previous state with this
                                 control */
+    bool tracked;            /* e[1] holds a first vector, from the corrections of the descent */
     size_t steps, slow;      /* slow: successive steps with nearly the same mu */
 };
 
@@ -78,6 +81,7 @@ struct rc_gap_from {
 struct rc_gap_near {
     double *a;   /* NULL: not yet found */
     double rest; /* sum of the sizes of the other coefficients */
+    float *ah;   /* A h */
     bool known;  /* A h is known */
 };
 
@@ -164,27 +168,6 @@ void rc_gap_aim(struct rc_gap *g, double rd);
  * over the grid after the step is `sum`, and the step is changed to keep the mean. False if this does not
  * pay. */
 bool rc_gap_near(struct rc_gap *g, double a, size_t cut, double sum);
-/* A h, in the memory of a vector that is free outside the search for the softest mode. */
-static inline float *
-rc_gap_ah(const struct rc_gap *g)
-{
-    return g->mode.e[RC_GAP_FLOATS - 1];
-}
-
-/* W d of this state, roughly, while no mode is known: the first vector of the search for it. */
-static inline float *
-rc_gap_wd(const struct rc_gap *g)
-{
-    return g->mode.e[RC_GAP_FLOATS - 2];
-}
-
-/* The marked pressure, in the memory of a vector that is free outside the search for the softest mode. */
-static inline float *
-rc_gap_mark(const struct rc_gap *g)
-{
-    return g->mode.e[RC_GAP_FLOATS - 3];
-}
-
 /* ---- refine.c ---- */
 
 /* Starts from the gap on a grid with every other node of this one. */
@@ -192,6 +175,8 @@ void rc_gap_refine(struct rc_gap *g, const struct rc_gap *coarse);
 
 /* ---- stability.c ---- */
 
+/* Improves the first vector of the search by the last correction, z minus `mean`. A z is in e[RC_GAP_AZ]. */
+void rc_gap_track(struct rc_gap *g, double mean);
 /* Makes a step of a locally optimal conjugate gradient iteration (Knyazev 2001) under the control. Returns
  * the smallest eigenvalue of (A - D) x = mu (K_FF)^-1 x. F are the nodes not in contact. */
 void rc_gap_eigen_begin(struct rc_gap *g);

@@ -83,7 +83,7 @@ h_out(void *ctx, size_t j, void *from)
 {
     const struct rc_gap *g = ctx;
 
-    memcpy(rc_gap_ah(g) + j * g->px, from, g->px * sizeof(float));
+    memcpy(g->near.ah + j * g->px, from, g->px * sizeof(float));
     return true;
 }
 
@@ -134,12 +134,10 @@ add_cut(struct rc_gap *g, double a)
 static void
 keep_mean(struct rc_gap *g, double smaller)
 {
-    const float *ah = rc_gap_ah(g);
-
     find_ah(g);
 #pragma omp parallel for num_threads(g->sums.threads) schedule(static)
     for (size_t k = 0; k < g->n; k++) {
-        g->a_step[k] -= smaller * (g->au[k] + g->a_step[k] - (double)ah[k]);
+        g->a_step[k] -= smaller * (g->au[k] + g->a_step[k] - (double)g->near.ah[k]);
         g->step[k] -= smaller * (g->x[k] + g->step[k]);
     }
 }

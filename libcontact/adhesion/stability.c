@@ -7,6 +7,9 @@
  * Each step takes the best x in the space of x, of its residual times K, and of the last change of x. W x and
  * (A - D) x of these vectors are updated with them, in single precision. Every mu on the way is above the
  * smallest eigenvalue.
+ *
+ * The corrections z = K r of the descent span nearly the same space as those of this search. For each of them
+ * W z and A z are known. The descent therefore finds the first vector of the search without a convolution.
  */
 #include "gap.h"
 
@@ -257,10 +260,11 @@ mask_row(void *ctx, size_t j, double *sums)
 
 struct first {
     struct rc_gap *g;
-    double noise; /* relative to an unknown vector */
+    bool given;
+    double noise;
 };
 
-/* Sums of W x and of the free nodes. */
+/* Sums of W x and of the free nodes. If no first vector is given, W x is the softening by the traction. */
 static void
 first_row(void *ctx, size_t j, double *sums)
 {
@@ -269,7 +273,7 @@ first_row(void *ctx, size_t j, double *sums)
     size_t m = rc_gap_on_map(g, j);
     float *w = g->mode.e[X + 1] + j * g->px;
 
-    for (size_t i = 0; i < m && !g->mode.known; i += RC_GAP_LINE) {
+    for (size_t i = 0; i < m && !c->given; i += RC_GAP_LINE) {
         size_t n = m - i < RC_GAP_LINE ? m - i : RC_GAP_LINE, at = j * g->px + i;
         double v[RC_GAP_LINE], s[RC_GAP_LINE], d[RC_GAP_LINE];
         rc_gap_law(g, j, i, n, g->x + at, v, s, d);
@@ -280,7 +284,7 @@ first_row(void *ctx, size_t j, double *sums)
     for (size_t i = 0; i < g->px; i++) {
         uint64_t hash = ((uint64_t)(j * g->px + i) + 1) * 0x9e3779b97f4a7c15u;
         double noise = (double)(hash >> 40) / 0x1p24 - 0.5;
-        if (!g->mode.known && i >= m)
+        if (!c->given && i >= m)
             w[i] = 0;
         if (i < m)
             w[i] = (float)((double)w[i] * (1 + noise / 4) + c->noise * noise);
@@ -334,25 +338,36 @@ take_off(struct rc_gap *g, float *v, double mean)
             v[k] = (float)((double)v[k] - mean);
 }
 
+/* Takes the best x of the space, and returns its mu. */
+static double
+improve(struct rc_gap *g)
+{
+    double sums[RC_GAP_SUMS], c[SPACE];
+
+    rc_sums_rows(&g->sums, gram_row, g, sums);
+    g->mode.error = sqrt(fmax(sums[2], 0)); /* y'W y, for x with x'W x = 1 */
+    best(sums, c);
+    combine(g, c);
+    rc_sums_rows(&g->sums, gram_row, g, sums);
+    return sums[6] / sums[0];
+}
+
 void
 rc_gap_eigen_begin(struct rc_gap *g)
 {
-    double sums[RC_GAP_SUMS], c[SPACE] = {1, 0, 0};
-    struct first first = {.g = g};
+    double sums[RC_GAP_SUMS];
+    struct first first = {g, g->mode.known || g->mode.tracked, 0};
 
     rc_sums_rows(&g->sums, mask_row, g, sums);
-    g->mode.mu = sums[0] > 0 ? INFINITY : 1;
-    g->mode.error = sums[0] > 0 ? INFINITY : 0;
+    g->mode.mu = 1;
+    g->mode.error = 0;
     g->mode.steps = g->mode.slow = 0;
-    g->near.known = false; /* its memory is needed, and that of the mark */
-    g->told.mark = 0;
     if (sums[0] == 0)
         return;
-    first.noise = g->mode.known ? 0 : 0.05;
+    first.noise = first.given ? 0 : 0.05;
     rc_sums_rows(&g->sums, first_row, &first, sums);
-    if (!(sums[2] > 0)) { /* the last vector depends on the others */
-        g->mode.known = false;
-        first.noise = 0.05;
+    if (!(sums[2] > 0)) { /* the given vector has no free node */
+        first = (struct first){g, false, 0.05};
         rc_sums_rows(&g->sums, first_row, &first, sums);
     }
     if (g->control == RC_GAP_MEAN)
@@ -360,36 +375,53 @@ rc_gap_eigen_begin(struct rc_gap *g)
     apply_k(g, g->mode.e[X + 1], g->mode.e[X]);
     apply_stiffness(g, g->mode.e[X], g->mode.e[X + 2]);
     clear(g, Y);
-    if (g->mode.known) {
-        clear(g, D);
-    } else { /* soft modes have most of the last direction */
-        apply_k(g, g->mode.e[D + 1], g->mode.e[D]);
-        apply_stiffness(g, g->mode.e[D], g->mode.e[D + 2]);
+    clear(g, D);
+    g->mode.mu = improve(g);
+    g->mode.error = INFINITY;
+}
+
+/* z, W z = r, and the sum of A z. */
+static void
+track_row(void *ctx, size_t j, double *sums)
+{
+    struct rc_gap *g = ctx;
+
+    for (size_t k = j * g->px; k < (j + 1) * g->px; k++) {
+        g->mode.e[Y][k] = g->off[k] ? 0 : (float)g->z[k];
+        g->mode.e[Y + 1][k] = g->off[k] ? 0 : (float)g->r[k];
+        sums[0] += (double)g->mode.e[Y + 2][k];
     }
-    rc_sums_rows(&g->sums, gram_row, g, sums);
-    best(sums, c);
-    combine(g, c);
-    rc_sums_rows(&g->sums, gram_row, g, sums);
-    g->mode.mu = sums[6] / sums[0];
+}
+
+void
+rc_gap_track(struct rc_gap *g, double mean)
+{
+    double sums[RC_GAP_SUMS];
+
+    if (!g->mode.tracked) {
+        clear(g, X);
+        clear(g, D);
+    }
+    g->mode.tracked = true;
+    rc_sums_rows(&g->sums, track_row, g, sums);
+    take_off(g, g->mode.e[Y], mean);
+    take_off(g, g->mode.e[Y + 2], g->control == RC_GAP_LOAD ? sums[0] / (double)g->n : 0);
+    soften(g, g->mode.e[Y], g->mode.e[Y + 2]);
+    (void)improve(g);
 }
 
 void
 rc_gap_eigen_step(struct rc_gap *g)
 {
-    double sums[RC_GAP_SUMS], c[SPACE];
+    double sums[RC_GAP_SUMS], last = g->mode.mu;
 
     rc_sums_rows(&g->sums, residual_row, g, sums);
     if (g->control == RC_GAP_MEAN)
         take_off(g, g->mode.e[Y + 1], sums[0] / sums[1]);
     apply_k(g, g->mode.e[Y + 1], g->mode.e[Y]);
     apply_stiffness(g, g->mode.e[Y], g->mode.e[Y + 2]);
-    rc_sums_rows(&g->sums, gram_row, g, sums);
-    g->mode.error = sqrt(fmax(sums[2], 0)); /* y'W y, for x with x'W x = 1 */
-    best(sums, c);
-    combine(g, c);
-    rc_sums_rows(&g->sums, gram_row, g, sums);
-    g->mode.slow = sums[6] / sums[0] > steady * g->mode.mu ? g->mode.slow + 1 : 0;
-    g->mode.mu = sums[6] / sums[0];
+    g->mode.mu = improve(g);
+    g->mode.slow = g->mode.mu > steady * last ? g->mode.slow + 1 : 0;
     g->mode.steps++;
     g->mode.known = true;
 }
