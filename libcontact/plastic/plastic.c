@@ -15,7 +15,8 @@
  * no stress exceeds the yield stress, the load is done, as in most unloading. If little flow would follow, as
  * in reloading to the same peak, one increment follows. All of its flow counts as an error of the increments.
  * If this error is small beside the error of earlier loads, the increment stays; otherwise it is undone. Then
- * bisection finds the last load without flow, and the increments start there.
+ * bisection finds the last load without flow, and the increments start there. If the caller asks for one
+ * increment, nothing is bisected, and a trial that flows is the first application of this increment.
  *
  * The increments are not converged one by one. Each starts from the last increment, is applied twice, and
  * takes the mixture of both that Anderson's method with one kept step would take. The next increment sees the
@@ -248,6 +249,13 @@ look_ahead(const struct rc_plastic *p, size_t slab, struct rc_voxel_row *row, do
     }
 }
 
+/* True if the load has one increment: its first application is also the elastic trial. */
+static bool
+in_one(const struct rc_plastic *p)
+{
+    return p->increments == 1 && !p->follows;
+}
+
 static void
 stress_row(void *ctx, size_t slab, size_t j, double *const s[RC_COMPONENTS])
 {
@@ -256,7 +264,7 @@ stress_row(void *ctx, size_t slab, size_t j, double *const s[RC_COMPONENTS])
     bool adds = p->trial + 1 == (p->increment == p->count ? LAST : EACH);
 
     memset(row->sums, 0, sizeof row->sums);
-    if (p->stage == RC_PLASTIC_PROBE) {
+    if (p->stage == RC_PLASTIC_PROBE && !in_one(p)) {
         look_ahead(p, slab, row, s);
         return;
     }
@@ -562,9 +570,17 @@ probe(struct rc_plastic *p, struct rc_err *err)
     } else if (p->trial == 1 && p->figures.lag < (follows_little(p) ? little : trace)) {
         p->once = !p->few;
         begin_increments(p, 1, p->from);
+    } else if (in_one(p)) {
+        p->few = true;
+        begin_increments(p, 1, p->from);
     } else if (p->trial > BISECTIONS || (p->trial > BISECT_FIRST && p->low == 0)) {
         begin_increments(p, p->increments, share_of_way(p, p->low));
         p->few |= p->increments < FEW;
+    }
+    if (in_one(p) && p->flows) {
+        p->trial = 1;
+        for_each(p, mix);
+        rc_plastic_keep_pressure(p);
     }
     return RC_OK;
 }
@@ -717,7 +733,7 @@ compare_order(struct rc_plastic *p, struct rc_err *err)
         p->figures.increment_error = fmax(of_steps * p->figures.increment_error, p->worst);
     p->worst = p->figures.increment_error;
     p->stage = RC_PLASTIC_DONE;
-    if (p->once &&
+    if (p->once && !in_one(p) &&
         p->figures.increment_error > fmax(once_part * p->figures.inherited_error, once_least)) {
         p->once = p->stopped = false;
         for_each(p, undo);
