@@ -1502,7 +1502,11 @@ struct rc_stress_options {
     double at;          /* m, from the middle of the map, within it                    */
     const char *engine; /* a row of engines.list, or NULL or "auto"                    */
     double tol; /* asked error of a component over the largest pressure or traction; 0: rounding */
-    size_t threads;               /* 0: all                                   */
+    size_t threads; /* 0: all                                   */
+    /* All depths of the slices, m, to plan the memory of coarser grids; NULL: any depth. The caller keeps
+     * them until rc_stress_new returns. */
+    const double *depth;
+    size_t depths;
     const struct rc_ranks *ranks; /* processes that share the map; NULL: none */
     /* NULL, or strain whose stress is added. It costs five transforms per slab and one per depth and
      * component, and needs body.e of a uniform body. Interfaces belong to the lower slab. Sections
@@ -1537,6 +1541,10 @@ struct rc_stress_counts {
 /* RC_FAIL, and *err says why, when rc_stress_new would refuse these options, except for short memory. */
 RC_API enum rc_status rc_stress_check(const struct rc_shape *shape,
                                       const struct rc_stress_options *options, struct rc_err *err);
+/* Nodes of the largest coarser grid for the depths, over those of the map; 0: none. Such a grid takes this
+ * share of the memory of transforms again. */
+RC_API double rc_stress_coarser(const struct rc_shape *shape,
+                                const struct rc_stress_options *options);
 /* Suitable depths from 0 down for the stresses under this pressure, *n of them in an array that the caller
  * frees. They are close together near the surface, where short waves matter, and farther apart below. They
  * end at three contact radii (free), or where the waves have decayed to 1 % (periodic). Their distance is a

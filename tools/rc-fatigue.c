@@ -322,9 +322,7 @@ set_problem(struct run *run)
     frames = run->problem.pass != 0 ? run->depths.n * lines_of(run) : columns_of(run) * first->ny;
     frames *= count_wanted() * sizeof(double);
     run->problem.room = 1;
-    run->needs =
-        (size_t)(stress_plan_bytes(&run->options, RC_COMPONENTS) * (double)rc_grid_nodes(first)) +
-        frames;
+    run->needs = stress_plan_bytes(first, &run->options, RC_COMPONENTS) + frames;
     least = run->needs + rc_fatigue_memory(&shape, &run->problem);
     run->problem.room = left > least ? left - least : 1;
     run->needs += rc_fatigue_memory(&shape, &run->problem);

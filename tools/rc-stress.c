@@ -254,7 +254,7 @@ memory_for(const struct run *run, const struct rc_grid *p)
     for (int c = 0; c < RC_COMPONENTS && !plane; c++)
         maps -= wanted(c);
     return maps * frame.nx * (plane ? frame.ny : p->ny - p->elsewhere) * sizeof(double) +
-           (size_t)(stress_plan_bytes(&run->options, summed()) * (double)rc_grid_nodes(p));
+           stress_plan_bytes(p, &run->options, summed());
 }
 
 /* Sets the keys of a slice: its depth and, for a coated body, its material. */

@@ -25,6 +25,8 @@ look(const struct rc_shape *shape, enum rc_boundary boundary, const double *p,
                                               .body = *body,
                                               .wanted = 1U << RC_MISES,
                                               .tol = 1e-3,
+                                              .depth = middle,
+                                              .depths = n,
                                               .threads = threads};
     double *map = rc_alloc(shape->nx * shape->ny, sizeof *map);
     double *const to[RC_STRESSES] = {[RC_MISES] = map};

@@ -358,15 +358,35 @@ plan_free(void *at)
     free(plan);
 }
 
+double
+rc_stress_slices_coarser(const struct rc_stress_task *task)
+{
+    const struct rc_shape *s = &task->shape;
+    const double *depth = task->options.depth;
+    double most = 0;
+    size_t sx, sy;
+
+    for (size_t k = 0; k < (depth == NULL ? 1 : task->options.depths); k++)
+        if (may_be_coarse(task, depth == NULL ? INFINITY : depth[k], &sx, &sy)) {
+            const size_t x = depth == NULL && sx > 2 ? 2 : sx, y = depth == NULL && sy > 2 ? 2 : sy;
+            const struct rc_shape coarse = rc_coarse_shape(s, x, y);
+            most = fmax(most, (double)(coarse.nx * coarse.ny) / (double)(s->nx * s->ny));
+        }
+    return most;
+}
+
 /* Checks that memory suffices for the largest coarser grid, which is made later; `fine`: bytes of the grid of
  * the map. */
 static enum rc_status
 reserve(const struct rc_stress_task *task, size_t fine, struct rc_err *err)
 {
-    size_t sx, sy;
+    const double share = rc_stress_slices_coarser(task),
+                 n = (double)rc_rows_of(task->options.ranks, &task->shape).n *
+                     (double)task->shape.nx;
 
-    if (!may_be_coarse(task, INFINITY, &sx, &sy) ||
-        rc_memory_ask(fine / ((sx > 1 ? 2U : 1U) * (sy > 1 ? 2U : 1U))))
+    /* its transforms, its fields, and the rows between the two directions of the transfer */
+    if (rc_memory_ask((size_t)(share * ((double)fine + RC_FIELDS * n * sizeof(double)) +
+                               sqrt(share) * n * sizeof(double))))
         return RC_OK;
     return rc_err_set(err, "out of memory for a coarser grid");
 }

@@ -154,6 +154,14 @@ evaluator_of(const struct rc_stress_task *task)
                                                             : &rc_stress_slices_engine;
 }
 
+double
+rc_stress_coarser(const struct rc_shape *shape, const struct rc_stress_options *o)
+{
+    const struct rc_stress_task task = task_of(shape, NULL, NULL, o, NULL);
+
+    return evaluator_of(&task) == &rc_stress_slices_fft ? rc_stress_slices_coarser(&task) : 0;
+}
+
 static size_t
 values_of(const struct rc_shape *shape, const struct rc_stress_options *o)
 {

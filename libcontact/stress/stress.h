@@ -73,7 +73,9 @@ struct rc_stress_evaluator {
     /* Other maps of the same loads; NULL: not implemented. Tables of the last depth stay. */
     enum rc_status (*load)(void *plan, const double *const source[RC_LOADS], struct rc_err *err);
 };
-extern const struct rc_stress_evaluator rc_stress_slices_fft;    /* by transforms of maps    */
+extern const struct rc_stress_evaluator rc_stress_slices_fft; /* by transforms of maps    */
+/* See rc_stress_coarser; for slices_fft.c only. */
+double rc_stress_slices_coarser(const struct rc_stress_task *task);
 extern const struct rc_stress_evaluator rc_stress_slices_engine; /* by a row of engines.list */
 extern const struct rc_stress_evaluator rc_stress_section;       /* a line at a time         */
 

@@ -1071,7 +1071,7 @@ without(double *out, struct rc_err *err)
         six[c] = &s6[c];
     derived[RC_MISES] = &mises;
     rc_stress_derive(1 << RC_MISES, 1, six, derived);
-    if (rc_stress_check(&shape, &stress, err) != RC_OK)
+    if (rc_stress_check(&shape, &stress, err) != RC_OK || rc_stress_coarser(&shape, &stress) > 1)
         return RC_FAIL;
     out[2 * N] = rc_sum(rough, N) + rc_measure_contact_slope(NULL, &shape, rough, pressure) + mises;
     rc_extremes(N, rough, &least, &largest);

@@ -205,7 +205,7 @@ warn_of_depths(struct tool *t, const struct rc_grid *p, const struct numbers *de
 }
 
 void
-stress_depths_read(struct tool *t, const struct rc_grid *p, const struct rc_stress_options *o,
+stress_depths_read(struct tool *t, const struct rc_grid *p, struct rc_stress_options *o,
                    struct numbers *depths)
 {
     const bool automatic = depths->n == 0;
@@ -217,6 +217,8 @@ stress_depths_read(struct tool *t, const struct rc_grid *p, const struct rc_stre
     refuse_rigid(t, p, &o->body, depths);
     if (automatic)
         tool_note(t, "%zu depths, down to %g m", depths->n, depths->v[depths->n - 1]);
+    o->depth = depths->v;
+    o->depths = depths->n;
 }
 
 /* ---- memory ---- */
@@ -234,8 +236,8 @@ transforms(const char *engine)
 }
 
 /* The index: free, periodic. */
-double
-stress_plan_bytes(const struct rc_stress_options *o, size_t components)
+size_t
+stress_plan_bytes(const struct rc_grid *p, const struct rc_stress_options *o, size_t components)
 {
     static const double fft[2][2] = {{50, 20.3}, {27, 12.4}}; /* double and single precision */
     static const double second[] = {17, 8.3};                 /* two components together, double */
@@ -245,16 +247,18 @@ stress_plan_bytes(const struct rc_stress_options *o, size_t components)
     const int k = o->boundary == RC_PERIODIC, single = o->tol >= RC_SINGLE_FLOOR;
     const int tractions = (o->traction[0] != NULL) + (o->traction[1] != NULL);
     const int loads = 1 + (o->mu != 0) + tractions;
-    /* the library keeps room for a coarser grid */
-    const double coarser = k == 0 && o->body.layers == 0 ? 1.25 : 1;
-    const double plastic = o->strain != NULL ? slab[k] * (double)o->strain->slabs : 0;
+    const struct rc_shape shape = rc_grid_shape(p);
+    const double coarser = rc_stress_coarser(&shape, o); /* with fields and rows of the transfer */
+    double bytes = o->strain != NULL ? slab[k] * (double)o->strain->slabs : 0;
 
     if (o->section != 0)
-        return section + plastic;
-    if (!transforms(o->engine))
-        return direct + plastic;
-    return coarser *
-               (fft[single][k] + kernel[k] * (double)components * loads +
-                ((components > 1 ? second[k] : 0) + traction[k] * tractions) / (single ? 2 : 1)) +
-           plastic;
+        bytes += section;
+    else if (!transforms(o->engine))
+        bytes += direct;
+    else
+        bytes += 8 * sqrt(coarser) + 16 * coarser +
+                 (1 + coarser) * (fft[single][k] + kernel[k] * (double)components * loads +
+                                  ((components > 1 ? second[k] : 0) + traction[k] * tractions) /
+                                      (single ? 2 : 1));
+    return (size_t)(bytes * (double)rc_grid_nodes(p));
 }
