@@ -1182,7 +1182,7 @@ rc_adhesion_expect(const struct rc_shape *shape, const struct rc_adhesion_proble
                    struct rc_expected *expected, struct rc_err *err)
 {
     struct rc_adhesion_scales scales;
-    const double bytes[] = {458, 121}; /* bytes a node, measured on 1024 x 1024 nodes: free,
+    const double bytes[] = {458, 129}; /* bytes a node, measured on 1024 x 1024 nodes: free,
                                           periodic */
     const double mapped = problem->contact.hardness_map != NULL ? sizeof(double) : 0;
     const int periodic = problem->contact.boundary == RC_PERIODIC;

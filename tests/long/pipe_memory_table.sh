@@ -20,24 +20,31 @@ peaks() {
     bash -c "$1 --debug" 2>&1 >/dev/null | sed -n 's/.*memory: \([0-9.]*\) MiB counted, \([0-9.]*\) MiB taken.*/\1 \2/p' | tail -n 1
 }
 
+ending= # of the names of output files
+
 # kept "what" 'command' KIB: a limit of 0.95 times these kibibytes is refused without any work, one of 1.05
 # times is enough.
 kept() {
     local start=${EPOCHREALTIME/./} passed refused
-    claim "$1, with 5 % more than it needs" bash -c "$2 --quiet --memory $(($3 * 105 / 100))k -o passed"
+    claim "$1, with 5 % more than it needs" bash -c "$2 --quiet --memory $(($3 * 105 / 100))k -o passed$ending"
     passed=$((${EPOCHREALTIME/./} - start))
     start=${EPOCHREALTIME/./}
-    refuses 1 "need.* MiB, --memory allows" "$1, with 5 % less" "$2 --verbose --memory $(($3 * 95 / 100))k -o refused"
+    refuses 1 "need.* MiB, --memory allows" "$1, with 5 % less" "$2 --verbose --memory $(($3 * 95 / 100))k -o refused$ending"
     refused=$((${EPOCHREALTIME/./} - start))
     claim "  before any iteration: $refused of $passed us" test $refused -lt $passed
-    claim "  of which it says nothing" bash -c '! grep -E "converged|iterations|convolutions" refuses.err && [ ! -e refused ]'
+    claim "  of which it says nothing" bash -c '! grep -E "converged|iterations|convolutions" refuses.err && [ ! -e refused'$ending' ]'
+}
+
+# needed 'command' LIMIT: the MiB of a refusal at LIMIT, which holds what is read.
+needed() {
+    bash -c "$1 --memory $2" 2>&1 >/dev/null | sed -n 's/.* need about \([0-9.]*\) MiB.*/\1/p'
 }
 
 # planned "what" 'command' LIMIT: --dry-run and the refusal at LIMIT, which holds what is read, tell the memory.
 planned() {
     local dry needs counted taken
     dry=$(bash -c "$2 --dry-run" 2>/dev/null | sed -n 's/.* \([0-9]*\) MiB.*/\1/p' | head -n 1)
-    needs=$(bash -c "$2 --memory $3" 2>&1 >/dev/null | sed -n 's/.* need about \([0-9.]*\) MiB.*/\1/p')
+    needs=$(needed "$2" "$3")
     read -r counted taken < <(peaks "$2")
     printf '%-30s %8s MiB in the plan %8s refused %8s counted %8s of the kernel\n' "$1" "${dry:-none}" "${needs:-none}" "${counted:-none}" "${taken:-none}" >>table.txt
     near "${dry:-none}" "${taken:-none}" 0.05 "$1, planned"
@@ -45,15 +52,16 @@ planned() {
     kept "$1" "$2" $((${needs:-1} * 1024))
 }
 
-# counted "what" 'command': of a tool without --dry-run the count is near the kernel's figure. The same command
-# on a small map, in the folder small, has almost only the code.
+# counted "what" 'command' [MIB]: of a tool without --dry-run the count is near the kernel's figure. The same
+# command on a small map, in the folder small, has almost only the code; MIB: what a refusal tells, because the
+# picture of a small map is not small.
 counted() {
     local code counted taken
     read -r code _ < <(peaks "cd small; $2")
     read -r counted taken < <(peaks "$2")
     printf '%-30s %44s counted %8s of the kernel\n' "$1" "${counted:-none}" "${taken:-none}" >>table.txt
     near "${counted:-none}" "${taken:-none}" 0.05 "$1, counted"
-    kept "$1" "$2" "$(awk -v a="${counted:-0}" -v b="${code:-0}" 'BEGIN { printf "%d", (a - b) * 1024 }')"
+    kept "$1" "$2" "$(awk -v a="${counted:-0}" -v b="${code:-0}" -v m="${3:-0}" 'BEGIN { printf "%d", (m > 0 ? m : a - b) * 1024 }')"
 }
 
 rough="selfaffine --dx 1um --hurst 0.8 --rms-slope 0.1 --rolloff 100um --short-cut 6um"
@@ -94,7 +102,7 @@ maps 512 450
 rc-synth sphere --radius 1mm --dx 1um --nx 256 -o ball.rcg
 planned "rc-solve --adhesion" "rc-solve $sticky s.rcg" 25M
 planned "rc-solve --adhesion --periodic" "rc-solve --periodic $sticky s.rcg" 10M
-planned "rc-solve --yield" "rc-solve $metal --load 1N --yield 800MPa --slabs 6 --increments 1 ball.rcg" 10M
+planned "rc-solve --yield" "rc-solve $metal --load 3N --yield 800MPa --slabs 6 --increments 4 ball.rcg" 10M
 planned "rc-slip" "rc-slip --mu 0.3 --tangential 0.5N a.rcg" 25M
 planned "rc-slip --periodic" "rc-slip --mu 0.3 --tangential 0.5N b.rcg" 25M
 planned "rc-slip, dissimilar" "rc-slip --mu 0.3 --tol 0.3 --increments 1 --tangential 0.3N p.rcg" 25M
@@ -104,7 +112,9 @@ mkdir small
 maps 1400 1200
 counted "rc-info --psd" "rc-info --psd s.rcg"
 counted "rc-info --areal" "rc-info --areal s.rcg"
-counted "rc-render --contour" "rc-render --contour --channel pressure q.rcg"
+ending=.png
+counted "rc-render --contour" "rc-render --contour --channel pressure q.rcg" "$(needed "rc-render --contour --channel pressure q.rcg -o none.png" 18M)"
+ending=
 for format in x3p hdf5; do
     for folder in . small; do
         (cd $folder && rc-export --format $format -o s.$format s.rcg)
