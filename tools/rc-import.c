@@ -477,7 +477,7 @@ write_heights(struct tool *t, const struct source *s, const struct rc_wish *wish
     if (g == NULL)
         return RC_FAIL;
     if (notes.held > 0)
-        tool_memory_beside(t, notes.held);
+        tool_memory_beside(t, notes.held, 0);
     if (pick.said[0] != '\0')
         tool_warn(t, "%s: %s", t->source, pick.said);
     else if (s->format->columns && s->n > 1 && args.channel == NULL)

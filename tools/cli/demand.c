@@ -92,13 +92,21 @@ beside(void)
 }
 
 size_t
-tool_counted_memory(struct tool *t)
+tool_own_memory(struct tool *t)
 {
     const size_t now = beside();
 
     if (now > t->room.beside) /* untouched maps make the difference too small */
         t->room.beside = now;
     return rc_memory_held().peak + t->room.beside;
+}
+
+size_t
+tool_counted_memory(struct tool *t)
+{
+    const size_t own = tool_own_memory(t);
+
+    return own > t->room.counted ? own : t->room.counted;
 }
 
 size_t

@@ -146,11 +146,12 @@ tool_now(void)
 /* The other process has ended: later work of this process, such as a picture of results, does not add to its
  * memory. */
 void
-tool_memory_beside(struct tool *t, size_t bytes)
+tool_memory_beside(struct tool *t, size_t bytes, size_t counted)
 {
-    size_t both = memory_peak() + bytes;
+    const size_t both = memory_peak() + bytes, count = tool_own_memory(t) + counted;
 
     t->room.children = both > t->room.children ? both : t->room.children;
+    t->room.counted = count > t->room.counted ? count : t->room.counted;
 }
 
 size_t

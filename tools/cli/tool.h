@@ -151,7 +151,8 @@ struct tool {
         size_t budget;     /* bytes that may be allocated                                  */
         const char *bound; /* what limits it, as in "--memory allows"                      */
         double at;         /* s: the time when the memory of the machine was last read     */
-        size_t children;   /* bytes: the largest of tool_memory_beside                     */
+        size_t children;   /* bytes: the largest of tool_memory_beside, with this process  */
+        size_t counted;    /* the same, as counted                                         */
     } room;
     const char *remedy;  /* advice in the message when memory is short; NULL: a smaller map */
     struct ranks *ranks; /* the processes that share the maps (ranks.h); NULL: a single one */
@@ -331,13 +332,15 @@ const char *tool_leaner_engine(const struct tool *tool, bool periodic,
 size_t tool_memory_left(const struct tool *tool);
 /* The memory of the tool after allocating `bytes` more, with its code. */
 size_t tool_memory_with(size_t bytes);
-/* The peak of allocated memory so far, with the code. */
+/* The peak of allocated memory so far, with the code; with that of the largest process beside it. */
+size_t tool_own_memory(struct tool *tool);
 size_t tool_counted_memory(struct tool *tool);
 
 /* Seconds of a monotonic clock. */
 double tool_now(void);
-/* Reports the peak, in bytes, of a process that this one started and that has ended. */
-void tool_memory_beside(struct tool *tool, size_t bytes);
+/* Reports the peak, in bytes, of a process that this one started and that has ended: the kernel's, and the
+ * counted one (0: counted here). */
+void tool_memory_beside(struct tool *tool, size_t bytes, size_t counted);
 /* The peak memory of this process so far, in bytes. */
 size_t tool_peak_memory(void);
 

@@ -256,7 +256,8 @@ keep(struct cost_case *c, struct cost_trial *m)
             (double)(m->shape.nx * m->shape.ny) / (double)(c->shape.nx * c->shape.ny);
     m->is.runs++;
     if (m->is.memory > 0)
-        tool_memory_beside(c->tool, (size_t)m->is.memory);
+        tool_memory_beside(c->tool, (size_t)m->is.memory,
+                           (size_t)cost_number(c->said, "memory_estimate"));
     return true;
 }
 
