@@ -173,9 +173,8 @@ rc_model_keep(struct rc_model *m, struct rc_err *err)
         return RC_FAIL;
     m->from = m->to;
     m->moved = false;
-    for (enum rc_axis k = 0; k < RC_AXES;
-         k++) /* the next point may give an axis that the model has found
-                                         here */
+    /* the next point may give an axis that the model has found here */
+    for (enum rc_axis k = 0; k < RC_AXES; k++)
         if (isfinite(at.at[k]) && !(rc_point_has(&m->to, k) && isfinite(m->to.at[k])))
             m->from.at[k] = at.at[k];
     return RC_OK;
