@@ -83,9 +83,9 @@ double rc_operator_seconds(const struct rc_shape *shape, const struct rc_operato
 
 /* Adds a diagonal D >= 0, m/Pa, to K, in place of the last one: a layer without lateral stiffness, displaced
  * by D p. D is `plus`, times part[k] of each node held here unless `part` is NULL; the caller keeps `part`.
- * It applies to everything above and below, except that the inverse has the typical D everywhere. And adds
- * the motion of whole rows, `row`, 1/Pa, times the integral of p along the row. 0: none. Keeps the bytes of
- * a K without them. RC_FAIL when memory is short. */
+ * It applies to everything above and below, except that the inverse has the typical D everywhere. It also
+ * adds the motion of whole rows: `row`, 1/Pa, times the integral of p along the row. Where both are 0, the
+ * results have the same bytes as without this call. RC_FAIL when memory is short. */
 enum rc_status rc_operator_set_diagonal(struct rc_operator *op, double plus, const double *part,
                                         double row, struct rc_err *err);
 /* Finds the motion of the rows under a pressure, for rc_operator_own_motion. */
