@@ -54,8 +54,6 @@ tool_start(struct tool *t, const struct tool_info *info, int argc, char **argv, 
     options_read(t, argc, argv);
     if (t->threads == 0)
         t->threads = threads_wanted(t);
-    if (t->threads > 1)
-        waits_watch();
     tool_budget(t);
     (void)tool_counted_memory(t); /* the memory before any map is allocated: code */
     if (info->reads == READS_NOTHING && t->operands > 0)

@@ -7,7 +7,6 @@
 
 #include "memory.h"
 #include "pipe.h"
-#include "waits.h"
 #include "whole_file.h"
 
 #endif
