@@ -253,13 +253,18 @@ plan_new(const struct rc_stress_task *task, struct rc_err *err)
     plan->source = rc_store_take(&plan->own, task->sources * plan->lines * plan->waves + 1,
                                  sizeof *plan->source);
     plan->scratch = rc_store_take(&plan->own, threads * plan->scratch_size, sizeof *plan->scratch);
-    plan->sum = rc_store_take(&plan->own, PARTS * RC_COMPONENTS * plan->waves, sizeof *plan->sum);
     if (p == NULL || plan->own.failed)
         return rc_err_null(err, "out of memory for a section of %zu x %zu nodes", plan->n, plan->m);
     if ((plan->line = rc_line_new(plan->length, threads, err)) == NULL ||
         (!periodic && (plan->dct = rc_dct_new(plan->waves, threads, err)) == NULL))
         return NULL;
-    return transform_sources(plan, p, err) == RC_OK ? rc_give(&plan) : NULL;
+    if (transform_sources(plan, p, err) != RC_OK)
+        return NULL;
+    free(rc_give(&p)); /* before the sums are allocated */
+    plan->sum = rc_store_take(&plan->own, PARTS * RC_COMPONENTS * plan->waves, sizeof *plan->sum);
+    if (plan->own.failed)
+        return rc_err_null(err, "out of memory for the sums of a section of %zu nodes", plan->n);
+    return rc_give(&plan);
 }
 
 /* Adds the field of a load on one pair of lines; `k` is the kernel's transform along. */
