@@ -9,8 +9,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "libcontact/memory.h"
-
 static const double clipped_anew =
     0.02; /* part of the free nodes: if more reach 0 in a step, CG restarts */
 static const double curvature = 0.05; /* factor of d'A d: the least curvature that a step assumes */
@@ -1055,7 +1053,6 @@ rc_gap_new(struct rc_gap *g, struct rc_whole *whole, const struct rc_attraction 
 {
     size_t n = whole->grid.nx * whole->grid.ny;
     double **room[DOUBLES] = {&g->x, &g->au, &g->r, &g->z, &g->d, &g->ad, &g->step};
-    bool all = true;
 
     *g = (struct rc_gap){.whole = whole,
                          .law = *law,
@@ -1069,42 +1066,30 @@ rc_gap_new(struct rc_gap *g, struct rc_whole *whole, const struct rc_attraction 
                          .hards = hards,
                          .yields = hards != NULL || !isinf(hard)};
     for (size_t k = 0; k < DOUBLES; k++)
-        all &= (*room[k] = rc_alloc(n, sizeof(double))) != NULL;
+        *room[k] = rc_store_take(&g->own, n, sizeof(double));
+    if (g->step != NULL)
+        for (size_t k = 1; k <= 2; k++)
+            g->mode.e[RC_GAP_AZ - k] = (float *)g->step + (2 - k) * n;
     for (size_t k = 0; k < RC_GAP_FLOATS; k++)
-        if (k != RC_GAP_AZ - 1 && k != RC_GAP_AZ - 2)
-            all &= (g->mode.e[k] = rc_alloc(n, sizeof(float))) != NULL;
-    g->mode.e[RC_GAP_AZ - 2] = (float *)g->step;
-    g->mode.e[RC_GAP_AZ - 1] = g->mode.e[RC_GAP_AZ - 2] + n;
-    all &= (g->told.at_mark = rc_alloc(n, sizeof(float))) != NULL;
-    all &= (g->near.ah = rc_alloc(n, sizeof(float))) != NULL;
-    all &= (g->from.x = rc_alloc(n, sizeof(float))) != NULL;
-    all &= (g->from.slope = rc_alloc(n, sizeof(float))) != NULL;
-    all &= (g->off = rc_alloc(n, 1)) != NULL;
-    all &= rc_sums_new(&g->sums, g->py, RC_GAP_MOST, RC_GAP_SUMS - RC_GAP_MOST, whole->threads) ==
-           RC_OK;
+        if (g->mode.e[k] == NULL)
+            g->mode.e[k] = rc_store_take(&g->own, n, sizeof(float));
+    g->told.at_mark = rc_store_take(&g->own, n, sizeof(float));
+    g->near.ah = rc_store_take(&g->own, n, sizeof(float));
+    g->from.x = rc_store_take(&g->own, n, sizeof(float));
+    g->from.slope = rc_store_take(&g->own, n, sizeof(float));
+    g->off = rc_store_zeros(&g->own, n, 1);
     g->a_step = g->r;
-    if (all) {
-        memset(g->off, 0, n);
+    if (rc_sums_new(&g->sums, g->py, RC_GAP_MOST, RC_GAP_SUMS - RC_GAP_MOST, whole->threads) ==
+            RC_OK &&
+        !g->own.failed)
         return RC_OK;
-    }
     return rc_err_set(err, "out of memory for the adhesion of %zu x %zu nodes", g->nx, g->ny);
 }
 
 void
 rc_gap_free(struct rc_gap *g)
 {
-    double *room[DOUBLES] = {g->x, g->au, g->r, g->z, g->d, g->ad, g->step};
-
-    for (size_t k = 0; k < DOUBLES; k++)
-        free(room[k]);
-    for (size_t k = 0; k < RC_GAP_FLOATS; k++)
-        if (k != RC_GAP_AZ - 1 && k != RC_GAP_AZ - 2)
-            free(g->mode.e[k]);
-    free(g->told.at_mark);
-    free(g->near.ah);
-    free(g->from.x);
-    free(g->from.slope);
-    free(g->off);
+    rc_store_free(&g->own);
     free(g->near.a);
     free(g->sums.row);
     free(g->hards);

@@ -16,6 +16,7 @@
 #define RC_GAP_H
 
 #include "law.h"
+#include "libcontact/memory.h"
 #include "libcontact/operator/operator.h"
 
 enum rc_gap_control {
@@ -115,6 +116,7 @@ struct rc_gap {
     bool parting;  /* the bodies separate without remaining attraction */
     double convolutions;
     size_t iterations;
+    struct rc_store own;
 };
 
 /* RC_FAIL if memory is short; call rc_gap_free in either case. h, hards: nx ny numbers of the caller. rc_gap

@@ -82,7 +82,8 @@ void stress_input_read(struct tool *tool, const struct rc_grid *p, const struct 
 void stress_input_free(struct stress_input *input);
 /* Engines for periodic maps also compute sections: both are sums of waves. */
 bool stress_on_free_maps_only(const char *kernel);
-/* Chooses the depths if there are none, and sets them in the options; refuses those in a rigid substrate, and warns of those far below. */
+/* Chooses the depths if there are none, and sets them in the options. Refuses those in a rigid substrate, and
+ * warns of those far below. */
 void stress_depths_read(struct tool *tool, const struct rc_grid *p,
                         struct rc_stress_options *options, struct numbers *depths);
 /* Bytes of a plan for so many components, from bytes a node measured on 1024 x 1024 nodes. */
