@@ -260,12 +260,13 @@ def cancel():
     comes(lambda: len(tools_running()) == 2 and any(s['doing'] for s in runs()[three[0]]['steps']))
     assert len(tools_running()) == 2 and runs()[three[2]]['state'] == 'waiting', (tools_running(), runs())
     assert runs()[three[0]]['steps'][2]['progress'] is not None or runs()[three[0]]['steps'][2]['doing']
+    began = time.monotonic()
     for number in reversed(three):
         found('remove', {'run': number}, b'')
     for number in three:
         run = ended(number)
         assert run['state'] == 'stopped', run
-    assert not tools_running()
+    assert not tools_running() and time.monotonic() - began < 5
     assert ended(start(SAMPLE, ('rc-import', [])))['state'] == 'done'
 
 
