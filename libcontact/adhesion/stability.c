@@ -332,14 +332,16 @@ residual_row(void *ctx, size_t j, double *sums)
 static void
 take_off(struct rc_gap *g, float *v, double mean)
 {
+    if (mean == 0)
+        return;
 #pragma omp parallel for num_threads(g->sums.threads) schedule(static)
     for (size_t k = 0; k < g->n; k++)
         if (!g->off[k])
             v[k] = (float)((double)v[k] - mean);
 }
 
-/* Takes the best x of the space, and returns its mu. */
-static double
+/* Takes the best x of the space. */
+static void
 improve(struct rc_gap *g)
 {
     double sums[RC_GAP_SUMS], c[SPACE];
@@ -348,8 +350,26 @@ improve(struct rc_gap *g)
     g->mode.error = sqrt(fmax(sums[2], 0)); /* y'W y, for x with x'W x = 1 */
     best(sums, c);
     combine(g, c);
-    rc_sums_rows(&g->sums, gram_row, g, sums);
-    return sums[6] / sums[0];
+}
+
+static void
+quotient_row(void *ctx, size_t j, double *sums)
+{
+    const struct rc_gap *g = ctx;
+    for (size_t k = j * g->px; k < (j + 1) * g->px; k++) {
+        sums[0] += (double)g->mode.e[X][k] * (double)g->mode.e[X + 1][k];
+        sums[1] += (double)g->mode.e[X][k] * (double)g->mode.e[X + 2][k];
+    }
+}
+
+/* mu of x, x'T x / x'W x. */
+static double
+quotient(struct rc_gap *g)
+{
+    double sums[RC_GAP_SUMS];
+
+    rc_sums_rows(&g->sums, quotient_row, g, sums);
+    return sums[1] / sums[0];
 }
 
 void
@@ -376,7 +396,8 @@ rc_gap_eigen_begin(struct rc_gap *g)
     apply_stiffness(g, g->mode.e[X], g->mode.e[X + 2]);
     clear(g, Y);
     clear(g, D);
-    g->mode.mu = improve(g);
+    improve(g);
+    g->mode.mu = quotient(g);
     g->mode.error = INFINITY;
 }
 
@@ -407,7 +428,7 @@ rc_gap_track(struct rc_gap *g, double mean)
     take_off(g, g->mode.e[Y], mean);
     take_off(g, g->mode.e[Y + 2], g->control == RC_GAP_LOAD ? sums[0] / (double)g->n : 0);
     soften(g, g->mode.e[Y], g->mode.e[Y + 2]);
-    (void)improve(g);
+    improve(g);
 }
 
 void
@@ -420,7 +441,8 @@ rc_gap_eigen_step(struct rc_gap *g)
         take_off(g, g->mode.e[Y + 1], sums[0] / sums[1]);
     apply_k(g, g->mode.e[Y + 1], g->mode.e[Y]);
     apply_stiffness(g, g->mode.e[Y], g->mode.e[Y + 2]);
-    g->mode.mu = improve(g);
+    improve(g);
+    g->mode.mu = quotient(g);
     g->mode.slow = g->mode.mu > steady * last ? g->mode.slow + 1 : 0;
     g->mode.steps++;
     g->mode.known = true;
