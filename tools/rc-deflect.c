@@ -121,25 +121,22 @@ do_case(struct tool *t, const struct rc_grid *p)
     struct layers layers;
     struct rc_pair pair = pair_of(t, p, &layers);
     struct rc_conv *conv;
-    struct rc_grid *u;
+    RC_OWN(rc_grid, u) = NULL;
 
     tool_demand_finite(t, p, "recompute the map");
     demand_memory(t, p, &options);
     conv = tool_made(t, p, rc_conv_new(rc_shape_of(p), &pair, &options, &t->err));
     tool_note(t, "summed by %s, because %s; error at most %.1e of the sum of |K| |p|",
               rc_conv_engine(conv), rc_conv_reason(conv), rc_conv_error(conv));
-    u = rc_grid_like(p, "displacement", "m", &t->err);
-    if (u == NULL ||
-        (pair.estar > 0 && rc_grid_set_number(u, "estar", pair.estar, &t->err) != RC_OK) ||
-        rc_grid_set(u, "boundary", options.boundary == RC_PERIODIC ? "periodic" : "free",
-                    &t->err) != RC_OK ||
-        rc_grid_history(u, tool_history(t), &t->err) != RC_OK)
-        tool_die_at(t, p, EXIT_IMPOSSIBLE, "%s", t->err.text);
+    u = tool_frame_like(t, p, NULL, "displacement", "m");
+    if (pair.estar > 0)
+        tool_set_number(t, u, "estar", pair.estar);
+    tool_set(t, u, "boundary", options.boundary == RC_PERIODIC ? "periodic" : "free");
+    tool_sign(t, u);
     rc_conv_apply(conv, p->v, u->v);
     rc_conv_free(conv);
     layers_free(&layers);
     tool_write(t, u);
-    rc_grid_free(u);
 }
 
 int

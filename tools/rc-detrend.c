@@ -281,16 +281,13 @@ failed(struct tool *t, const struct rc_grid *g, const struct step *step, const s
 static void
 detrend(struct tool *t, struct rc_grid *g)
 {
-    enum rc_status status;
-
     for (size_t k = 0; k < args.steps.n; k++) {
         const struct step *step = &args.steps.step[k];
         const struct work *work = step->opt->of;
         if (work->run(t, g, step->value, &t->err) != RC_OK)
             failed(t, g, step, &t->err);
     }
-    status = rc_grid_history(g, tool_history(t), &t->err);
-    tool_must(t, g, status);
+    tool_sign(t, g);
 }
 
 /* Mirrors the other frames of the case, such as a map of hardness, with the heights. */
@@ -302,9 +299,10 @@ passing(struct tool *t, struct rc_grid *g)
     snprintf(step, sizeof step, "%s %s --mirror", t->info->name, rc_version());
     for (size_t k = 0; k < args.steps.n; k++) {
         const struct work *work = args.steps.step[k].opt->of;
-        if (work->run == mirror &&
-            (mirror(t, g, 0, &t->err) != RC_OK || rc_grid_history(g, step, &t->err) != RC_OK))
-            tool_die_at(t, g, EXIT_IMPOSSIBLE, "%s", t->err.text);
+        if (work->run != mirror)
+            continue;
+        tool_must(t, g, mirror(t, g, 0, &t->err));
+        tool_must(t, g, rc_grid_history(g, step, &t->err));
     }
 }
 

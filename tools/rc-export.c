@@ -193,27 +193,11 @@ decimal(double x)
 static void
 set_depths(struct tool *t, struct rc_grid *g, double first, double step)
 {
-    size_t size = g->ny * RC_NUMBER_SIZE, n = 0;
-    char *text = tool_room(t, size, 1, "the depths of a section");
+    RC_OWNED double *z = tool_room(t, g->ny, sizeof *z, "the depths of a section");
 
     for (size_t j = 0; j < g->ny; j++)
-        n += (size_t)snprintf(text + n, size - n, "%s%s", j == 0 ? "" : ",",
-                              rc_number(decimal(first + (double)j * step)));
-    tool_must(t, g, rc_grid_set(g, "depths", text, &t->err));
-    free(text);
-}
-
-/* The same channel and keys on another grid. */
-static struct rc_grid *
-with_rows_of(struct tool *t, const struct rc_grid *g, const struct rc_shape *shape)
-{
-    struct rc_grid *to;
-
-    to = tool_made(t, g, rc_grid_new(shape, g->channel, g->unit, &t->err));
-    for (size_t k = 0; k < g->keys; k++)
-        tool_must(t, g, rc_grid_set(to, g->key[k].name, g->key[k].value, &t->err));
-    to->type = g->type;
-    return to;
+        z[j] = decimal(first + (double)j * step);
+    tool_set_numbers(t, g, "depths", z, g->ny);
 }
 
 /* Interpolates rows of `to`, at equal steps from the first depth, from those of `from` at the depths `at`. */
@@ -269,7 +253,8 @@ even_rows(struct tool *t, struct rc_grid *g)
     if (!rc_export_even(at, g->ny, &step)) {
         shape.ny = rows_needed(t, g, at);
         shape.dy = step = decimal((at[g->ny - 1] - at[0]) / (double)(shape.ny - 1));
-        even = with_rows_of(t, g, &shape);
+        even = tool_frame_like(t, g, &shape, g->channel, g->unit);
+        even->type = g->type;
         interpolate(g, at, even, step);
         set_depths(t, even, at[0], step);
         rc_grid_free(g);
@@ -317,7 +302,7 @@ read_frames(struct tool *t, size_t *frames)
         check_frame(t, *frames == 0 ? NULL : frame[0], g);
         if (args.even)
             g = even_rows(t, g);
-        tool_must(t, g, rc_grid_history(g, tool_history(t), &t->err));
+        tool_sign(t, g);
         if ((more = realloc(frame, (*frames + 1) * sizeof(struct rc_grid *))) == NULL)
             tool_die(t, EXIT_IMPOSSIBLE, "out of memory for %zu frames", *frames + 1);
         frame = more;

@@ -377,47 +377,27 @@ needs_endurance(void)
 }
 
 /* The limits in the keys, if all depths have the same. */
-static enum rc_status
-set_limits(const struct run *run, struct rc_grid *g, struct rc_err *err)
-{
-    const struct rc_fatigue_limits *l = run->limits.at;
-
-    if (run->limits.n > 1)
-        return RC_OK;
-    return (l->bending > 0 && rc_grid_set_number(g, "bending_limit", l->bending, err) != RC_OK) ||
-                   (l->torsion > 0 &&
-                    rc_grid_set_number(g, "torsion_limit", l->torsion, err) != RC_OK)
-               ? RC_FAIL
-               : RC_OK;
-}
-
 static void
 set_keys(struct run *run, struct rc_grid *g)
 {
     static const char *const gone[] = {"position", "height", "mu", "approach"};
     const char pass[2] = {run->problem.pass, '\0'};
+    const struct rc_fatigue_limits *limits = run->limits.at;
     struct numbers *d = &run->depths;
-    size_t frames = count_wanted();
-    bool fine = true;
+    struct tool *t = &run->t;
 
     for (size_t k = 0; k < sizeof gone / sizeof *gone; k++)
-        fine = fine && rc_grid_set(g, gone[k], NULL, &run->t.err) == RC_OK;
+        tool_set(t, g, gone[k], NULL);
     if (pass[0] != '\0') {
-        size_t size = d->n * RC_NUMBER_SIZE + 1, n = 0;
-        char *text = tool_room(&run->t, size, 1, "the depths of a section");
-        for (size_t k = 0; k < d->n; k++)
-            n +=
-                (size_t)snprintf(text + n, size - n, "%s%s", k == 0 ? "" : ",", rc_number(d->v[k]));
-        fine = fine && rc_grid_set(g, "section", pass, &run->t.err) == RC_OK &&
-               rc_grid_set(g, "depths", text, &run->t.err) == RC_OK;
-        free(text);
-    } else {
-        frames *= d->n;
+        tool_set(t, g, "section", pass);
+        tool_set_numbers(t, g, "depths", d->v, d->n);
     }
-    if (!fine || rc_grid_set_number(g, "frames", (double)frames, &run->t.err) != RC_OK ||
-        set_limits(run, g, &run->t.err) != RC_OK ||
-        rc_grid_history(g, tool_history(&run->t), &run->t.err) != RC_OK)
-        tool_die_at(&run->t, g, EXIT_IMPOSSIBLE, "%s", run->t.err.text);
+    tool_set_number(t, g, "frames", (double)(count_wanted() * (pass[0] != '\0' ? 1 : d->n)));
+    if (run->limits.n <= 1 && limits->bending > 0)
+        tool_set_number(t, g, "bending_limit", limits->bending);
+    if (run->limits.n <= 1 && limits->torsion > 0)
+        tool_set_number(t, g, "torsion_limit", limits->torsion);
+    tool_sign(t, g);
 }
 
 /* A section with a row for each depth, or the map of a depth. */
@@ -433,11 +413,7 @@ new_frame(struct run *run, const struct rc_shape *result, int c)
         shape.ny = d->n;
         shape.dy = d->n > 1 ? (d->v[d->n - 1] - d->v[0]) / (double)(d->n - 1) : shape.dx;
     }
-    g = tool_made(&run->t, first,
-                  rc_grid_new(&shape, rc_criterion_names[c], unit_of(c), &run->t.err));
-    for (size_t k = 0; k < first->keys; k++)
-        tool_must(&run->t, first,
-                  rc_grid_set(g, first->key[k].name, first->key[k].value, &run->t.err));
+    g = tool_frame_like(&run->t, first, &shape, rc_criterion_names[c], unit_of(c));
     set_keys(run, g);
     return g;
 }
@@ -556,11 +532,10 @@ do_depth(struct run *run, struct rc_fatigue *f, const struct rc_shape *result, s
     for (int c = 0; c < RC_FATIGUES && run->problem.pass == 0 && !args.dry_run; c++) {
         if (!wanted(c))
             continue;
-        if (rc_grid_set_number(run->frame[c], "depth", depth, &t->err) != RC_OK ||
-            (body->layers > 0 &&
-             rc_grid_set_number(run->frame[c], "material",
-                                (double)rc_body_material(body, depth) + 1, &t->err) != RC_OK))
-            tool_die_at(t, run->frame[c], EXIT_IMPOSSIBLE, "%s", t->err.text);
+        tool_set_number(t, run->frame[c], "depth", depth);
+        if (body->layers > 0)
+            tool_set_number(t, run->frame[c], "material",
+                            (double)rc_body_material(body, depth) + 1);
         tool_write(t, run->frame[c]);
     }
 }

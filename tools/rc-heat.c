@@ -302,21 +302,20 @@ write_frame(struct run *run, const struct rc_grid *like, struct rc_heat *h, size
     static const char *const units[] = {"K", "K", "W/m2", "W/m2", "1"};
     const int body = (int)(kind % 2);
     const bool heat = kind >= 2;
-    struct rc_grid *g = rc_grid_like(like, frame_word(kind), units[kind], &run->t.err);
+    RC_OWN(rc_grid, g) = tool_frame_like(&run->t, like, NULL, frame_word(kind), units[kind]);
 
-    if (g == NULL ||
-        rc_grid_set_number(g, "max_temperature", f->max_temperature, &run->t.err) != RC_OK ||
-        (!heat && rc_grid_set_number(g, "depth", depth, &run->t.err) != RC_OK) ||
-        rc_grid_set(g, "converged", f->converged ? "yes" : "no", &run->t.err) != RC_OK ||
-        rc_grid_history(g, tool_history(&run->t), &run->t.err) != RC_OK ||
-        (!heat && rc_heat_temperature(h, body, depth, g->v, &run->t.err) != RC_OK))
-        tool_die_at(&run->t, like, EXIT_IMPOSSIBLE, "%s", run->t.err.text);
+    tool_set_number(&run->t, g, "max_temperature", f->max_temperature);
+    if (!heat)
+        tool_set_number(&run->t, g, "depth", depth);
+    tool_set(&run->t, g, "converged", f->converged ? "yes" : "no");
+    tool_sign(&run->t, g);
+    if (!heat)
+        tool_must(&run->t, like, rc_heat_temperature(h, body, depth, g->v, &run->t.err));
     for (size_t k = 0; k < rc_grid_nodes(g) && heat; k++)
         g->v[k] = kind < 4             ? rc_heat_flux(h, body)[k]
                   : run->touch != NULL ? run->touch[k]
                                        : like->v[k] != 0;
     tool_write(&run->t, g);
-    rc_grid_free(g);
 }
 
 static void

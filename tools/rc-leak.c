@@ -123,22 +123,24 @@ look_at_contact(struct run *run, struct leak_case *c)
     return touch;
 }
 
-static enum rc_status
-set_keys(struct run *run, const struct leak_case *c, struct rc_grid *g, struct rc_err *err)
+static void
+set_keys(struct tool *t, const struct leak_case *c, struct rc_grid *g)
 {
     const struct rc_leak_figures *f = c->figures;
     const char direction[2] = {c->direction, '\0'};
 
-    if (rc_grid_set(g, "direction", direction, err) != RC_OK ||
-        rc_grid_set_number(g, "flow_conductance", f->conductance, err) != RC_OK ||
-        (!isnan(c->drop) &&
-         (rc_grid_set_number(g, "flow_rate", c->rate * f->conductance, err) != RC_OK ||
-          rc_grid_set_number(g, "pressure_drop", c->drop, err) != RC_OK ||
-          rc_grid_set_number(g, "viscosity", c->viscosity, err) != RC_OK)) ||
-        (f->percolates && (rc_grid_set_number(g, "throat_x", f->critical_x, err) != RC_OK ||
-                           rc_grid_set_number(g, "throat_y", f->critical_y, err) != RC_OK)))
-        return RC_FAIL;
-    return rc_grid_history(g, tool_history(&run->t), err);
+    tool_set(t, g, "direction", direction);
+    tool_set_number(t, g, "flow_conductance", f->conductance);
+    if (!isnan(c->drop)) {
+        tool_set_number(t, g, "flow_rate", c->rate * f->conductance);
+        tool_set_number(t, g, "pressure_drop", c->drop);
+        tool_set_number(t, g, "viscosity", c->viscosity);
+    }
+    if (f->percolates) {
+        tool_set_number(t, g, "throat_x", f->critical_x);
+        tool_set_number(t, g, "throat_y", f->critical_y);
+    }
+    tool_sign(t, g);
 }
 
 static void
@@ -146,16 +148,14 @@ write_frame(struct run *run, const struct leak_case *c, const struct rc_leak *le
 {
     double scale = isnan(c->drop) ? 1 : kind == PRESSURE ? c->drop : kind == FLUX ? c->rate : 1;
     const char *unit = isnan(c->drop) ? frames[kind].unit : frames[kind].driven_unit;
-    struct rc_grid *g = rc_grid_like(c->gap, frames[kind].name, unit, &run->t.err);
+    RC_OWN(rc_grid, g) = tool_frame_like(&run->t, c->gap, NULL, frames[kind].name, unit);
 
-    if (g == NULL || set_keys(run, c, g, &run->t.err) != RC_OK)
-        tool_die_at(&run->t, c->gap, EXIT_IMPOSSIBLE, "%s", run->t.err.text);
+    set_keys(&run->t, c, g);
     frames[kind].get(leak, g->v);
     for (size_t k = 0; k < rc_grid_nodes(g) && scale != 1; k++)
         g->v[k] *= scale;
     run->t.missing = kind == PRESSURE || kind == FLUX; /* contact has none */
     tool_write(&run->t, g);
-    rc_grid_free(g);
 }
 
 static void

@@ -125,26 +125,23 @@ changes_heights(void)
     return false;
 }
 
-static enum rc_status
-set(struct rc_grid *g, const struct step *step, struct rc_err *err)
+static void
+set(struct tool *t, struct rc_grid *g, const struct step *step)
 {
     const char *value = strchr(step->text, '=') + 1;
-    enum rc_status status;
-    char *key;
+    RC_OWNED char *key = tool_copy(t, step->text);
 
-    if (strncmp(step->text, "dx=", 3) == 0 || strncmp(step->text, "dy=", 3) == 0) {
-        *(step->text[1] == 'x' ? &g->dx : &g->dy) = step->value;
-        return RC_OK;
-    }
-    if (strncmp(step->text, "channel=", 8) == 0)
-        return rc_text_set(&g->channel, value, err);
-    if (strncmp(step->text, "unit=", 5) == 0)
-        return rc_text_set(&g->unit, value, err);
-    if ((key = strndup(step->text, (size_t)(value - step->text) - 1)) == NULL)
-        return rc_err_set(err, "out of memory for the name of a key");
-    status = rc_grid_set(g, key, *value == '\0' ? NULL : value, err);
-    free(key);
-    return status;
+    key[value - step->text - 1] = '\0';
+    if (strcmp(key, "dx") == 0)
+        g->dx = step->value;
+    else if (strcmp(key, "dy") == 0)
+        g->dy = step->value;
+    else if (strcmp(key, "channel") == 0)
+        tool_must(t, g, rc_text_set(&g->channel, value, &t->err));
+    else if (strcmp(key, "unit") == 0)
+        tool_must(t, g, rc_text_set(&g->unit, value, &t->err));
+    else
+        tool_set(t, g, key, *value == '\0' ? NULL : value);
 }
 
 /* ---- the command line ---- */
@@ -189,7 +186,6 @@ demand_one_channel(struct tool *t, const struct rc_grid *g)
 static void
 change(struct tool *t, struct rc_grid *g)
 {
-    enum rc_status status = RC_OK;
     bool renamed = false;
 
     for (size_t k = 0; k < args.steps.n; k++)
@@ -200,15 +196,13 @@ change(struct tool *t, struct rc_grid *g)
         results_demand_none(t, g);
     /* because the number of depths may be smaller now */
     if (args.wanted.channel != NULL || args.wanted.depth.n > 0)
-        status = rc_grid_set(g, "frames", NULL, &t->err);
-    for (size_t k = 0; k < args.steps.n && status == RC_OK; k++)
+        tool_set(t, g, "frames", NULL);
+    for (size_t k = 0; k < args.steps.n; k++)
         if (pick_geometry(&args.steps.step[k]))
             pick_geometry_do(t, g, &args.steps.step[k]);
         else
-            status = set(g, &args.steps.step[k], &t->err);
-    if (status == RC_OK)
-        status = rc_grid_history(g, tool_history(t), &t->err);
-    tool_must(t, g, status);
+            set(t, g, &args.steps.step[k]);
+    tool_sign(t, g);
 }
 
 int

@@ -170,61 +170,41 @@ frame_shape(const struct run *run, const struct rc_grid *p)
     return s;
 }
 
-static char *
-depths_text(struct run *run, const struct rc_grid *p)
-{
-    size_t size = 60000, n = 0;
-    char *text = tool_room(&run->t, size, 1, "the depths of a section");
-
-    for (size_t k = 0; k < run->depths.n; k++) {
-        int more =
-            snprintf(text + n, size - n, "%s%s", k == 0 ? "" : ",", rc_number(run->depths.v[k]));
-        n += (size_t)more;
-        if (n >= size)
-            tool_die_at(&run->t, p, EXIT_IMPOSSIBLE,
-                        "%zu depths are too many for the header of a section: ask for fewer",
-                        run->depths.n);
-    }
-    return text;
-}
-
 static void
 set_keys(struct run *run, const struct rc_grid *p, struct rc_grid *g)
 {
-    const char section[2] = {run->options.section, '\0'};
-    bool plane = section[0] != '\0';
-    char *depths = plane ? depths_text(run, p) : NULL;
-    size_t frames = channels() * (plane ? 1 : run->depths.n);
+    const struct rc_stress_options *o = &run->options;
+    const char section[2] = {o->section, '\0'};
+    const size_t longest = 60000; /* of the key */
+    const bool plane = o->section != 0;
+    struct tool *t = &run->t;
 
-    if (rc_grid_set(g, "nu", NULL, &run->t.err) != RC_OK ||
-        (run->input.layers.text == NULL &&
-         rc_grid_set_number(g, "nu", run->options.body.nu, &run->t.err) != RC_OK) ||
-        rc_grid_set(g, "boundary", run->options.boundary == RC_PERIODIC ? "periodic" : "free",
-                    &run->t.err) != RC_OK ||
-        rc_grid_set(g, "mu", NULL, &run->t.err) != RC_OK ||
-        (args.asked.mu != 0 && rc_grid_set_number(g, "mu", args.asked.mu, &run->t.err) != RC_OK) ||
-        rc_grid_set_number(g, "frames", (double)frames, &run->t.err) != RC_OK ||
-        (plane && (rc_grid_set(g, "section", section, &run->t.err) != RC_OK ||
-                   rc_grid_set_number(g, "at", run->options.at, &run->t.err) != RC_OK ||
-                   rc_grid_set(g, "depths", depths, &run->t.err) != RC_OK)) ||
-        rc_grid_history(g, tool_history(&run->t), &run->t.err) != RC_OK)
-        tool_die_at(&run->t, p, EXIT_IMPOSSIBLE, "%s", run->t.err.text);
-    free(depths);
+    tool_set(t, g, "nu", NULL);
+    tool_set_number(t, g, "nu", run->input.layers.text == NULL ? o->body.nu : NAN);
+    tool_set(t, g, "boundary", o->boundary == RC_PERIODIC ? "periodic" : "free");
+    tool_set(t, g, "mu", NULL);
+    tool_set_number(t, g, "mu", args.asked.mu != 0 ? args.asked.mu : NAN);
+    tool_set_number(t, g, "frames", (double)(channels() * (plane ? 1 : run->depths.n)));
+    if (plane) {
+        tool_set(t, g, "section", section);
+        tool_set_number(t, g, "at", o->at);
+        tool_set_numbers(t, g, "depths", run->depths.v, run->depths.n);
+        if (strlen(rc_grid_get(g, "depths")) >= longest)
+            tool_die_at(t, p, EXIT_IMPOSSIBLE,
+                        "%zu depths are too many for the header of a section: ask for fewer",
+                        run->depths.n);
+    }
+    tool_sign(t, g);
 }
 
 /* Makes a grid with the keys of p and another shape. */
 static struct rc_grid *
 new_frame(struct run *run, const struct rc_grid *p, int channel)
 {
-    struct rc_shape shape = frame_shape(run, p);
-    size_t rows = run->options.section != 0 ? shape.ny : p->ny - p->elsewhere;
-    struct rc_grid *g =
-        rc_grid_new_part(&shape, rows, rc_component_names[channel], "Pa", &run->t.err);
+    const struct rc_shape shape = frame_shape(run, p);
+    struct rc_grid *g = tool_frame_like(&run->t, p, run->options.section != 0 ? &shape : NULL,
+                                        rc_component_names[channel], "Pa");
 
-    for (size_t k = 0; g != NULL && k < p->keys; k++)
-        tool_must(&run->t, p, rc_grid_set(g, p->key[k].name, p->key[k].value, &run->t.err));
-    if (g == NULL)
-        tool_die_at(&run->t, p, EXIT_IMPOSSIBLE, "%s", run->t.err.text);
     set_keys(run, p, g);
     return g;
 }
@@ -258,16 +238,14 @@ memory_for(const struct run *run, const struct rc_grid *p)
 }
 
 /* Sets the keys of a slice: its depth and, for a coated body, its material. */
-static enum rc_status
-set_place(const struct run *run, struct rc_grid *g, double depth, struct rc_err *err)
+static void
+set_place(struct run *run, struct rc_grid *g, double depth)
 {
     const struct rc_body *body = &run->options.body;
 
-    if (rc_grid_set_number(g, "depth", depth, err) != RC_OK)
-        return RC_FAIL;
-    if (body->layers == 0)
-        return RC_OK;
-    return rc_grid_set_number(g, "material", (double)rc_body_material(body, depth) + 1, err);
+    tool_set_number(&run->t, g, "depth", depth);
+    if (body->layers > 0)
+        tool_set_number(&run->t, g, "material", (double)rc_body_material(body, depth) + 1);
 }
 
 static void
@@ -287,7 +265,7 @@ do_depth(struct run *run, struct rc_stress *stress, size_t k)
     for (int c = 0; c < RC_STRESSES && !plane; c++) {
         if (!wanted(c))
             continue;
-        tool_must(&run->t, NULL, set_place(run, run->frame[c], run->depths.v[k], &run->t.err));
+        set_place(run, run->frame[c], run->depths.v[k]);
         tool_write(&run->t, run->frame[c]);
     }
 }

@@ -222,10 +222,10 @@ add_keys(struct tool *t, const struct synth_shape *row, struct rc_grid *g, bool 
     else
         snprintf(source, sizeof source, "%s", row->name);
     snprintf(step, sizeof step, "%s %s", tool_history(t), row->name);
-    if (rc_grid_set(g, "source", source, &t->err) != RC_OK ||
-        (periodic && rc_grid_set(g, "periodic", "yes", &t->err) != RC_OK) ||
-        rc_grid_history(g, step, &t->err) != RC_OK)
-        tool_die(t, EXIT_IMPOSSIBLE, "%s", t->err.text);
+    tool_set(t, g, "source", source);
+    if (periodic)
+        tool_set(t, g, "periodic", "yes");
+    tool_must(t, NULL, rc_grid_history(g, step, &t->err));
 }
 
 int

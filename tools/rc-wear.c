@@ -490,11 +490,10 @@ set_keys(struct drive *d, struct rc_model *m, struct rc_grid *g)
             "worn through is not implemented",
             shown_in_unit(f->max_wear_depth, "m"), shown_in_unit(run->coat, "m"));
     d->ended = d->status != RC_MORE && f->distance < d->point[d->at].at[RC_DISTANCE];
-    if (rc_grid_set_number(g, "wear_1", run->law.k[0], &d->t.err) != RC_OK ||
-        rc_grid_set_number(g, "wear_2", run->law.k[1], &d->t.err) != RC_OK ||
-        (run->map[SLIP] != NULL &&
-         rc_grid_set_number(g, "cycles", f->distance / run->path, &d->t.err) != RC_OK))
-        tool_die_at(&d->t, g, EXIT_IMPOSSIBLE, "%s", d->t.err.text);
+    tool_set_number(&d->t, g, "wear_1", run->law.k[0]);
+    tool_set_number(&d->t, g, "wear_2", run->law.k[1]);
+    if (run->map[SLIP] != NULL)
+        tool_set_number(&d->t, g, "cycles", f->distance / run->path);
     judge_map(run, m, g);
     if (run->law.sliding && f->pressure_error > args.tol)
         course_warn(

@@ -193,63 +193,42 @@ bodies_read(const struct rc_grid *g, const struct layers *l, struct rc_pair *p, 
     return RC_OK;
 }
 
-static enum rc_status
-set_number(struct rc_grid *g, const char *name, double value, struct rc_err *err)
-{
-    return value > -INFINITY && value < INFINITY ? rc_grid_set_number(g, name, value, err)
-                                                 : rc_grid_set(g, name, NULL, err);
-}
-
 /* Writes the key `layers` of a layered body. */
-static enum rc_status
-set_layers(struct rc_grid *g, const struct rc_body *b, struct rc_err *err)
+static void
+set_layers(struct tool *t, struct rc_grid *g, const struct rc_body *b)
 {
     size_t most = (b->layers + 1) * (3 * RC_NUMBER_SIZE + 4), n = 0;
-    char *text;
-    enum rc_status status;
+    RC_OWNED char *text = tool_room(t, most, 1, "the layers");
 
-    if (b->layers == 0)
-        return rc_grid_set(g, "layers", NULL, err);
-    if ((text = malloc(most)) == NULL)
-        return rc_err_set(err, "out of memory for %zu layers", b->layers);
     for (size_t k = 0; k < b->layers; k++)
         n += (size_t)snprintf(text + n, most - n, "%s,%s,%s;", rc_number(b->layer[k].thickness),
                               rc_number(b->layer[k].e), rc_number(b->layer[k].nu));
     snprintf(text + n, most - n, "inf,%s,%s", rc_number(b->e), rc_number(b->nu));
-    status = rc_grid_set(g, "layers", text, err);
-    free(text);
-    return status;
+    tool_set(t, g, "layers", b->layers > 0 ? text : NULL);
 }
 
-static enum rc_status
-set_residual(struct rc_grid *g, const struct rc_body *b, const double *residual, struct rc_err *err)
+static void
+set_residual(struct tool *t, struct rc_grid *g, const struct rc_body *b, const double *residual)
 {
     size_t most = (b->layers + 1) * (RC_NUMBER_SIZE + 1), n = 0;
-    enum rc_status status;
-    char *text;
+    RC_OWNED char *text = tool_room(t, most, 1, "the layers");
 
-    if (b->layers == 0 || residual == NULL)
-        return rc_grid_set(g, "layers.residual", NULL, err);
-    if ((text = malloc(most)) == NULL)
-        return rc_err_set(err, "out of memory for %zu layers", b->layers);
-    for (size_t k = 0; k < b->layers; k++)
+    for (size_t k = 0; k < b->layers && residual != NULL; k++)
         n +=
             (size_t)snprintf(text + n, most - n, "%s%s", k == 0 ? "" : ";", rc_number(residual[k]));
-    status = rc_grid_set(g, "layers.residual", text, err);
-    free(text);
-    return status;
+    tool_set(t, g, "layers.residual", n > 0 ? text : NULL);
 }
 
-enum rc_status
-bodies_set(struct rc_grid *g, const struct rc_pair *p, const double *residual, struct rc_err *err)
+void
+bodies_set(struct tool *t, struct rc_grid *g, const struct rc_pair *p, const double *residual)
 {
     bool known = p->estar == 0, elastic = known && p->two.e > 0 && !isinf(p->two.e);
 
-    if (set_number(g, "estar", estar_of(p), err) != RC_OK ||
-        set_number(g, "e1", known ? p->one.e : NAN, err) != RC_OK ||
-        set_number(g, "nu", known ? p->one.nu : NAN, err) != RC_OK ||
-        set_number(g, "e2", elastic ? p->two.e : NAN, err) != RC_OK ||
-        set_number(g, "nu2", elastic ? p->two.nu : NAN, err) != RC_OK)
-        return RC_FAIL;
-    return set_layers(g, &p->one, err) == RC_OK ? set_residual(g, &p->one, residual, err) : RC_FAIL;
+    tool_set_number(t, g, "estar", estar_of(p));
+    tool_set_number(t, g, "e1", known ? p->one.e : NAN);
+    tool_set_number(t, g, "nu", known ? p->one.nu : NAN);
+    tool_set_number(t, g, "e2", elastic ? p->two.e : NAN);
+    tool_set_number(t, g, "nu2", elastic ? p->two.nu : NAN);
+    set_layers(t, g, &p->one);
+    set_residual(t, g, &p->one, residual);
 }

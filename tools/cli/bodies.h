@@ -9,6 +9,7 @@
 #define RC_TOOL_BODIES_H
 
 #include "libcontact/contact.h"
+#include "tool.h"
 
 /* Body 1 from its key `layers`. */
 struct layers {
@@ -35,7 +36,7 @@ enum rc_status layer_read(const char *text, struct rc_layer *layer, double *resi
 enum rc_status bodies_read(const struct rc_grid *grid, const struct layers *layers,
                            struct rc_pair *pair, struct rc_err *err);
 /* Sets all these keys and removes those of other bodies; residual: stresses of the layers, Pa, NULL: none. */
-enum rc_status bodies_set(struct rc_grid *grid, const struct rc_pair *pair, const double *residual,
-                          struct rc_err *err);
+void bodies_set(struct tool *tool, struct rc_grid *grid, const struct rc_pair *pair,
+                const double *residual);
 
 #endif

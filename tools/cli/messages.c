@@ -3,6 +3,7 @@
  */
 #include "tool.h"
 
+#include <math.h>
 #include <stdarg.h>
 #include <stdlib.h>
 #include <string.h>
@@ -187,6 +188,53 @@ tool_made(struct tool *t, const struct rc_grid *g, void *made)
 {
     tool_must(t, g, made == NULL ? RC_FAIL : RC_OK);
     return made;
+}
+
+/* ---- frames and their keys ---- */
+
+struct rc_grid *
+tool_frame_like(struct tool *t, const struct rc_grid *like, const struct rc_shape *shape,
+                const char *channel, const char *unit)
+{
+    struct rc_grid as = *like;
+
+    if (shape != NULL) {
+        as.nx = shape->nx;
+        as.ny = shape->ny;
+        as.elsewhere = 0;
+        as.dx = shape->dx;
+        as.dy = shape->dy;
+    }
+    return tool_made(t, like, rc_grid_like(&as, channel, unit, &t->err));
+}
+
+void
+tool_set(struct tool *t, struct rc_grid *g, const char *name, const char *value)
+{
+    tool_must(t, g, rc_grid_set(g, name, value, &t->err));
+}
+
+void
+tool_set_number(struct tool *t, struct rc_grid *g, const char *name, double value)
+{
+    tool_set(t, g, name, isfinite(value) ? rc_number(value) : NULL);
+}
+
+void
+tool_set_numbers(struct tool *t, struct rc_grid *g, const char *name, const double *v, size_t n)
+{
+    size_t size = n * RC_NUMBER_SIZE + 1, at = 0;
+    RC_OWNED char *text = tool_room(t, size, 1, name);
+
+    for (size_t k = 0; k < n; k++)
+        at += (size_t)snprintf(text + at, size - at, "%s%s", k == 0 ? "" : ",", rc_number(v[k]));
+    tool_set(t, g, name, text);
+}
+
+void
+tool_sign(struct tool *t, struct rc_grid *g)
+{
+    tool_must(t, g, rc_grid_history(g, tool_history(t), &t->err));
 }
 
 /* ---- memory that must be there ---- */

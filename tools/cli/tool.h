@@ -263,6 +263,17 @@ void tool_must(struct tool *tool, const struct rc_grid *grid, enum rc_status sta
 /* Returns what a maker returned; ends the tool with tool->err if that is NULL. */
 void *tool_made(struct tool *tool, const struct rc_grid *grid, void *made)
     __attribute__((returns_nonnull));
+/* A frame with the keys of another one, and its shape if `shape` is NULL. */
+struct rc_grid *tool_frame_like(struct tool *tool, const struct rc_grid *like,
+                                const struct rc_shape *shape, const char *channel, const char *unit)
+    __attribute__((returns_nonnull));
+/* These set a key of a frame. NULL, or a number that is not finite, removes it. */
+void tool_set(struct tool *tool, struct rc_grid *grid, const char *name, const char *value);
+void tool_set_number(struct tool *tool, struct rc_grid *grid, const char *name, double value);
+void tool_set_numbers(struct tool *tool, struct rc_grid *grid, const char *name, const double *v,
+                      size_t n);
+/* Adds this command to the history of a frame. */
+void tool_sign(struct tool *tool, struct rc_grid *grid);
 /* An array of n elements of this size, all 0, which the caller frees. Ends the tool when memory is short,
  * with the message "out of memory for WHAT". */
 void *tool_room(struct tool *tool, size_t n, size_t size, const char *what)

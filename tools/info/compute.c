@@ -95,8 +95,7 @@ map_frame(struct info_wanted *w, struct tool *t, const struct rc_grid *g)
 {
     bool row = g->ny == 1, column = g->nx == 1;
     char step[64];
-    struct rc_grid *map =
-        tool_made(t, g, rc_grid_like(g, "psd", row || column ? "m3" : "m4", &t->err));
+    struct rc_grid *map = tool_frame_like(t, g, NULL, "psd", row || column ? "m3" : "m4");
     map->dx = INFO_2PI / ((double)g->nx * g->dx);
     map->dy = INFO_2PI / ((double)g->ny * g->dy);
     if (row)
@@ -105,8 +104,8 @@ map_frame(struct info_wanted *w, struct tool *t, const struct rc_grid *g)
         map->dx = map->dy;
     snprintf(step, sizeof step, "rc-info %s --psd-map%s%s", rc_version(),
              w->window != NULL ? " --window " : "", w->window != NULL ? w->window : "");
-    tool_must(t, g, rc_grid_set(map, "periodic", NULL, &t->err));
-    tool_must(t, g, rc_grid_set(map, "dunit", "rad/m", &t->err));
+    tool_set(t, map, "periodic", NULL);
+    tool_set(t, map, "dunit", "rad/m");
     tool_must(t, g, rc_grid_history(map, step, &t->err));
     return map;
 }

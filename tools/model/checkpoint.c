@@ -245,18 +245,16 @@ checkpoint_load(struct course *course, size_t *n)
 
 /* A frame with the case and the marks; its shape and values follow later. */
 static struct rc_grid *
-new_frame(const struct course *c, struct rc_err *err)
+new_frame(const struct course *c)
 {
     const struct rc_shape one = {1, 1, c->g->dx, c->g->dy};
-    struct rc_grid *out = rc_grid_new(&one, "state", "1", err);
-    bool fine =
-        out != NULL && rc_grid_set_number(out, "checkpoint.case", (double)c->number, err) == RC_OK;
+    struct rc_grid *out = tool_made(c->t, c->g, rc_grid_new(&one, "state", "1", &c->t->err));
 
-    for (size_t k = 0; k < c->marks && fine; k++)
-        fine = c->mark[k].value[0] == '\0' ||
-               rc_grid_set(out, c->mark[k].name, c->mark[k].value, err) == RC_OK;
-    if (!fine || rc_grid_history(out, tool_history(c->t), err) != RC_OK)
-        tool_die_at(c->t, c->g, EXIT_IMPOSSIBLE, "%s", err->text);
+    tool_set_number(c->t, out, "checkpoint.case", (double)c->number);
+    for (size_t k = 0; k < c->marks; k++)
+        if (c->mark[k].value[0] != '\0')
+            tool_set(c->t, out, c->mark[k].name, c->mark[k].value);
+    tool_sign(c->t, out);
     return out;
 }
 
@@ -267,14 +265,14 @@ add(struct course *course, const struct rc_grid *shape, const double *v, size_t 
     const char *numbers)
 {
     struct checkpoint *c = course->checkpoint;
-    struct rc_grid *out = new_frame(course, &c->t->err);
+    RC_OWN(rc_grid, out) = new_frame(course);
     double *own = out->v;
     bool done;
     off_t at;
 
-    if (rc_grid_set_number(out, "checkpoint.map", (double)map, &c->t->err) != RC_OK ||
-        (numbers != NULL && rc_grid_set(out, "checkpoint.numbers", numbers, &c->t->err) != RC_OK))
-        tool_die_at(c->t, course->g, EXIT_IMPOSSIBLE, "%s", c->t->err.text);
+    tool_set_number(c->t, out, "checkpoint.map", (double)map);
+    if (numbers != NULL)
+        tool_set(c->t, out, "checkpoint.numbers", numbers);
     out->nx = shape->nx;
     out->ny = shape->ny;
     out->elsewhere = shape->elsewhere;
@@ -282,7 +280,6 @@ add(struct course *course, const struct rc_grid *shape, const double *v, size_t 
     if ((done = journal_add(&c->journal, out, &at)))
         note(c, out, at);
     out->v = own;
-    rc_grid_free(out);
     return done;
 }
 

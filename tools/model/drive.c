@@ -76,14 +76,6 @@ drive_open(struct drive *d, const struct drive_axis *axes)
     tool_catch_signals();
 }
 
-void
-drive_set_number(struct drive *d, struct rc_grid *g, const char *name, double value)
-{
-    tool_must(&d->t, g,
-              (isfinite(value) ? rc_grid_set_number(g, name, value, &d->t.err)
-                               : rc_grid_set(g, name, NULL, &d->t.err)));
-}
-
 struct rc_grid *
 drive_next(struct drive *d)
 {
@@ -189,25 +181,20 @@ kind_of(const struct rc_model *m, const char *name)
 static void
 set_keys(struct drive *d, struct rc_model *m, struct rc_grid *g, const struct rc_point *at)
 {
-    bool fine;
-
     if (d->all_keys != NULL) {
         d->all_keys(d, m, g);
         return;
     }
-    fine = rc_grid_set(g, "converged", d->status == RC_OK ? "yes" : "no", &d->t.err) == RC_OK &&
-           rc_grid_history(g, tool_history(&d->t), &d->t.err) == RC_OK;
-
+    tool_set(&d->t, g, "converged", d->status == RC_OK ? "yes" : "no");
+    tool_sign(&d->t, g);
     if (d->points > 1)
-        fine = fine && rc_grid_set_number(g, "case", (double)d->course.number, &d->t.err) == RC_OK;
-    for (size_t k = 0; k < RC_AXES && fine; k++) {
+        tool_set_number(&d->t, g, "case", (double)d->course.number);
+    for (size_t k = 0; k < RC_AXES; k++) {
         const struct rc_axis_info *axis = rc_axis_info(k);
         if ((d->point[d->at].given >> k & 1 || d->point[d->at].given >> axis->partner & 1) &&
             isfinite(at->at[k]))
-            fine = rc_grid_set_number(g, axis->name, at->at[k], &d->t.err) == RC_OK;
+            tool_set_number(&d->t, g, axis->name, at->at[k]);
     }
-    if (!fine)
-        tool_die_at(&d->t, g, EXIT_IMPOSSIBLE, "%s", d->t.err.text);
     if (d->keys != NULL)
         d->keys(d, m, g);
 }
@@ -230,11 +217,9 @@ static void
 put_frames(struct drive *d, struct rc_model *m, const struct rc_point *at)
 {
     const struct rc_grid *g = d->course.g;
-    struct rc_grid *as = rc_grid_like(g, g->channel, g->unit, &d->t.err);
+    RC_OWN(rc_grid, as) = tool_frame_like(&d->t, g, NULL, g->channel, g->unit);
     const char *word;
 
-    if (as == NULL)
-        tool_die_at(&d->t, g, EXIT_IMPOSSIBLE, "%s", d->t.err.text);
     set_keys(d, m, as, at);
     for (size_t k = 0; (word = d->word(k)) != NULL; k++) {
         const struct rc_frame_kind *kind = kind_of(m, word);
@@ -254,7 +239,6 @@ put_frames(struct drive *d, struct rc_model *m, const struct rc_point *at)
                                                           : RC_F64;
         tool_write(&d->t, &frame);
     }
-    rc_grid_free(as);
 }
 
 /* ---- report ---- */
@@ -460,8 +444,8 @@ judge(struct drive *d, struct rc_model *m)
 void
 drive_keep(struct drive *d, struct rc_model *m)
 {
-    if (d->status != RC_MORE && rc_model_keep(m, &d->t.err) != RC_OK)
-        tool_die_at(&d->t, d->course.g, EXIT_IMPOSSIBLE, "%s", d->t.err.text);
+    if (d->status != RC_MORE)
+        tool_must(&d->t, d->course.g, rc_model_keep(m, &d->t.err));
 }
 
 /* Takes the figures of the model at a point; then the point becomes history. */

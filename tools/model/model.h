@@ -168,8 +168,6 @@ void drive_points(struct drive *d, const struct rc_grid *g, struct rc_model *m);
 void drive_keep(struct drive *d, struct rc_model *m);
 /* The exit status of main. */
 int drive_close(struct drive *d);
-/* Sets a key of a frame, or removes it if the number is not finite. */
-void drive_set_number(struct drive *d, struct rc_grid *g, const char *name, double value);
 /* Warns of figures of the model that are beyond their limits. */
 void drive_judge(struct course *c, const struct rc_model *m, const struct drive_advice *advice,
                  const char *where);

@@ -234,7 +234,7 @@ add_form(struct tool *t, const struct physics *a, struct rc_grid *g)
     if (!a->travels)
         add_sphere(t, a, g);
     snprintf(name, sizeof name, "sphere %s", rc_number(a->radius));
-    tool_must(t, g, rc_grid_set(g, "form", name, &t->err));
+    tool_set(t, g, "form", name);
 }
 
 /* Warns of a periodic map whose opposite edges do not meet: the step there would carry much of the load. */

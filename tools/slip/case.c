@@ -90,23 +90,22 @@ void
 slip_set_keys(struct slip_run *run, struct rc_grid *g, bool converged, double load, double approach)
 {
     const char *own = rc_grid_get(g, "converged");
+    struct tool *t = &run->d.t;
 
     converged = converged && (own == NULL || strcmp(own, "no") != 0);
-    if (rc_grid_set(g, "converged", converged ? "yes" : "no", &run->d.t.err) != RC_OK ||
-        rc_grid_set(g, "boundary", run->boundary == RC_PERIODIC ? "periodic" : "free",
-                    &run->d.t.err) != RC_OK ||
-        (tool_given(&run->d.t, "E1") &&
-         bodies_set(g, &run->bodies.pair, NULL, &run->d.t.err) != RC_OK) ||
-        rc_grid_history(g, tool_history(&run->d.t), &run->d.t.err) != RC_OK)
-        tool_die_at(&run->d.t, g, EXIT_IMPOSSIBLE, "%s", run->d.t.err.text);
+    tool_set(t, g, "converged", converged ? "yes" : "no");
+    tool_set(t, g, "boundary", run->boundary == RC_PERIODIC ? "periodic" : "free");
+    if (tool_given(t, "E1"))
+        bodies_set(t, g, &run->bodies.pair, NULL);
+    tool_sign(t, g);
     if (run->bodies.pair.estar > 0)
-        drive_set_number(&run->d, g, "nu", run->bodies.nu);
+        tool_set_number(t, g, "nu", run->bodies.nu);
     if (run->number != rc_grid_case(run->p))
-        drive_set_number(&run->d, g, "case", (double)run->number);
-    drive_set_number(&run->d, g, "load", load);
-    drive_set_number(&run->d, g, "approach", approach);
-    drive_set_number(&run->d, g, "friction", run->args->mu);
-    drive_set_number(&run->d, g, "tau_max", run->args->tau_max);
+        tool_set_number(t, g, "case", (double)run->number);
+    tool_set_number(t, g, "load", load);
+    tool_set_number(t, g, "approach", approach);
+    tool_set_number(t, g, "friction", run->args->mu);
+    tool_set_number(t, g, "tau_max", run->args->tau_max);
 }
 
 static void
@@ -119,10 +118,10 @@ set_keys(struct drive *d, const struct rc_model *m, struct rc_grid *g)
 
     (void)m;
     slip_set_keys(run, g, s->converged, f->load, s->figures.approach);
-    drive_set_number(d, g, "tangential_x", f->force[0]);
-    drive_set_number(d, g, "tangential_y", f->force[1]);
-    drive_set_number(d, g, "displacement_x", apart ? NAN : f->displacement[0]);
-    drive_set_number(d, g, "displacement_y", apart ? NAN : f->displacement[1]);
+    tool_set_number(&d->t, g, "tangential_x", f->force[0]);
+    tool_set_number(&d->t, g, "tangential_y", f->force[1]);
+    tool_set_number(&d->t, g, "displacement_x", apart ? NAN : f->displacement[0]);
+    tool_set_number(&d->t, g, "displacement_y", apart ? NAN : f->displacement[1]);
 }
 
 /* ---- marks of a checkpoint ---- */

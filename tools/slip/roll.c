@@ -85,11 +85,11 @@ set_keys(struct drive *d, const struct rc_model *m, struct rc_grid *g)
 
     (void)rc_grid_number(g, "approach", &approach);
     slip_set_keys(run, g, d->status == RC_OK, f->load, approach);
-    drive_set_number(d, g, "creep_x", f->creep[0]);
-    drive_set_number(d, g, "creep_y", f->creep[1]);
-    drive_set_number(d, g, "spin", f->spin);
-    drive_set_number(d, g, "tangential_x", f->force[0]);
-    drive_set_number(d, g, "tangential_y", f->force[1]);
+    tool_set_number(&d->t, g, "creep_x", f->creep[0]);
+    tool_set_number(&d->t, g, "creep_y", f->creep[1]);
+    tool_set_number(&d->t, g, "spin", f->spin);
+    tool_set_number(&d->t, g, "tangential_x", f->force[0]);
+    tool_set_number(&d->t, g, "tangential_y", f->force[1]);
 }
 
 /* ---- a case ---- */

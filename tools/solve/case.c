@@ -103,26 +103,23 @@ set_keys(struct drive *d, const struct rc_model *m, struct rc_grid *g)
     const bool yields = run->yielding.on;
 
     (void)m;
-    if (rc_grid_set(g, "boundary", run->args->physics.periodic ? "periodic" : "free",
-                    &run->d.t.err) != RC_OK ||
-        rc_grid_set(g, "converged", c->converged ? "yes" : "no", &run->d.t.err) != RC_OK ||
-        bodies_set(g, &run->args->physics.pair, run->args->physics.residual, &run->d.t.err) !=
-            RC_OK ||
-        rc_grid_history(g, tool_history(&run->d.t), &run->d.t.err) != RC_OK)
-        tool_die_at(&run->d.t, g, EXIT_IMPOSSIBLE, "%s", run->d.t.err.text);
+    tool_set(&d->t, g, "boundary", run->args->physics.periodic ? "periodic" : "free");
+    tool_set(&d->t, g, "converged", c->converged ? "yes" : "no");
+    bodies_set(&d->t, g, &run->args->physics.pair, run->args->physics.residual);
+    tool_sign(&d->t, g);
     if (d->points > 1)
-        drive_set_number(d, g, "case", (double)run->d.course.number);
+        tool_set_number(&d->t, g, "case", (double)run->d.course.number);
     /* the requested and the reached load differ by rounding only */
-    drive_set_number(d, g, "load",
-                     run->args->physics.load.n > 0 ? problem_of(run, g, run->step).load : c->load);
-    drive_set_number(d, g, "hardness", run->args->physics.hardness);
-    if (run->hardness != NULL && rc_grid_set(g, "hardness_map", "yes", &run->d.t.err) != RC_OK)
-        tool_die_at(&run->d.t, g, EXIT_IMPOSSIBLE, "%s", run->d.t.err.text);
-    drive_set_number(d, g, "approach", c->approach);
+    tool_set_number(&d->t, g, "load",
+                    run->args->physics.load.n > 0 ? problem_of(run, g, run->step).load : c->load);
+    tool_set_number(&d->t, g, "hardness", run->args->physics.hardness);
+    if (run->hardness != NULL)
+        tool_set(&d->t, g, "hardness_map", "yes");
+    tool_set_number(&d->t, g, "approach", c->approach);
     /* slabs: a reader of the stream then expects the frames of plastic strain */
-    drive_set_number(d, g, "slabs", yields ? (double)run->yielding.found->slabs : NAN);
-    drive_set_number(d, g, "yield", yields ? rc_yield_stress(law, 0) : NAN);
-    drive_set_number(d, g, "hardening", yields ? yield_law_hardening(law) : NAN);
+    tool_set_number(&d->t, g, "slabs", yields ? (double)run->yielding.found->slabs : NAN);
+    tool_set_number(&d->t, g, "yield", yields ? rc_yield_stress(law, 0) : NAN);
+    tool_set_number(&d->t, g, "hardening", yields ? yield_law_hardening(law) : NAN);
     adhesion_set_key(run, g, c);
     travel_set_keys(run, g);
     relax_set_keys(run, g);
@@ -138,7 +135,7 @@ own_values(struct drive *d, struct rc_model *m, struct rc_grid *as, const char *
     const struct rc_contact *c = &run->solution.contact;
 
     if (strcmp(word, "plastic") == 0 && c->yielded_nodes > 0 && !run->adhering.wanted)
-        drive_set_number(d, as, HEIGHT_ERROR, c->shape_error);
+        tool_set_number(&d->t, as, HEIGHT_ERROR, c->shape_error);
     if (strcmp(word, "plastic") == 0 && run->apart && !run->yielding.wanted)
         return run->g->v; /* the shape has not changed */
     if (strcmp(word, "strain") == 0)
@@ -162,7 +159,7 @@ keep_shape(struct drive *d, struct rc_model *m)
         tool_must(&d->t, g, rc_model_frame(m, "plastic", g->v, &d->t.err));
         g->type = RC_F64;
         if (!run->adhering.wanted)
-            drive_set_number(d, g, HEIGHT_ERROR, s->contact.shape_error);
+            tool_set_number(&d->t, g, HEIGHT_ERROR, s->contact.shape_error);
     }
     drive_keep(d, m);
     s->indentation = rc_model_number(m, "indentation");

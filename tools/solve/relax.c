@@ -288,7 +288,7 @@ void
 relax_set_keys(struct run *run, struct rc_grid *as)
 {
     if (run->relaxing.wanted)
-        drive_set_number(&run->d, as, "time", run->relaxing.found->time);
+        tool_set_number(&run->d.t, as, "time", run->relaxing.found->time);
 }
 
 void

@@ -253,7 +253,7 @@ void
 slide_set_keys(struct run *run, struct rc_grid *as)
 {
     if (run->sliding.wanted)
-        drive_set_number(&run->d, as, "speed", slide_speed(run, run->d.at));
+        tool_set_number(&run->d.t, as, "speed", slide_speed(run, run->d.at));
 }
 
 void

@@ -106,10 +106,10 @@ window_of(struct run *run, const struct rc_grid *g)
         of.nx = w->window[0];
         of.ny = w->window[1];
     }
-    to = tool_made(&run->d.t, g, rc_grid_like(&of, g->channel, g->unit, &run->d.t.err));
+    to = tool_frame_like(&run->d.t, &of, NULL, g->channel, g->unit);
     memset(to->v, 0, rc_grid_nodes(to) * sizeof *to->v);
     if (w->window[0] > 0)
-        tool_must(&run->d.t, g, rc_grid_set(to, "periodic", NULL, &run->d.t.err));
+        tool_set(&run->d.t, to, "periodic", NULL);
     return to;
 }
 
@@ -291,9 +291,9 @@ travel_set_keys(struct run *run, struct rc_grid *as)
 
     if (!w->wanted)
         return;
-    drive_set_number(&run->d, as, "position", w->found->position);
-    drive_set_number(&run->d, as, "height", w->found->height);
-    drive_set_number(&run->d, as, "window_x", w->found->window_x);
+    tool_set_number(&run->d.t, as, "position", w->found->position);
+    tool_set_number(&run->d.t, as, "height", w->found->height);
+    tool_set_number(&run->d.t, as, "window_x", w->found->window_x);
 }
 
 void

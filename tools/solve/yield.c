@@ -298,9 +298,8 @@ put_slab(struct run *run, const struct rc_model *m, struct rc_grid *frame, size_
                                                           "exz", "eyz", "peeq"};
     const struct yielding *y = &run->yielding;
 
-    tool_must(&run->d.t, frame, rc_grid_set_number(frame, "depth", depth, &run->d.t.err));
-    tool_must(&run->d.t, frame,
-              rc_grid_set_number(frame, "thickness", y->found->thickness[slab], &run->d.t.err));
+    tool_set_number(&run->d.t, frame, "depth", depth);
+    tool_set_number(&run->d.t, frame, "thickness", y->found->thickness[slab]);
     for (size_t c = 0; c < RC_PLASTIC_STRAINS; c++) {
         double *to[RC_PLASTIC_STRAINS] = {NULL};
         struct rc_grid as = *frame; /* the frame in the output stream */
@@ -317,18 +316,16 @@ void
 yield_put_strain(struct run *run, const struct rc_model *m, const struct rc_grid *like)
 {
     const struct yielding *y = &run->yielding;
-    struct rc_grid *frame;
+    RC_OWN(rc_grid, frame) = NULL;
     double z = 0;
 
     if (!y->on)
         return;
-    frame =
-        tool_made(&run->d.t, like, rc_grid_like(like, like->channel, like->unit, &run->d.t.err));
+    frame = tool_frame_like(&run->d.t, like, NULL, like->channel, like->unit);
     for (size_t k = 0; k < y->found->slabs; k++) {
         put_slab(run, m, frame, k, z + y->found->thickness[k] / 2, like->v);
         z += y->found->thickness[k];
     }
-    rc_grid_free(frame);
 }
 
 static void
