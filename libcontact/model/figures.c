@@ -56,3 +56,18 @@ rc_figure_find(const char *name)
                 return f;
     return NULL;
 }
+
+/* rc_elastic_result and the others: the figures of the first model of a chain that has them. */
+#define RESULT(name, table)                                                                        \
+    const struct name##_figures *name##_result(const struct rc_model *m)                           \
+    {                                                                                              \
+        return rc_model_result(m, table);                                                          \
+    }
+RESULT(rc_elastic, rc_figures_elastic)
+RESULT(rc_yielding, rc_figures_yielding)
+RESULT(rc_friction, rc_figures_slip)
+RESULT(rc_rolling, rc_figures_rolling)
+RESULT(rc_wear, rc_figures_wear)
+RESULT(rc_travel, rc_figures_travel)
+RESULT(rc_slide, rc_figures_slide)
+RESULT(rc_viscoelastic, rc_figures_viscoelastic)

@@ -824,12 +824,6 @@ rc_yielding_plan(struct rc_model *m, size_t loads, double largest)
     }
 }
 
-const struct rc_yielding_figures *
-rc_yielding_result(const struct rc_model *m)
-{
-    return rc_model_result(m, rc_figures_yielding);
-}
-
 bool
 rc_yielding_strain(const struct rc_model *m, size_t slab, double *const e[RC_PLASTIC_STRAINS])
 {

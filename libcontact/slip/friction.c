@@ -845,9 +845,3 @@ rc_friction_new(struct rc_model *inner, const double *h, const struct rc_frictio
     ((struct friction *)m)->problem = *problem;
     return make((struct friction *)m, h, err) == RC_OK ? rc_give(&m) : NULL;
 }
-
-const struct rc_friction_figures *
-rc_friction_result(const struct rc_model *m)
-{
-    return rc_model_result(m, rc_figures_slip);
-}

@@ -816,9 +816,3 @@ rc_rolling_new(struct rc_model *inner, const struct rc_rolling_problem *problem,
     ((struct rolling *)m)->problem = *problem;
     return make((struct rolling *)m, err) == RC_OK ? rc_give(&m) : NULL;
 }
-
-const struct rc_rolling_figures *
-rc_rolling_result(const struct rc_model *m)
-{
-    return rc_model_result(m, rc_figures_rolling);
-}

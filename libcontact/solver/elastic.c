@@ -516,12 +516,6 @@ rc_elastic_new(const struct rc_shape *shape, const double *h, const struct rc_pr
     return m;
 }
 
-const struct rc_elastic_figures *
-rc_elastic_result(const struct rc_model *m)
-{
-    return rc_model_result(m, rc_figures_elastic);
-}
-
 const struct rc_model_row rc_model_elastic = {
     .name = "elastic",
     .summary = "elastic bodies, with a hardness",

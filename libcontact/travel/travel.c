@@ -387,9 +387,3 @@ rc_travel_new(struct rc_model *inner, const struct rc_travel_problem *problem, s
         v->p[k] = rc_store_take(&m->own, v->n, sizeof *v->h);
     return rc_model_room(m, err) == RC_OK ? rc_give(&m) : NULL;
 }
-
-const struct rc_travel_figures *
-rc_travel_result(const struct rc_model *m)
-{
-    return rc_model_result(m, rc_figures_travel);
-}

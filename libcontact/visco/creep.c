@@ -724,9 +724,3 @@ rc_viscoelastic_new(struct rc_model *inner, const double *h,
 
     return m != NULL && make((struct creep *)m, h, problem, err) == RC_OK ? rc_give(&m) : NULL;
 }
-
-const struct rc_viscoelastic_figures *
-rc_viscoelastic_result(const struct rc_model *m)
-{
-    return rc_model_result(m, rc_figures_viscoelastic);
-}

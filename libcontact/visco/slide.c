@@ -707,9 +707,3 @@ rc_slide_new(const struct rc_shape *shape, const double *h, const struct rc_prob
     s->top = highest(s, s->h);
     return make_inner(s, 0, err) == RC_OK ? rc_give(&m) : NULL;
 }
-
-const struct rc_slide_figures *
-rc_slide_result(const struct rc_model *m)
-{
-    return rc_model_result(m, rc_figures_slide);
-}

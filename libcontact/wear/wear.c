@@ -850,9 +850,3 @@ rc_wear_new(struct rc_model *inner, const double *h, const struct rc_wear_proble
     m = rc_model_make_outer(&rc_model_wear, sizeof(struct wear), inner, err);
     return m != NULL && make((struct wear *)m, h, law, err) == RC_OK ? rc_give(&m) : NULL;
 }
-
-const struct rc_wear_figures *
-rc_wear_result(const struct rc_model *m)
-{
-    return rc_model_result(m, rc_figures_wear);
-}
