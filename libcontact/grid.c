@@ -299,8 +299,7 @@ rc_grid_history(struct rc_grid *g, const char *step, struct rc_err *err)
     const char *old = rc_grid_get(g, "history");
     size_t n = strlen(step), keep = n <= most ? n : most;
     size_t size = (old == NULL ? 0 : strlen(old)) + keep + 8;
-    char *text = malloc(size);
-    enum rc_status status;
+    RC_OWNED char *text = malloc(size);
 
     if (text == NULL)
         return rc_err_set(err, "out of memory for %zu bytes of history", size);
@@ -310,9 +309,7 @@ rc_grid_history(struct rc_grid *g, const char *step, struct rc_err *err)
              step, keep < n ? "..." : "");
     if (strlen(text) > HISTORY_MAX)
         shorten(text);
-    status = rc_grid_set(g, "history", text, err);
-    free(text);
-    return status;
+    return rc_grid_set(g, "history", text, err);
 }
 
 /* printf and strtod follow the locale of the process; a stream must not. */

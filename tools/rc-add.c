@@ -142,9 +142,8 @@ static enum rc_status
 set_form(struct rc_grid *a, const struct rc_grid *b, struct rc_err *err)
 {
     const char *of_a = rc_grid_get(a, "form"), *of_b = rc_grid_get(b, "form");
-    enum rc_status status;
+    RC_OWNED char *both = NULL;
     size_t size;
-    char *both;
 
     if (of_b == NULL)
         return RC_OK;
@@ -156,9 +155,7 @@ set_form(struct rc_grid *a, const struct rc_grid *b, struct rc_err *err)
     if ((both = malloc(size)) == NULL)
         return rc_err_set(err, "out of memory for %zu bytes of text", size);
     snprintf(both, size, "%s + %s", of_a, of_b);
-    status = rc_grid_set(a, "form", both, err);
-    free(both);
-    return status;
+    return rc_grid_set(a, "form", both, err);
 }
 
 /* The origin of a surface: its source, or the name of the file without folders. */
@@ -199,8 +196,7 @@ add_history(struct tool *t, struct rc_grid *a, const struct rc_grid *b, struct r
     const char *first = name_of(a, t->operand[0]), *second = name_of(b, t->operand[1]);
     const char *history = rc_grid_get(b, "history");
     size_t size = strlen(tool_history(t)) + strlen(first) + 2 * strlen(second) + HISTORY + 16;
-    char *step = malloc(size);
-    enum rc_status status;
+    RC_OWNED char *step = malloc(size);
 
     if (step == NULL)
         return rc_err_set(err, "out of memory for %zu bytes of history", size);
@@ -210,9 +206,7 @@ add_history(struct tool *t, struct rc_grid *a, const struct rc_grid *b, struct r
         append_history(step, history, HISTORY);
         strcat(step, ")");
     }
-    status = rc_grid_history(a, step, err);
-    free(step);
-    return status;
+    return rc_grid_history(a, step, err);
 }
 
 /* ---- the sum ---- */

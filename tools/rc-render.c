@@ -240,14 +240,13 @@ static void
 mark_largest(struct tool *t, const struct rc_grid *g, const struct survey *s, struct figure *f,
              struct words *w)
 {
-    double *depth = section_depths(t, g);
+    RC_OWNED double *depth = section_depths(t, g);
     size_t at = fabs(s->min) > fabs(s->max) ? s->min_at : s->max_at;
 
     f->mark.x = f->at.left + ((double)(at % g->nx) + 0.5) * g->dx;
     f->mark.y = depth[at / g->nx];
     if (f->mark.y >= f->at.top && f->mark.y <= f->at.bottom)
         f->mark.largest = words_largest(w, g, g->v[at], f->at.across, f->mark.x, f->mark.y);
-    free(depth);
 }
 
 /* Frees the values of the map, which the drawing no longer needs, and keeps its keys. */

@@ -158,7 +158,7 @@ begins(const char *line, const char *word)
 static void
 show_lines(struct run *run, FILE *in, const char *from, const char *to)
 {
-    char *line = NULL;
+    RC_OWNED char *line = NULL;
     size_t room = 0;
     bool shown = false;
 
@@ -169,7 +169,6 @@ show_lines(struct run *run, FILE *in, const char *from, const char *to)
             put_text(run->page.file, line);
     }
     fputs("</pre>\n", run->page.file);
-    free(line);
 }
 
 /* Shows these columns of a report, its numbers with four digits. */

@@ -166,12 +166,11 @@ static struct rc_shape
 shape_of_file(struct tool *t)
 {
     bool highest = tool_given(t, "place") && args.place.n == 0;
-    struct rc_grid *g = tool_frame_of_file(t, "like", args.like, highest ? "height" : NULL);
+    RC_OWN(rc_grid, g) = tool_frame_of_file(t, "like", args.like, highest ? "height" : NULL);
     struct rc_shape shape = rc_grid_shape(g);
 
     if (highest)
         place_highest(t, g);
-    rc_grid_free(g);
     return shape;
 }
 

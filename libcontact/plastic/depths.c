@@ -28,7 +28,7 @@ look(const struct rc_shape *shape, enum rc_boundary boundary, const double *p,
                                               .depth = middle,
                                               .depths = n,
                                               .threads = threads};
-    double *map = rc_alloc(shape->nx * shape->ny, sizeof *map);
+    RC_OWNED double *map = rc_alloc(shape->nx * shape->ny, sizeof *map);
     double *const to[RC_STRESSES] = {[RC_MISES] = map};
     enum rc_status status = RC_OK;
     struct rc_stress *stress;
@@ -51,7 +51,6 @@ look(const struct rc_shape *shape, enum rc_boundary boundary, const double *p,
             beyond[k] += map[i] > yield;
     }
     rc_stress_free(stress);
-    free(map);
     return status;
 }
 

@@ -71,7 +71,7 @@ show_lines(cairo_t *cairo, const struct item *i)
 static void
 show_image(struct canvas *c, cairo_t *cairo, const struct item *i)
 {
-    unsigned *pixel = malloc(i->nx * i->ny * sizeof *pixel);
+    RC_OWNED unsigned *pixel = malloc(i->nx * i->ny * sizeof *pixel);
     cairo_surface_t *image = cairo_image_surface_create_for_data(
         (unsigned char *)pixel, i->inked != NULL ? CAIRO_FORMAT_ARGB32 : CAIRO_FORMAT_RGB24,
         (int)i->nx, (int)i->ny, 4 * (int)i->nx);
@@ -91,7 +91,6 @@ show_image(struct canvas *c, cairo_t *cairo, const struct item *i)
     cairo_fill(cairo);
     cairo_restore(cairo);
     cairo_surface_destroy(image);
-    free(pixel);
 }
 
 static void

@@ -8,8 +8,8 @@ enum rc_status
 import_even(const struct rc_file *file, const struct rc_wish *wish, struct rc_grid *g,
             struct rc_notes *notes, struct rc_err *err)
 {
-    enum rc_status status = RC_FAIL;
-    double *x = NULL, *v = NULL;
+    RC_OWNED double *x = NULL;
+    double *v;
     struct rc_even even;
 
     if (g->ny > 1)
@@ -21,25 +21,18 @@ import_even(const struct rc_file *file, const struct rc_wish *wish, struct rc_gr
         g->dx = g->dy = wish->even_step;
         return RC_OK;
     }
-    if ((x = malloc(g->nx * sizeof *x)) == NULL) {
-        rc_err_set(err, "out of memory for %zu points", g->nx);
-        goto done;
-    }
+    if ((x = malloc(g->nx * sizeof *x)) == NULL)
+        return rc_err_set(err, "out of memory for %zu points", g->nx);
     for (size_t k = 0; k < g->nx; k++)
         x[k] = g->dx * (double)k;
     if (rc_even_new(x, g->nx, 1, file, wish, &even, err) != RC_OK)
-        goto done;
-    if ((v = malloc(even.n * sizeof *v)) == NULL) {
-        rc_err_set(err, "out of memory for %zu nodes", even.n);
-        goto done;
-    }
+        return RC_FAIL;
+    if ((v = malloc(even.n * sizeof *v)) == NULL)
+        return rc_err_set(err, "out of memory for %zu nodes", even.n);
     rc_even_heights(&even, x, g->v, g->nx, v, notes);
     free(g->v);
     g->v = v;
     g->nx = even.n;
     g->dx = g->dy = wish->even_step;
-    status = RC_OK;
-done:
-    free(x);
-    return status;
+    return RC_OK;
 }

@@ -8,20 +8,19 @@ static void
 save(struct course *c, struct rc_model *m)
 {
     size_t n = rc_model_state_size(m);
-    double *v = malloc((n + 1) * sizeof *v);
+    RC_OWNED double *v = malloc((n + 1) * sizeof *v);
 
     if (v == NULL)
         tool_die_at(c->t, c->g, EXIT_IMPOSSIBLE, "out of memory for a state of --checkpoint");
     rc_model_state(m, v);
     checkpoint_save(c, v, n);
-    free(v);
 }
 
 void
 course_set(struct course *c, struct rc_model *m, const struct rc_point *to)
 {
     size_t n;
-    double *v = checkpoint_load(c, &n);
+    RC_OWNED double *v = checkpoint_load(c, &n);
     bool going;
 
     c->resumed = v != NULL;
@@ -29,7 +28,6 @@ course_set(struct course *c, struct rc_model *m, const struct rc_point *to)
         checkpoint_refuse(c, c->t->err.text);
     if (v == NULL && rc_model_go(m, to, &c->t->err) == RC_FAIL)
         tool_die_at(c->t, c->g, EXIT_IMPOSSIBLE, "%s", c->t->err.text);
-    free(v);
 }
 
 /* ---- progress ---- */

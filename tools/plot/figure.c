@@ -70,15 +70,12 @@ shades_new(const struct page *p, size_t image_w, size_t image_h, struct shades *
     double aspect =
         (f->at.bottom - f->at.top) / (double)h / ((f->at.right - f->at.left) / (double)w);
 
-    *s = (struct shades){NULL, NULL};
     if (!f->hillshade)
         return RC_OK;
     if ((s->raster = raster_new(p->g, f->nodes.zero_is_none, w, h, err)) == NULL)
         return RC_FAIL;
-    if ((s->bright = hillshade_new(s->raster, aspect, err)) != NULL)
-        return RC_OK;
-    raster_free(s->raster);
-    return RC_FAIL;
+    s->bright = hillshade_new(s->raster, aspect, err);
+    return s->bright != NULL ? RC_OK : RC_FAIL;
 }
 
 static void
@@ -131,7 +128,7 @@ static enum rc_status
 paint_rows(struct page *p, const struct shades *shades, size_t w, size_t h, size_t first,
            size_t rows, struct rgb *pixel, struct rc_err *err)
 {
-    struct raster *r = new_rows(p, w, h, first, rows, err);
+    RC_OWN(raster, r) = new_rows(p, w, h, first, rows, err);
 
     if (r == NULL)
         return RC_FAIL;
@@ -139,7 +136,6 @@ paint_rows(struct page *p, const struct shades *shades, size_t w, size_t h, size
         for (size_t i = 0; i < w; i++)
             pixel[(first + j) * w + i] =
                 lit(shades, cell_colour(p, r, i, j, first), i, first + j, w, h);
-    raster_free(r);
     return RC_OK;
 }
 
@@ -147,25 +143,19 @@ paint_rows(struct page *p, const struct shades *shades, size_t w, size_t h, size
 static enum rc_status
 paint(struct page *p, size_t w, size_t h, struct rc_err *err)
 {
-    struct rgb *pixel = malloc(w * h * sizeof *pixel);
-    enum rc_status status = RC_OK;
-    struct shades shades;
+    RC_OWNED struct rgb *pixel = malloc(w * h * sizeof *pixel);
+    RC_ENDS(shades_free) struct shades shades = {0};
 
     if (pixel == NULL)
         return rc_err_set(err, "out of memory for a map of %zu by %zu pixels", w, h);
-    if (shades_new(p, w, h, &shades, err) != RC_OK) {
-        free(pixel);
+    if (shades_new(p, w, h, &shades, err) != RC_OK)
         return RC_FAIL;
-    }
-    for (size_t first = 0; first < h && status == RC_OK; first += BAND)
-        status =
-            paint_rows(p, &shades, w, h, first, h - first < BAND ? h - first : BAND, pixel, err);
-    shades_free(&shades);
-    if (status == RC_OK)
-        canvas_image(p->c, p->plot.x, p->plot.y, p->plot.w, p->plot.h, pixel, NULL, w, h);
-    else
-        free(pixel);
-    return status;
+    for (size_t first = 0; first < h; first += BAND)
+        if (paint_rows(p, &shades, w, h, first, h - first < BAND ? h - first : BAND, pixel, err) !=
+            RC_OK)
+            return RC_FAIL;
+    canvas_image(p->c, p->plot.x, p->plot.y, p->plot.w, p->plot.h, rc_give(&pixel), NULL, w, h);
+    return RC_OK;
 }
 
 static void
@@ -300,23 +290,20 @@ draw_map(struct page *p, struct rc_err *err)
     const struct figure *f = p->f;
     size_t nx = p->g->nx, ny = p->g->ny, plot_w = (size_t)p->plot.w, plot_h = (size_t)p->plot.h;
     size_t w = plot_w, h = plot_h;
-    struct raster *r;
-    enum rc_status status;
+    RC_OWN(raster, r) = NULL;
 
     if (f->vector && f->nodes.missing == 0) {
         w = nx < IMAGE_MOST ? nx : IMAGE_MOST;
         h = ny < IMAGE_MOST ? ny : IMAGE_MOST;
     }
-    status = paint(p, w, h, err);
-    if (!f->edge.contour || status != RC_OK)
-        return status;
+    if (paint(p, w, h, err) != RC_OK)
+        return RC_FAIL;
+    if (!f->edge.contour)
+        return RC_OK;
     w = nx < plot_w ? nx : plot_w;
     h = ny < plot_h ? ny : plot_h;
-    if ((r = new_rows(p, w, h, 0, h, err)) == NULL)
-        return RC_FAIL;
-    status = draw_contours(p, r, err);
-    raster_free(r);
-    return status;
+    r = new_rows(p, w, h, 0, h, err);
+    return r != NULL ? draw_contours(p, r, err) : RC_FAIL;
 }
 
 /* The colours over the rectangle, along its longer side, low values left or at the bottom. */
@@ -567,9 +554,8 @@ static const struct page_kind one_map = {1200, page_lay_out, draw},
 struct canvas *
 panels_draw(const struct panels *panels, struct rc_err *err)
 {
-    struct page *p = page_new(panels->n * panels->columns > 1 ? &several_maps : &one_map,
-                              (void *)panels, &panels->figure->paper, err);
-    struct canvas *drawn = NULL;
+    RC_OWNED struct page *p = page_new(panels->n * panels->columns > 1 ? &several_maps : &one_map,
+                                       (void *)panels, &panels->figure->paper, err);
 
     if (p == NULL)
         return NULL;
@@ -577,9 +563,7 @@ panels_draw(const struct panels *panels, struct rc_err *err)
     p->g = panels->panel[0].grid;
     p->columns = panels->columns;
     p->rows = (panels->n + panels->columns - 1) / panels->columns;
-    drawn = pages_draw(&p, 1, err);
-    free(p);
-    return drawn;
+    return pages_draw(&p, 1, err);
 }
 
 struct canvas *

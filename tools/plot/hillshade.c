@@ -45,10 +45,8 @@ hillshade_new(const struct raster *r, double aspect, struct rc_err *err)
     double sum = 0, right, down, factor;
     size_t n = 0;
 
-    if (shade == NULL) {
-        rc_err_set(err, "out of memory for the shades of a map");
-        return NULL;
-    }
+    if (shade == NULL)
+        return rc_err_null(err, "out of memory for the shades of a map");
     for (size_t j = 0; j < r->h; j++)
         for (size_t i = 0; i < r->w; i++) {
             slopes(r, aspect, i, j, &right, &down);

@@ -43,7 +43,6 @@ spans_free(struct spans *s)
     free(s->weight);
 }
 
-/* Call spans_free in either case. */
 static enum rc_status
 spans_new(struct spans *s, size_t n, size_t cells, struct rc_err *err)
 {
@@ -142,44 +141,30 @@ fill(struct raster *r, size_t first, const struct rc_grid *g, const struct spans
 static struct raster *
 raster_blank(size_t w, size_t h, struct rc_err *err)
 {
-    struct raster *r = calloc(1, sizeof *r);
+    RC_OWN(raster, r) = calloc(1, sizeof *r);
 
     if (r != NULL)
         *r = (struct raster){.w = w,
                              .h = h,
                              .v = calloc(w * h, sizeof *r->v),
                              .none = calloc(w * h, sizeof *r->none)};
-    if (r == NULL || r->v == NULL || r->none == NULL) {
-        raster_free(r);
-        rc_err_set(err, "out of memory for a picture of %zu by %zu pixels", w, h);
-        return NULL;
-    }
-    return r;
+    if (r == NULL || r->v == NULL || r->none == NULL)
+        return rc_err_null(err, "out of memory for a picture of %zu by %zu pixels", w, h);
+    return rc_give(&r);
 }
 
 struct raster *
 raster_rows(const struct rc_grid *g, bool zero_is_none, size_t w, size_t h, size_t first,
             size_t rows, struct rc_err *err)
 {
-    struct raster *r = raster_blank(w, rows, err);
-    struct spans x = {0}, y = {0};
-    double *weight = calloc(w, sizeof *weight);
-    bool done = false;
+    RC_OWN(raster, r) = raster_blank(w, rows, err);
+    RC_ENDS(spans_free) struct spans x = {0}, y = {0};
+    RC_OWNED double *weight = calloc(w, sizeof *weight);
 
     if (r == NULL || weight == NULL || spans_new(&x, g->nx, w, err) != RC_OK ||
-        spans_new(&y, g->ny, h, err) != RC_OK)
-        goto done;
-    done = fill(r, first, g, &x, &y, zero_is_none, weight);
-done:
-    spans_free(&x);
-    spans_free(&y);
-    free(weight);
-    if (!done) {
-        rc_err_set(err, "out of memory for a picture of %zu by %zu pixels", w, h);
-        raster_free(r);
-        r = NULL;
-    }
-    return r;
+        spans_new(&y, g->ny, h, err) != RC_OK || !fill(r, first, g, &x, &y, zero_is_none, weight))
+        return rc_err_null(err, "out of memory for a picture of %zu by %zu pixels", w, h);
+    return rc_give(&r);
 }
 
 struct raster *
@@ -192,7 +177,7 @@ struct raster *
 raster_rows_max(const struct rc_grid *g, bool zero_is_none, size_t w, size_t h, size_t from_row,
                 size_t rows, struct rc_err *err)
 {
-    struct raster *r = raster_blank(w, rows, err);
+    RC_OWN(raster, r) = raster_blank(w, rows, err);
 
     if (r == NULL)
         return NULL;
@@ -216,14 +201,11 @@ raster_rows_max(const struct rc_grid *g, bool zero_is_none, size_t w, size_t h, 
                 }
             r->v[at] = largest;
             r->none[at] = isnan(largest) && none ? 1 : 0;
-            if (isnan(largest) && !none && !add_missing(r, at, 1)) {
-                rc_err_set(err, "out of memory for a picture of %zu by %zu pixels", w, h);
-                raster_free(r);
-                return NULL;
-            }
+            if (isnan(largest) && !none && !add_missing(r, at, 1))
+                return rc_err_null(err, "out of memory for a picture of %zu by %zu pixels", w, h);
         }
     }
-    return r;
+    return rc_give(&r);
 }
 
 void

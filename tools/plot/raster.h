@@ -5,7 +5,7 @@
 #include <stdbool.h>
 #include <stddef.h>
 
-#include "libcontact/grid.h"
+#include "libcontact/owned.h"
 
 /* Statistics of a map. Infinite values are in neither min nor max. */
 struct survey {
@@ -40,6 +40,7 @@ struct raster *raster_rows(const struct rc_grid *grid, bool zero_is_none, size_t
 struct raster *raster_rows_max(const struct rc_grid *grid, bool zero_is_none, size_t w, size_t h,
                                size_t first, size_t rows, struct rc_err *err);
 void raster_free(struct raster *raster); /* NULL is allowed */
+RC_OWNER(raster)
 
 /* Straight pieces of lines, in cells from the upper left corner: the centre of cell (i, j) is (i + 0.5, j +
  * 0.5). Initialise with 0; the caller frees `at`. */

@@ -116,7 +116,7 @@ box_corner(const struct scene *s, int k)
 static enum rc_status
 set_mesh(struct scene *s, const struct rc_grid *g, struct rc_err *err)
 {
-    struct raster *r;
+    RC_OWN(raster, r) = NULL;
 
     s->nx = g->nx < RELIEF_SIDE ? g->nx : RELIEF_SIDE;
     s->ny = g->ny < RELIEF_SIDE ? g->ny : RELIEF_SIDE;
@@ -125,7 +125,6 @@ set_mesh(struct scene *s, const struct rc_grid *g, struct rc_err *err)
         return RC_FAIL;
     s->value = r->v;
     r->v = NULL;
-    raster_free(r);
     for (size_t k = 0; k < s->nx * s->ny; k++)
         if (!isfinite(s->value[k]))
             s->value[k] = NAN;
@@ -277,7 +276,7 @@ quad(struct scene *s, const struct corner *const q[4])
 static enum rc_status
 draw_surface(struct scene *s, struct rc_err *err)
 {
-    struct corner *row = malloc(2 * s->nx * sizeof *row);
+    RC_OWNED struct corner *row = malloc(2 * s->nx * sizeof *row);
 
     if (row == NULL)
         return rc_err_set(err, "out of memory for a relief");
@@ -290,7 +289,6 @@ draw_surface(struct scene *s, struct rc_err *err)
             quad(s,
                  (const struct corner *const[4]){&last[i], &last[i + 1], &here[i + 1], &here[i]});
     }
-    free(row);
     return RC_OK;
 }
 
@@ -368,27 +366,25 @@ static enum rc_status
 draw_image(struct scene *s, struct rc_err *err)
 {
     size_t across = (size_t)s->page->plot.w, down = (size_t)s->page->plot.h;
-    enum rc_status status = RC_FAIL;
+    RC_OWNED float *depth = NULL;
+    RC_OWNED struct rgb *colour = NULL;
 
     s->left = s->page->plot.x;
     s->top = s->page->plot.y;
     s->fine = across * down < 5000000 ? 2 : 1;
     s->w = across * s->fine;
     s->h = down * s->fine;
-    s->depth = malloc(s->w * s->h * sizeof *s->depth);
-    s->colour = malloc(s->w * s->h * sizeof *s->colour);
-    if (s->depth == NULL || s->colour == NULL) {
-        rc_err_set(err, "out of memory for a relief of %zu by %zu pixels", across, down);
-    } else {
-        for (size_t k = 0; k < s->w * s->h; k++)
-            s->depth[k] = -INFINITY;
-        draw_walls(s);
-        if ((status = draw_surface(s, err)) == RC_OK)
-            put_image(s);
-    }
-    free(s->depth);
-    free(s->colour);
-    return status;
+    s->depth = depth = malloc(s->w * s->h * sizeof *s->depth);
+    s->colour = colour = malloc(s->w * s->h * sizeof *s->colour);
+    if (s->depth == NULL || s->colour == NULL)
+        return rc_err_set(err, "out of memory for a relief of %zu by %zu pixels", across, down);
+    for (size_t k = 0; k < s->w * s->h; k++)
+        s->depth[k] = -INFINITY;
+    draw_walls(s);
+    if (draw_surface(s, err) != RC_OK)
+        return RC_FAIL;
+    put_image(s);
+    return RC_OK;
 }
 
 /* ---- axes on the edges of the box ---- */

@@ -49,31 +49,24 @@ static enum rc_status
 read_terms(struct relaxation_law *law, const char *text, double shift, struct rc_err *err)
 {
     const size_t room = strlen(text) + 1;
-    char *copy = malloc(room), *save = NULL;
-    double *v = malloc(2 * room * sizeof *v), relaxed;
-    enum rc_status status = RC_FAIL;
+    RC_OWNED char *copy = malloc(room);
+    RC_OWNED double *v = malloc(2 * room * sizeof *v);
+    double relaxed;
+    char *save = NULL;
     size_t n = 0;
 
-    if (copy == NULL || v == NULL) {
-        rc_err_set(err, "out of memory");
-        goto done;
-    }
+    if (copy == NULL || v == NULL)
+        return rc_err_set(err, "out of memory");
     memcpy(copy, text, room);
     for (char *word = strtok_r(copy, ",", &save); word != NULL; word = strtok_r(NULL, ",", &save))
         if (n++ == 0 ? read_modulus(word, &relaxed, err) != RC_OK
                      : read_term(word, shift, &v[n - 2], &v[room + n - 2], err) != RC_OK)
-            goto done;
-    if (n < 2) {
-        rc_err_set(err, "it must be Einf,E1:tau1,..., as in 1MPa,9MPa:1ms, or a file");
-        goto done;
-    }
+            return RC_FAIL;
+    if (n < 2)
+        return rc_err_set(err, "it must be Einf,E1:tau1,..., as in 1MPa,9MPa:1ms, or a file");
     law->misfit = NAN;
     law->material = rc_relaxation_new(relaxed, n - 1, v, v + room, err);
-    status = law->material != NULL ? RC_OK : RC_FAIL;
-done:
-    free(copy);
-    free(v);
-    return status;
+    return law->material != NULL ? RC_OK : RC_FAIL;
 }
 
 /* ---- a file ---- */
@@ -246,7 +239,8 @@ static enum rc_status
 take_table(struct relaxation_law *law, const struct table *t, double shift, struct rc_err *err)
 {
     const size_t n = t->n;
-    double *v = columns_of(t), relaxed = 0;
+    RC_OWNED double *v = columns_of(t);
+    double relaxed = 0;
     size_t terms = 0;
 
     if (v == NULL)
@@ -264,7 +258,6 @@ take_table(struct relaxation_law *law, const struct table *t, double shift, stru
     law->material = t->columns == 2
                         ? rc_relaxation_new(relaxed, terms, v + n, v, err)
                         : rc_relaxation_fit(n, v, v + n, v + 2 * n, 0, &law->misfit, err);
-    free(v);
     return law->material != NULL ? RC_OK : RC_FAIL;
 }
 

@@ -34,8 +34,8 @@ same_group(const struct place *a, const struct place *b)
 void
 groups_sort(struct table *table, struct tool *t, const size_t *by, size_t n, bool pieces)
 {
-    struct place *place = tool_room(t, table->rows, sizeof *place, "a table");
-    double *v = tool_room(t, table->rows, sizeof *v, "a table");
+    RC_OWNED struct place *place = tool_room(t, table->rows, sizeof *place, "a table");
+    RC_OWNED double *v = tool_room(t, table->rows, sizeof *v, "a table");
     size_t *piece = tool_room(t, table->rows, sizeof *piece, "a table"), now = 0;
 
     for (size_t k = 0; k < table->rows; k++) {
@@ -60,8 +60,6 @@ groups_sort(struct table *table, struct tool *t, const size_t *by, size_t n, boo
             piece[table->pieces++] = k;
     free(table->piece);
     table->piece = piece;
-    free(place);
-    free(v);
 }
 
 /* ---- by x ---- */

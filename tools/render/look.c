@@ -182,7 +182,7 @@ look_throat(const struct rc_grid *g, struct figure *f)
 struct rc_grid *
 look_section(struct tool *t, const struct args *a, const struct rc_grid *g, struct figure *f)
 {
-    double *depth = section_depths(t, g);
+    RC_OWNED double *depth = section_depths(t, g);
     struct layers layers;
     struct rc_grid *even;
 
@@ -194,6 +194,5 @@ look_section(struct tool *t, const struct args *a, const struct rc_grid *g, stru
     f->at.section = true;
     even = section_even(t, g, depth, &layers, f->at.top, f->at.bottom);
     layers_free(&layers);
-    free(depth);
     return even;
 }

@@ -262,7 +262,7 @@ read_lines(struct reading *r)
 {
     const char **start = tool_room(r->tool, CELLS, sizeof *start, "a table"), *end;
     size_t *length = tool_room(r->tool, CELLS, sizeof *length, "a table"), cells, n;
-    size_t *where = tool_room(r->tool, r->table->columns, sizeof *where, "a table");
+    RC_OWNED size_t *where = tool_room(r->tool, r->table->columns, sizeof *where, "a table");
     char text[128];
 
     end = line_end(r);
@@ -286,7 +286,6 @@ read_lines(struct reading *r)
     }
     free(start);
     free(length);
-    free(where);
 }
 
 /* ---- JSON ---- */

@@ -209,13 +209,12 @@ look_at_contact(struct run *run, const struct rc_grid *g, const double *touch, s
 static void
 look_at_closed_gap(struct run *run, const struct rc_grid *g, struct rc_model *m, struct solution *s)
 {
-    double *touch = malloc(rc_grid_nodes(g) * sizeof *touch);
+    RC_OWNED double *touch = malloc(rc_grid_nodes(g) * sizeof *touch);
     struct rc_err err = {"out of memory for a map"};
 
     if (touch == NULL || rc_model_frame(m, CONTACT_CHANNEL, touch, &err) != RC_OK)
         tool_die_at(&run->d.t, g, EXIT_IMPOSSIBLE, "%s", err.text);
     look_at_contact(run, g, touch, s);
-    free(touch);
 }
 
 /* Takes the figures of all models, and the figures of this model. */

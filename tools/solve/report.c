@@ -184,7 +184,7 @@ report_asked(struct report *r, const struct run *run, const struct rc_solver *so
     const struct physics *a = &run->args->physics;
     const double step = run->steps->v[run->step];
     const struct rc_body *one = &a->pair.one;
-    char *layers = layers_text(a);
+    RC_OWNED char *layers = layers_text(a);
     struct rc_progress at = {.tol = NAN};
 
     if (solver != NULL)
@@ -201,7 +201,6 @@ report_asked(struct report *r, const struct run *run, const struct rc_solver *so
     report_number(r, "asked_load", a->load.n > 0 ? step : NAN, "N");
     report_number(r, "asked_mean_pressure", a->mean_pressure.n > 0 ? step : NAN, "Pa");
     report_number(r, "asked_approach", a->approach.n > 0 ? step : NAN, "m");
-    free(layers);
 }
 
 void

@@ -289,8 +289,9 @@ expect(const struct tool *t, const struct rc_grid *p, const struct rc_stress_opt
 {
     const double value = 12e-9; /* s to derive, count and write one */
     const size_t n = rc_grid_nodes(p), trials = depths->n > 1 ? 2 : 1;
-    double *v, *s[RC_STRESSES], start = tool_now(), setup;
-    struct rc_stress *stress = NULL;
+    RC_OWNED double *v = NULL;
+    double *s[RC_STRESSES], start = tool_now(), setup;
+    struct rc_stress *stress;
     enum rc_status status = RC_OK;
 
     *expected = NAN;
@@ -299,7 +300,7 @@ expect(const struct tool *t, const struct rc_grid *p, const struct rc_stress_opt
     if ((v = malloc(RC_STRESSES * n * sizeof *v)) == NULL)
         status = rc_err_set(err, "out of memory for the trial of a plan");
     if (ranks_agree(t, status, err) != RC_OK || v == NULL)
-        goto done;
+        return status;
     for (int c = 0; c < RC_STRESSES; c++)
         s[c] = v + (size_t)c * n;
     if ((stress = rc_stress_new(rc_shape_of(p), p->v, o, err)) == NULL)
@@ -311,9 +312,7 @@ expect(const struct tool *t, const struct rc_grid *p, const struct rc_stress_opt
     *expected = setup + (double)depths->n * (tool_now() - start) / (double)trials;
     for (int c = 0; c < RC_STRESSES; c++)
         *expected += o->wanted >> c & 1 ? value * (double)depths->n * (double)n : 0;
-done:
     rc_stress_free(stress);
-    free(v);
     return status;
 }
 
