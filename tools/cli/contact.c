@@ -48,7 +48,7 @@ demand_states(struct tool *t, const struct rc_grid *contact)
         wrong += contact->v[k] != 0 && contact->v[k] != 1;
     wrong = (size_t)ranks_sum(t, (double)wrong);
     if (wrong > 0)
-        tool_die_at(t, contact, EXIT_IMPOSSIBLE,
+        tool_refuse(t, contact,
                     "%zu of %zu values are neither 0 nor 1: a frame contact is 1 where the bodies "
                     "touch and 0 elsewhere",
                     wrong, contact->nx * contact->ny);
@@ -69,7 +69,7 @@ find(struct tool *t, const struct rc_grid *p, const struct rc_grid *contact, boo
     if (p == NULL || (negative = count_negative(t, p)) == 0)
         return p;
     if (is_net(p, negative) && demanded)
-        tool_die_at(t, p, EXIT_IMPOSSIBLE,
+        tool_refuse(t, p,
                     "the net pressure of bodies that attract each other does not determine the "
                     "contact, and the case has no frame contact: %s",
                     remedy);
@@ -127,10 +127,9 @@ contact_boundary(struct tool *tool, const struct rc_grid *p, bool periodic)
     if (says(p, "boundary", "periodic"))
         return RC_PERIODIC;
     if (!says(p, "boundary", "free"))
-        tool_die_at(tool, p, EXIT_IMPOSSIBLE, "its boundary is '%s': it must be free or periodic",
-                    own);
+        tool_refuse(tool, p, "its boundary is '%s': it must be free or periodic", own);
     if (periodic)
-        tool_die_at(tool, p, EXIT_IMPOSSIBLE,
+        tool_refuse(tool, p,
                     "its boundary is %s, which contradicts --periodic: leave out --periodic", own);
     return RC_FREE;
 }

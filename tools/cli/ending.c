@@ -39,16 +39,15 @@ ending_demand_picture(struct tool *t, const char *option, const char *name)
         return;
     if (strncmp(name, "/dev/", 5) == 0 || (stat(name, &st) == 0 && !S_ISREG(st.st_mode)))
         return;
-    tool_die(t, EXIT_USAGE,
-             "%s %s: a picture is a PNG, SVG or PDF: its name has to end in .png, .svg or .pdf",
-             option, name);
+    tool_usage(t,
+               "%s %s: a picture is a PNG, SVG or PDF: its name has to end in .png, .svg or .pdf",
+               option, name);
 }
 
 void
 ending_refuse_picture(struct tool *t, const char *name)
 {
     if (name != NULL && find(name) != NULL)
-        tool_die(t, EXIT_USAGE,
-                 "-o %s: %s writes a grid stream, not a picture: pipe it into rc-render -o %s",
-                 name, t->info->name, name);
+        tool_usage(t, "-o %s: %s writes a grid stream, not a picture: pipe it into rc-render -o %s",
+                   name, t->info->name, name);
 }

@@ -73,13 +73,11 @@ open_next(struct tool *t)
                      is_unit(name) ? name : "");
     }
     if (t->ranks != NULL && (t->input.file == stdin || fseeko(t->input.file, 0, SEEK_CUR) != 0))
-        tool_die(
-            t, EXIT_USAGE,
-            "%s: several processes read a file, each its part of it: name one instead of a pipe",
+        tool_usage(
+            t, "%s: several processes read a file, each its part of it: name one instead of a pipe",
             t->source);
     if (isatty(fileno(t->input.file)))
-        tool_die(t, EXIT_USAGE, "%s is a terminal: pipe a grid stream in or name a file",
-                 t->source);
+        tool_usage(t, "%s is a terminal: pipe a grid stream in or name a file", t->source);
     setvbuf(t->input.file, NULL, _IOFBF, TOOL_BUFFER);
     pipe_widen(fileno(t->input.file));
     t->input.reader =
@@ -259,7 +257,7 @@ void
 tool_keep_frame(struct tool *t, struct rc_grid *g, struct rc_grid **kept)
 {
     if (*kept != NULL)
-        tool_die_at(t, g, EXIT_IMPOSSIBLE,
+        tool_refuse(t, g,
                     "two '%s' frames in case %zu; give unrelated maps different numbers "
                     "(rc-pick --set case=2)",
                     g->channel, rc_grid_case(g));
@@ -270,7 +268,7 @@ void
 tool_demand_lengths(struct tool *t, const struct rc_grid *g)
 {
     if (strcmp(rc_grid_dunit(g), "m") != 0)
-        tool_die_at(t, g, EXIT_IMPOSSIBLE, "its dx and dy are in %s (key dunit), but must be in m",
+        tool_refuse(t, g, "its dx and dy are in %s (key dunit), but must be in m",
                     rc_grid_dunit(g));
 }
 
@@ -279,7 +277,7 @@ tool_demand_grid_of(struct tool *t, const struct rc_grid *g, const struct rc_gri
 {
     if (g->nx != of->nx || g->ny != of->ny || fabs(g->dx / of->dx - 1) > RC_SAME_SPACING ||
         fabs(g->dy / of->dy - 1) > RC_SAME_SPACING)
-        tool_die_at(t, g, EXIT_IMPOSSIBLE,
+        tool_refuse(t, g,
                     "%zu x %zu nodes %g x %g m apart, but %s has %zu x %zu nodes %g x %g m apart: "
                     "bring them to one grid with rc-pick --resample",
                     g->nx, g->ny, g->dx, g->dy, of->channel, of->nx, of->ny, of->dx, of->dy);
@@ -363,7 +361,7 @@ tool_channel(struct tool *t, const char *channel, bool pass)
         note_frame(t, g);
         if (strcmp(g->channel, channel) == 0) {
             if (t->current.found++ > 0)
-                tool_die_at(t, g, EXIT_IMPOSSIBLE,
+                tool_refuse(t, g,
                             "two '%s' frames in case %zu; give unrelated maps different numbers "
                             "(rc-pick --set case=2)",
                             channel, number);
@@ -433,7 +431,7 @@ tool_demand_measured(struct tool *t, const struct rc_grid *g)
             first = k;
         }
     if (count > 0)
-        tool_die_at(t, g, EXIT_IMPOSSIBLE,
+        tool_refuse(t, g,
                     "%zu heights are infinite, the first in column %zu of row %zu: a point without "
                     "a measurement is NaN",
                     count, first % g->nx, first / g->nx);
@@ -453,7 +451,7 @@ tool_demand_finite(struct tool *t, const struct rc_grid *g, const char *remedy)
     count = (size_t)ranks_sum(t, (double)count);
     first = (size_t)-ranks_most(t, -(double)first);
     if (count > 0)
-        tool_die_at(t, g, EXIT_IMPOSSIBLE,
+        tool_refuse(t, g,
                     "%zu of %zu values are NaN or infinite, the first in column %zu of row %zu: %s",
                     count, g->nx * g->ny, first % g->nx, first / g->nx, remedy);
 }

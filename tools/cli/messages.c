@@ -147,6 +147,16 @@ tool_die(struct tool *t, int status, const char *format, ...)
     die(t, status, text);
 }
 
+void
+tool_usage(struct tool *t, const char *format, ...)
+{
+    char text[1024];
+
+    WRITE(text, format);
+    tool_add_refusal(t, NULL, text, sizeof text);
+    die(t, EXIT_USAGE, text);
+}
+
 const char *
 tool_where_to(const struct tool *t, const struct rc_grid *g, char text[WHERE])
 {
@@ -162,15 +172,32 @@ tool_where_to(const struct tool *t, const struct rc_grid *g, char text[WHERE])
     return rc_text_harmless(text, '?');
 }
 
+static _Noreturn void
+die_at(struct tool *t, const struct rc_grid *g, int status, char text[1024])
+{
+    char whole[1400];
+
+    tool_add_refusal(t, g, text, 1024);
+    snprintf(whole, sizeof whole, "%s: %s", tool_where(t, g), text);
+    die(t, status, whole);
+}
+
 void
 tool_die_at(struct tool *t, const struct rc_grid *g, int status, const char *format, ...)
 {
-    char text[1024], whole[1400];
+    char text[1024];
 
     WRITE(text, format);
-    tool_add_refusal(t, g, text, sizeof text);
-    snprintf(whole, sizeof whole, "%s: %s", tool_where(t, g), text);
-    die(t, status, whole);
+    die_at(t, g, status, text);
+}
+
+void
+tool_refuse(struct tool *t, const struct rc_grid *g, const char *format, ...)
+{
+    char text[1024];
+
+    WRITE(text, format);
+    die_at(t, g, EXIT_IMPOSSIBLE, text);
 }
 
 void
@@ -180,7 +207,7 @@ tool_must(struct tool *t, const struct rc_grid *g, enum rc_status status)
         return;
     if (g == NULL)
         tool_die(t, EXIT_IMPOSSIBLE, "%s", t->err.text);
-    tool_die_at(t, g, EXIT_IMPOSSIBLE, "%s", t->err.text);
+    tool_refuse(t, g, "%s", t->err.text);
 }
 
 void *

@@ -194,11 +194,10 @@ check_bounds(struct tool *t, const struct opt *o, double value, bool per_metre)
     if (!(o->min < o->max) || (!low && value <= o->max))
         return;
     if (isinf(o->max))
-        tool_die(t, EXIT_USAGE, "--%s %s%s%s: it must be %s %s", o->name, rc_number(value), unit,
-                 name, o->above ? "above" : "at least", rc_number(o->min));
-    tool_die(t, EXIT_USAGE, "--%s %s%s%s: it must be %s %s and at most %s", o->name,
-             rc_number(value), unit, name, o->above ? "above" : "at least", rc_number(o->min),
-             rc_number(o->max));
+        tool_usage(t, "--%s %s%s%s: it must be %s %s", o->name, rc_number(value), unit, name,
+                   o->above ? "above" : "at least", rc_number(o->min));
+    tool_usage(t, "--%s %s%s%s: it must be %s %s and at most %s", o->name, rc_number(value), unit,
+               name, o->above ? "above" : "at least", rc_number(o->min), rc_number(o->max));
 }
 
 static double
@@ -207,7 +206,7 @@ number(struct tool *t, const struct opt *o, const char *text)
     double value;
 
     if (unit_number(text, o->unit, &value, &t->err) != RC_OK)
-        tool_die(t, EXIT_USAGE, "--%s %s: %s", o->name, text, t->err.text);
+        tool_usage(t, "--%s %s: %s", o->name, text, t->err.text);
     check_bounds(t, o, value, false);
     if (o->unit == UNIT_HARD && unit_vickers(text))
         t->vickers = text;
@@ -220,7 +219,7 @@ whole(struct tool *t, const struct opt *o, const char *text)
     double value = number(t, o, text);
 
     if (value != floor(value) || fabs(value) > 9e15)
-        tool_die(t, EXIT_USAGE, "--%s %s: it must be a whole number", o->name, text);
+        tool_usage(t, "--%s %s: it must be a whole number", o->name, text);
     return value;
 }
 
@@ -231,7 +230,7 @@ count(struct tool *t, const struct opt *o, const char *text)
     double value = whole(t, o, text);
 
     if (value > (double)SIZE_MAX)
-        tool_die(t, EXIT_USAGE, "--%s %s: this machine counts to %zu", o->name, text, SIZE_MAX);
+        tool_usage(t, "--%s %s: this machine counts to %zu", o->name, text, SIZE_MAX);
     return (size_t)value;
 }
 
@@ -245,8 +244,8 @@ choice(struct tool *t, const struct opt *o, const char *text)
     if (text == NULL)
         return "";
     if (k < 0)
-        tool_die(t, EXIT_USAGE, "--%s %s: it must be one of %s%s", o->name, text,
-                 word_list(list, o, "|"), word_meant(meant, o, text, strlen(text)));
+        tool_usage(t, "--%s %s: it must be one of %s%s", o->name, text, word_list(list, o, "|"),
+                   word_meant(meant, o, text, strlen(text)));
     return o->words == NULL ? text : o->words((size_t)k);
 }
 
@@ -260,8 +259,8 @@ word_set(struct tool *t, const struct opt *o, const char *text)
         size_t n = strcspn(s, ",");
         int k = word_index(o, s, n);
         if (k < 0)
-            tool_die(t, EXIT_USAGE, "--%s %s: '%.*s' is none of %s%s", o->name, text, (int)n, s,
-                     word_list(list, o, "|"), word_meant(meant, o, s, n));
+            tool_usage(t, "--%s %s: '%.*s' is none of %s%s", o->name, text, (int)n, s,
+                       word_list(list, o, "|"), word_meant(meant, o, s, n));
         set |= (size_t)1 << k;
         s += n;
         if (*s == '\0')
@@ -276,7 +275,7 @@ add_step(struct tool *t, const struct opt *o, struct steps *steps, const char *t
     double value = 0;
 
     if (steps->n == most)
-        tool_die(t, EXIT_USAGE, "more than %zu steps: use two commands", most);
+        tool_usage(t, "more than %zu steps: use two commands", most);
     if (o->type == OPT_STEP && o->arg != NULL && strchr(o->arg, '|') != NULL)
         value = word_index(o, choice(t, o, text), strlen(text));
     else if (o->type == OPT_STEP && o->arg != NULL)
@@ -300,7 +299,7 @@ set_list(struct tool *t, const struct opt *o, struct numbers *list, const char *
     for (size_t k = 0; k < list->n; k++) {
         check_bounds(t, o, list->v[k], list->per_metre);
         if (o->whole && list->v[k] != floor(list->v[k]))
-            tool_die(t, EXIT_USAGE, "--%s %s: it must be a whole number", o->name, text);
+            tool_usage(t, "--%s %s: it must be a whole number", o->name, text);
     }
 }
 
@@ -424,7 +423,7 @@ check_ambiguous(struct tool *t, const struct option *table, const char *typed)
             last = o->val; /* the names of an option are adjacent */
         }
     if (n > 1)
-        tool_die(t, EXIT_USAGE, "option --%s is ambiguous: %s", typed, list);
+        tool_usage(t, "option --%s is ambiguous: %s", typed, list);
 }
 
 /* `word` on the command line, with `hyphens` hyphens before the name. */
@@ -440,8 +439,8 @@ unknown_option(struct tool *t, const struct option *table, const char *word, siz
     for (const struct option *o = table; o->name != NULL; o++)
         name_nearer(typed, o->name, nearest);
     if (*nearest != '\0')
-        tool_die(t, EXIT_USAGE, "unknown option %.*s: did you mean --%s?", n, word, nearest);
-    tool_die(t, EXIT_USAGE, "unknown option %.*s: see %s --help", n, word, t->info->name);
+        tool_usage(t, "unknown option %.*s: did you mean --%s?", n, word, nearest);
+    tool_usage(t, "unknown option %.*s: see %s --help", n, word, t->info->name);
 }
 
 static bool
@@ -471,15 +470,15 @@ bad_option(struct tool *t, int what, char **argv, const struct option *table)
     char letter[3];
 
     if (what == ':')
-        tool_die(t, EXIT_USAGE, "option %s needs an argument: see %s --help", word, t->info->name);
+        tool_usage(t, "option %s needs an argument: see %s --help", word, t->info->name);
     if (optopt >= OWN)
-        tool_die(t, EXIT_USAGE, "option %s takes no argument: see %s --help", word, t->info->name);
+        tool_usage(t, "option %s takes no argument: see %s --help", word, t->info->name);
     if (optopt == 0)
         unknown_option(t, table, word, 2);
     snprintf(letter, sizeof letter, "-%c", optopt);
     if (rest != NULL && strncmp(rest, letter, 2) == 0) /* one hyphen, followed by several letters */
         unknown_option(t, table, rest, 1);
-    tool_die(t, EXIT_USAGE, "unknown option %s: see %s --help", letter, t->info->name);
+    tool_usage(t, "unknown option %s: see %s --help", letter, t->info->name);
 }
 
 /* "--load 1,5" gives two loads; the user may have meant one and a half. */

@@ -110,8 +110,8 @@ demand_shared_file(struct tool *t)
     struct stat st;
 
     if (t->out_name == NULL)
-        tool_die(
-            t, EXIT_USAGE,
+        tool_usage(
+            t,
             "several processes write a file, each its part of it: give -o FILE instead of a pipe");
     if (stat(t->out_name, &st) == 0 && !S_ISREG(st.st_mode))
         tool_die(t, EXIT_IMPOSSIBLE,
@@ -185,14 +185,14 @@ demand_no_new(struct tool *t, const struct rc_grid *g)
         return;
     n = not_finite(t, g);
     if (n.infinite > 0 && !t->infinite)
-        tool_die_at(t, g, EXIT_IMPOSSIBLE,
+        tool_refuse(t, g,
                     "%zu of %zu values of %s are too large for %s: are the units of heights, "
                     "spacings, loads and moduli right?%s",
                     n.infinite, g->nx * g->ny, g->channel,
                     g->type == RC_F32 ? "single precision" : "a number",
                     g->type == RC_F32 ? " --type f64 holds more" : "");
     if (n.missing > 0 && !t->missing)
-        tool_die_at(t, g, EXIT_IMPOSSIBLE,
+        tool_refuse(t, g,
                     "%zu of %zu values of %s are undefined, because numbers were too large or too "
                     "small: are the units of heights, spacings, loads and moduli right?",
                     n.missing, g->nx * g->ny, g->channel);

@@ -29,7 +29,7 @@ threads_wanted(struct tool *t)
     if (text == NULL || *text == '\0')
         return rc_threads_available();
     if (unit_number(text, UNIT_NONE, &n, &err) != RC_OK || n < 1 || n > 4096 || n != floor(n))
-        tool_die(t, EXIT_USAGE, "RC_THREADS=%s: it must be a whole number from 1 to 4096", text);
+        tool_usage(t, "RC_THREADS=%s: it must be a whole number from 1 to 4096", text);
     return (size_t)n;
 }
 
@@ -57,8 +57,7 @@ tool_start(struct tool *t, const struct tool_info *info, int argc, char **argv, 
     tool_budget(t);
     (void)tool_counted_memory(t); /* the memory before any map is allocated: code */
     if (info->reads == READS_NOTHING && t->operands > 0)
-        tool_die(t, EXIT_USAGE, "'%s': this tool reads no files; see %s --help", t->operand[0],
-                 info->name);
+        tool_usage(t, "'%s': this tool reads no files; see %s --help", t->operand[0], info->name);
     if (info->settle != NULL)
         info->settle(t);
     output_handle_signals();

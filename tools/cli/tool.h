@@ -258,6 +258,11 @@ _Noreturn void tool_die(struct tool *tool, int status, const char *format, ...)
 /* The same, with source, case and channel of the faulty frame in the message. */
 _Noreturn void tool_die_at(struct tool *tool, const struct rc_grid *grid, int status,
                            const char *format, ...) __attribute__((format(printf, 4, 5)));
+/* The same with the usual exit status: for the command line, and for a faulty frame. */
+_Noreturn void tool_usage(struct tool *tool, const char *format, ...)
+    __attribute__((format(printf, 2, 3)));
+_Noreturn void tool_refuse(struct tool *tool, const struct rc_grid *grid, const char *format, ...)
+    __attribute__((format(printf, 3, 4)));
 /* Ends the tool with the message of a failure, tool->err, at a frame or, with NULL, without a place. */
 void tool_must(struct tool *tool, const struct rc_grid *grid, enum rc_status status);
 /* Returns what a maker returned; ends the tool with tool->err if that is NULL. */

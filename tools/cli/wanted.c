@@ -201,10 +201,10 @@ wanted_check(const struct wanted *w, struct tool *t)
 
     for (size_t k = 0; name_at(w->channel, k, &n) != NULL; k++)
         if (n == 0)
-            tool_die(t, EXIT_USAGE, "--channel '%s': a name is empty", w->channel);
+            tool_usage(t, "--channel '%s': a name is empty", w->channel);
     for (size_t k = 0; k < w->number.n; k++)
         if (w->number.v[k] != floor(w->number.v[k]))
-            tool_die(t, EXIT_USAGE, "--case %g: it must be a whole number", w->number.v[k]);
+            tool_usage(t, "--case %g: it must be a whole number", w->number.v[k]);
 }
 
 static bool

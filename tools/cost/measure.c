@@ -52,7 +52,7 @@ grid_of(struct cost_case *c, const struct cost_trial *m)
     put(&l, size, NULL);
     if (cost_run(c, l.word, c->grid[0], c->grid[k], INFINITY, "coarser grids", &status) ==
         PROCESS_FAILED)
-        tool_die_at(c->tool, c->heights, EXIT_IMPOSSIBLE, "%s", cost_message(c->said));
+        tool_refuse(c->tool, c->heights, "%s", cost_message(c->said));
     return c->grid[k];
 }
 
@@ -108,7 +108,7 @@ cost_plan(struct cost_case *c, struct cost_trial *m)
     if (end == PROCESS_FAILED && m->reference && status == EXIT_USAGE)
         tool_die(c->tool, status, "%s", cost_message(c->said));
     if (end == PROCESS_FAILED && m->reference)
-        tool_die_at(c->tool, c->heights, EXIT_IMPOSSIBLE, "%s", cost_message(c->said));
+        tool_refuse(c->tool, c->heights, "%s", cost_message(c->said));
     if (end == PROCESS_FAILED)
         leave_out(m, cost_message(c->said));
     if (end != PROCESS_ENDED || c->said == NULL || (at = strstr(c->said, "  about ")) == NULL)
@@ -322,7 +322,7 @@ find_slabs(struct cost_case *c)
         return;
     }
     if (isnan(first.is.slabs))
-        tool_die_at(c->tool, c->heights, EXIT_IMPOSSIBLE,
+        tool_refuse(c->tool, c->heights,
                     "nothing yields: the largest Mises stress is %.3g of the yield stress: leave "
                     "out --yield",
                     cost_number(c->said, "max_mises_over_yield"));
@@ -360,13 +360,11 @@ cost_solve_reference(struct cost_case *c)
         run_pressure(c, r, c->limit);
     c->output = scratch;
     if (tool_interrupted() != 0)
-        tool_die_at(c->tool, c->heights, EXIT_IMPOSSIBLE,
-                    "interrupted before anything was measured");
+        tool_refuse(c->tool, c->heights, "interrupted before anything was measured");
     if (r->state != COST_DONE)
-        tool_die_at(c->tool, c->heights, EXIT_IMPOSSIBLE, "no reference: %s", r->why);
+        tool_refuse(c->tool, c->heights, "no reference: %s", r->why);
     if (strstr(c->solved, "\"separated\": \"yes\"") != NULL)
-        tool_die_at(c->tool, c->heights, EXIT_IMPOSSIBLE,
-                    "no reference: under this load the bodies part");
+        tool_refuse(c->tool, c->heights, "no reference: under this load the bodies part");
 }
 
 /* ---- stresses ---- */

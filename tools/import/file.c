@@ -69,7 +69,7 @@ import_read(struct tool *t, const char *name, struct rc_file *file, struct rc_er
         return NULL;
     }
     if (isatty(fileno(in)))
-        tool_die(t, EXIT_USAGE, "%s is a terminal: name a file", import_source(name));
+        tool_usage(t, "%s is a terminal: name a file", import_source(name));
     *file = (struct rc_file){.name = slash == NULL ? name : slash + 1};
     file->data = data = whole(t, in, &file->size, err);
     if (in != stdin)

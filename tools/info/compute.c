@@ -16,15 +16,15 @@ void
 info_check(struct info_wanted *w, struct tool *t)
 {
     if (w->fit.n != 0 && (w->fit.n != 2 || !(w->fit.v[0] > 0 && w->fit.v[1] > w->fit.v[0])))
-        tool_die(t, EXIT_USAGE, "--fit takes two wavelengths, the shortest first: --fit 2um,50um");
+        tool_usage(t, "--fit takes two wavelengths, the shortest first: --fit 2um,50um");
     if (w->smr.n > INFO_HEIGHTS)
-        tool_die(t, EXIT_USAGE, "--smr: it takes %d heights at most", INFO_HEIGHTS);
+        tool_usage(t, "--smr: it takes %d heights at most", INFO_HEIGHTS);
     for (size_t k = 0; k < w->smr.n; k++) {
         snprintf(w->smr_name[k], sizeof w->smr_name[k], "smr_%s", rc_number(w->smr.v[k]));
     }
     w->areal = w->areal || w->smr.n > 0;
     if (tool_given(t, "sections") && w->profile == NULL)
-        tool_die(t, EXIT_USAGE, "--sections has no effect without --profile: give one");
+        tool_usage(t, "--sections has no effect without --profile: give one");
     info_line_read(t, w->profile, &w->line);
     report_open(&w->out, t, w->report);
     w->psd = w->psd || w->fit.n != 0 || w->window != NULL || w->psd_map != NULL;

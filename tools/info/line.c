@@ -22,11 +22,11 @@ read_place(struct tool *t, const char *along, const char *text, struct rc_place 
         *comma = '\0';
     if (comma == NULL || unit_number(copy, UNIT_M, &place->x, &err) != RC_OK ||
         unit_number(comma + 1, UNIT_M, &place->y, &err) != RC_OK)
-        tool_die(t, EXIT_USAGE,
-                 "--profile %s: it must be rows, columns, an angle in degrees, or X0,Y0:X1,Y1, "
-                 "places from the middle of "
-                 "the map, y down",
-                 along);
+        tool_usage(t,
+                   "--profile %s: it must be rows, columns, an angle in degrees, or X0,Y0:X1,Y1, "
+                   "places from the middle of "
+                   "the map, y down",
+                   along);
 }
 
 void
@@ -52,7 +52,7 @@ info_line_read(struct tool *t, const char *along, struct info_line_wanted *w)
     read_place(t, along, copy, &w->from);
     read_place(t, along, colon == NULL ? "" : colon + 1, &w->to);
     if (w->from.x == w->to.x && w->from.y == w->to.y)
-        tool_die(t, EXIT_USAGE, "--profile %s: the line has no length", along);
+        tool_usage(t, "--profile %s: the line has no length", along);
 }
 
 /* The line through the middle at this angle, as long as the map allows. */
@@ -114,8 +114,8 @@ demand_points(struct tool *t, const struct rc_grid *g, const struct info_line_wa
               size_t sections)
 {
     if (n < sections || n < 2)
-        tool_die_at(
-            t, g, EXIT_IMPOSSIBLE,
+        tool_refuse(
+            t, g,
             "--profile %s: a profile of %zu points has no %zu sections: give fewer --sections",
             w->along, n, sections);
 }
@@ -139,7 +139,7 @@ measure_rows(struct tool *t, const struct rc_grid *g, const struct info_line_wan
             to->lines++;
     }
     if (to->lines == 0)
-        tool_die_at(t, g, EXIT_IMPOSSIBLE,
+        tool_refuse(t, g,
                     "--profile %s: all of them have missing points: fill them first, with "
                     "rc-detrend --fill",
                     w->along);
@@ -168,8 +168,8 @@ info_line_measure(struct tool *t, const struct rc_grid *g, const struct info_lin
     if (!isnan(w.angle))
         set_ends(&shape, &w);
     else if (!is_within(&shape, w.from) || !is_within(&shape, w.to))
-        tool_die_at(
-            t, g, EXIT_IMPOSSIBLE,
+        tool_refuse(
+            t, g,
             "--profile %s: the line leaves the map, whose nodes reach %g m by %g m from its middle",
             w.along, 0.5 * (double)(g->nx - 1) * g->dx, 0.5 * (double)(g->ny - 1) * g->dy);
     length = hypot(w.to.x - w.from.x, w.to.y - w.from.y);
@@ -179,8 +179,7 @@ info_line_measure(struct tool *t, const struct rc_grid *g, const struct info_lin
     rc_profile_along(&shape, g->v, w.from, w.to, to->points, z);
     if (rc_profile_measure(to->points, length / (double)(to->points - 1), z, sections, &line,
                            &t->err) != RC_OK)
-        tool_die_at(t, g, EXIT_IMPOSSIBLE,
-                    "--profile %s: %s: fill the map first, with rc-detrend --fill", w.along,
+        tool_refuse(t, g, "--profile %s: %s: fill the map first, with rc-detrend --fill", w.along,
                     t->err.text);
     to->lines = 1;
     to->length = length;

@@ -26,7 +26,7 @@ info_file_new(struct tool *t, const char *option, const char *name)
 
     *f = (struct info_file){.tool = t, .option = option, .name = name};
     if (strcmp(name, "-") == 0)
-        tool_die(t, EXIT_USAGE, "%s -: standard output is for the figures: name a file", option);
+        tool_usage(t, "%s -: standard output is for the figures: name a file", option);
     tool_demand_writable(t, option, name);
     if ((f->file = whole_file_open(&f->whole, name)) == NULL)
         failed(f);
@@ -39,13 +39,12 @@ info_file_put(struct info_file *f, const struct rc_grid *g)
 {
     for (size_t k = 0; k < g->nx * g->ny; k++)
         if (!isfinite(g->v[k]))
-            tool_die_at(f->tool, g, EXIT_IMPOSSIBLE,
+            tool_refuse(f->tool, g,
                         "%s: the powers are too large for a number: are the units of heights and "
                         "spacings right?",
                         f->option);
     if (rc_writer_put(f->writer, g, &f->tool->err) != RC_OK)
-        tool_die_at(f->tool, g, EXIT_IMPOSSIBLE, "%s %s: %s", f->option, f->name,
-                    f->tool->err.text);
+        tool_refuse(f->tool, g, "%s %s: %s", f->option, f->name, f->tool->err.text);
 }
 
 void

@@ -59,8 +59,7 @@ journal_open(struct journal *j, struct tool *t, const char *name, bool resume, b
     *j = (struct journal){.t = t, .name = name};
     *found = false;
     if (strcmp(name, "-") == 0)
-        tool_die(t, EXIT_USAGE,
-                 "--checkpoint -: a checkpoint must be a file, not a pipe: give a file name");
+        tool_usage(t, "--checkpoint -: a checkpoint must be a file, not a pipe: give a file name");
     if (resume && (j->file = open_file(j, "r+b")) != NULL) {
         *found = true;
         lock(j);

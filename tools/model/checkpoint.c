@@ -160,8 +160,8 @@ checkpoint_crc(struct tool *t, const struct rc_grid *g, char text[16])
 void
 checkpoint_refuse(const struct course *c, const char *why)
 {
-    tool_die_at(
-        c->t, c->g, EXIT_IMPOSSIBLE,
+    tool_refuse(
+        c->t, c->g,
         "--checkpoint %s: case %zu cannot be continued (%s): remove the file to start again",
         c->checkpoint->journal.name, c->number, why);
 }
@@ -176,16 +176,14 @@ compare(const struct course *c, const struct rc_grid *saved, bool map)
 
     if ((map && (saved->nx != g->nx || saved->ny != g->ny)) || saved->dx != g->dx ||
         saved->dy != g->dy)
-        tool_die_at(c->t, g, EXIT_IMPOSSIBLE,
-                    "--checkpoint %s: it belongs to another grid, %zu x %zu nodes", name, saved->nx,
-                    saved->ny);
+        tool_refuse(c->t, g, "--checkpoint %s: it belongs to another grid, %zu x %zu nodes", name,
+                    saved->nx, saved->ny);
     for (size_t k = 0; k < c->marks; k++) {
         const struct mark *mark = &c->mark[k];
         const char *was = rc_grid_get(saved, mark->name);
         if (strcmp(was == NULL ? "" : was, mark->value) != 0)
-            tool_die_at(c->t, g, EXIT_IMPOSSIBLE,
-                        "--checkpoint %s: it belongs to another problem: %s was %s, is %s", name,
-                        mark->name, was == NULL ? "not given" : was,
+            tool_refuse(c->t, g, "--checkpoint %s: it belongs to another problem: %s was %s, is %s",
+                        name, mark->name, was == NULL ? "not given" : was,
                         mark->value[0] == '\0' ? "not given" : mark->value);
     }
 }
@@ -231,8 +229,7 @@ checkpoint_load(struct course *course, size_t *n)
             nodes = rc_grid_nodes(g);
             *n = few + maps * nodes;
             if ((v = malloc((*n + 1) * sizeof *v)) == NULL)
-                tool_die_at(c->t, course->g, EXIT_IMPOSSIBLE,
-                            "out of memory for a state of --checkpoint");
+                tool_refuse(c->t, course->g, "out of memory for a state of --checkpoint");
             memcpy(v, numbers, few * sizeof *v);
         }
         memcpy(v + few + j * nodes, g->v, nodes * sizeof *v);

@@ -11,7 +11,7 @@ save(struct course *c, struct rc_model *m)
     RC_OWNED double *v = malloc((n + 1) * sizeof *v);
 
     if (v == NULL)
-        tool_die_at(c->t, c->g, EXIT_IMPOSSIBLE, "out of memory for a state of --checkpoint");
+        tool_refuse(c->t, c->g, "out of memory for a state of --checkpoint");
     rc_model_state(m, v);
     checkpoint_save(c, v, n);
 }
@@ -27,7 +27,7 @@ course_set(struct course *c, struct rc_model *m, const struct rc_point *to)
     if (v != NULL && rc_model_restore(m, v, n, &going, &c->t->err) != RC_OK)
         checkpoint_refuse(c, c->t->err.text);
     if (v == NULL && rc_model_go(m, to, &c->t->err) == RC_FAIL)
-        tool_die_at(c->t, c->g, EXIT_IMPOSSIBLE, "%s", c->t->err.text);
+        tool_must(c->t, c->g, RC_FAIL);
 }
 
 /* ---- progress ---- */
@@ -174,7 +174,7 @@ course_run(struct course *c, struct rc_model *m)
             save(c, m);
         }
         if ((status = rc_model_step(m, &c->t->err)) == RC_FAIL)
-            tool_die_at(c->t, c->g, EXIT_IMPOSSIBLE, "%s", c->t->err.text);
+            tool_must(c->t, c->g, RC_FAIL);
         steps++;
         if (c->stepped != NULL)
             c->stepped(c, m);

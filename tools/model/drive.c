@@ -52,9 +52,10 @@ make_points(struct drive *d)
         tool_die(&d->t, EXIT_IMPOSSIBLE, "out of memory for %zu points", d->points);
     for (const struct drive_axis *a = d->axes; a->list != NULL; a++) {
         if (a->list->n > 1 && a->list->n < d->points)
-            tool_die(&d->t, EXIT_USAGE,
-                     "--%s has %zu values and --%s %zu: give lists of equal length, or one number",
-                     name_of(d, a), a->list->n, name_of(d, longest), d->points);
+            tool_usage(
+                &d->t,
+                "--%s has %zu values and --%s %zu: give lists of equal length, or one number",
+                name_of(d, a), a->list->n, name_of(d, longest), d->points);
         for (size_t k = 0; k < d->points && a->list->n > 0; k++)
             rc_point_set(&d->point[k], a->axis, a->list->v[a->list->n > 1 ? k : 0]);
     }
@@ -65,7 +66,7 @@ drive_open(struct drive *d, const struct drive_axis *axes)
 {
     d->axes = axes;
     if ((d->args->resume || tool_given(&d->t, "interval")) && d->args->checkpoint == NULL)
-        tool_die(&d->t, EXIT_USAGE, "--resume and --interval need --checkpoint FILE");
+        tool_usage(&d->t, "--resume and --interval need --checkpoint FILE");
     if (axes != NULL)
         make_points(d);
     d->course.t = &d->t;
@@ -495,7 +496,7 @@ void
 drive_case(struct drive *d, const struct rc_grid *g, struct rc_model *m, const struct rc_err *err)
 {
     if (m == NULL)
-        tool_die_at(&d->t, g, EXIT_IMPOSSIBLE, "%s", err->text);
+        tool_refuse(&d->t, g, "%s", err->text);
     if (d->points == 1)
         d->course.number = rc_grid_case(g) - 1;
     if (d->args->dry_run) {

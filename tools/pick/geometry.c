@@ -346,7 +346,7 @@ pick_geometry_settle(struct tool *t, struct step *step)
     char *text;
 
     if (what->read(step->text, &r, &t->err) != RC_OK)
-        tool_die(t, EXIT_USAGE, "--%s %s: %s", what->option, step->text, t->err.text);
+        tool_usage(t, "--%s %s: %s", what->option, step->text, t->err.text);
     if (!r.lengths)
         return;
     text = tool_room(t, size, 1, "a text");
@@ -360,22 +360,22 @@ static void
 demand_map(struct tool *t, const struct rc_grid *g, const struct geometry *what)
 {
     if (rc_grid_get(g, "section") != NULL)
-        tool_die_at(
-            t, g, EXIT_IMPOSSIBLE,
+        tool_refuse(
+            t, g,
             "--%s: a section is no map: its rows are depths: choose the frames that are maps "
             "by --channel",
             what->option);
     if (strcmp(g->channel, "psd") == 0 || strcmp(rc_grid_dunit(g), "rad/m") == 0)
-        tool_die_at(
-            t, g, EXIT_IMPOSSIBLE,
+        tool_refuse(
+            t, g,
             "--%s: a spectrum has its zero in the middle: do it to the surface, and take the "
             "spectrum of that",
             what->option);
     tool_demand_lengths(t, g);
     for (size_t k = 0; what->turns && k < RC_STRESSES; k++)
         if (strcmp(g->channel, rc_component_names[k]) == 0)
-            tool_die_at(
-                t, g, EXIT_IMPOSSIBLE,
+            tool_refuse(
+                t, g,
                 "--%s: stresses would change sign or places: do it to the pressure, and run "
                 "rc-stress on that",
                 what->option);
@@ -389,5 +389,5 @@ pick_geometry_do(struct tool *t, struct rc_grid *g, const struct step *step)
 
     demand_map(t, g, what);
     if (what->read(step->text, &r, &t->err) != RC_OK || what->apply(t, g, &r, &t->err) != RC_OK)
-        tool_die_at(t, g, EXIT_IMPOSSIBLE, "--%s %s: %s", what->option, step->text, t->err.text);
+        tool_refuse(t, g, "--%s %s: %s", what->option, step->text, t->err.text);
 }

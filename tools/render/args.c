@@ -18,7 +18,7 @@ leave_out(struct tool *t, const char *kind, const char *const *option)
 {
     for (; *option != NULL; option++)
         if (tool_given(t, *option))
-            tool_die(t, EXIT_USAGE, "%s: leave out --%s", kind, *option);
+            tool_usage(t, "%s: leave out --%s", kind, *option);
 }
 
 static void
@@ -36,9 +36,9 @@ check_kinds(struct tool *t, const struct args *a)
                 (a->raw || a->figure);
 
     if (kinds > 1 && !(a->raw && a->figure))
-        tool_die(t, EXIT_USAGE,
-                 "--raw, --figure, --curve, --cut, --histogram and --material-ratio are kinds of "
-                 "picture: give one");
+        tool_usage(t,
+                   "--raw, --figure, --curve, --cut, --histogram and --material-ratio are kinds of "
+                   "picture: give one");
     if (a->curve != NULL)
         leave_out(t, "--curve draws tables, not maps", of_maps);
     if (a->curve != NULL || args_lines(a)) {
@@ -46,12 +46,12 @@ check_kinds(struct tool *t, const struct args *a)
         leave_out(t, "a curve is no part of a map", of_places);
     }
     if (a->range != NULL && (a->histogram || a->material_ratio))
-        tool_die(t, EXIT_USAGE, "--range is for maps and for --cut: leave it out");
+        tool_usage(t, "--range is for maps and for --cut: leave it out");
     if (a->curve == NULL && !args_lines(a) && a->style.log != NULL && *a->style.log != '\0')
-        tool_die(t, EXIT_USAGE,
-                 "--log %s names an axis of a curve: for a map give --log without axes, or add "
-                 "--curve X:Y",
-                 a->style.log);
+        tool_usage(t,
+                   "--log %s names an axis of a curve: for a map give --log without axes, or add "
+                   "--curve X:Y",
+                   a->style.log);
     if (a->curve == NULL)
         leave_out(t, "it is for tables, with --curve X:Y", of_tables);
     if (a->curve == NULL && !args_lines(a))
@@ -61,7 +61,7 @@ check_kinds(struct tool *t, const struct args *a)
     if (a->curve == NULL && !a->histogram && !a->hertz)
         leave_out(t, "they are for laws and --hertz", of_spheres);
     if (a->hertz && (a->curve != NULL || a->histogram || a->material_ratio))
-        tool_die(t, EXIT_USAGE, "--hertz is for a map or --cut: with --curve take --law hertz");
+        tool_usage(t, "--hertz is for a map or --cut: with --curve take --law hertz");
 }
 
 bool
@@ -75,28 +75,27 @@ static void
 check_lists(struct tool *t, struct args *a)
 {
     if (args_several(a) && (a->raw || a->curve != NULL))
-        tool_die(t, EXIT_USAGE, "--raw shows one frame: give one --depth and one --case");
+        tool_usage(t, "--raw shows one frame: give one --depth and one --case");
     if (a->hillshade && (a->raw || a->curve != NULL || args_lines(a) || a->view != NULL))
-        tool_die(t, EXIT_USAGE, "--hillshade is for flat maps with axes: leave it out");
+        tool_usage(t, "--hillshade is for flat maps with axes: leave it out");
     if (a->view != NULL &&
         (a->raw || a->curve != NULL || args_lines(a) || a->contour || a->border || args_several(a)))
-        tool_die(t, EXIT_USAGE,
-                 "--view draws one map as a relief: leave out --raw, --contour, --border, curves "
-                 "and lists");
+        tool_usage(t,
+                   "--view draws one map as a relief: leave out --raw, --contour, --border, curves "
+                   "and lists");
     if (a->view != NULL && !isnan(a->aspect))
-        tool_die(t, EXIT_USAGE,
-                 "--aspect is for flat maps and sections; a relief has --exaggeration");
+        tool_usage(t, "--aspect is for flat maps and sections; a relief has --exaggeration");
     if (a->view == NULL && !isnan(a->exaggeration))
-        tool_die(t, EXIT_USAGE, "--exaggeration is for a relief: add --view AZ,EL");
+        tool_usage(t, "--exaggeration is for a relief: add --view AZ,EL");
     if (a->view != NULL && a->style.log != NULL)
-        tool_die(t, EXIT_USAGE, "--view has an even axis upwards: leave out --log");
+        tool_usage(t, "--view has an even axis upwards: leave out --log");
     if (a->hertz && (a->view != NULL || args_several(a)))
-        tool_die(t, EXIT_USAGE, "--hertz is for one flat map: leave it out");
+        tool_usage(t, "--hertz is for one flat map: leave it out");
     if (args_several(a) && a->window != NULL && strcmp(a->window, "contact") == 0)
-        tool_die(t, EXIT_USAGE,
-                 "--window contact is another one in each map: of several give it as X0:X1,Y0:Y1");
+        tool_usage(
+            t, "--window contact is another one in each map: of several give it as X0:X1,Y0:Y1");
     if (a->sheet != NULL && (a->raw || a->curve != NULL || args_lines(a)))
-        tool_die(t, EXIT_USAGE, "--sheet is for maps: leave it out");
+        tool_usage(t, "--sheet is for maps: leave it out");
     if (a->depth.n == 1)
         a->wish.depth = a->depth.v[0];
     if (a->number.n == 1)
@@ -117,16 +116,16 @@ read_width(struct tool *t, struct args *a)
     if (a->width == NULL)
         return;
     if (unit_number(a->width, plain ? UNIT_NONE : UNIT_M, &width, &t->err) != RC_OK)
-        tool_die(t, EXIT_USAGE, "--width %s: %s", a->width, t->err.text);
+        tool_usage(t, "--width %s: %s", a->width, t->err.text);
     if (!plain) {
         a->style.paper.dpi = a->style.paper.dpi > 0 ? a->style.paper.dpi : dpi;
         width *= a->style.paper.dpi / inch;
     }
     if (a->style.paper.dpi > 0 && !(width >= narrow / inch * a->style.paper.dpi))
-        tool_die(t, EXIT_USAGE, "--width %s: on paper it must be at least 60mm", a->width);
+        tool_usage(t, "--width %s: on paper it must be at least 60mm", a->width);
     if (!(width >= FIGURE_NARROW && width <= FIGURE_WIDE))
-        tool_die(t, EXIT_USAGE, "--width %s: it must be %d to %d pixels%s", a->width, FIGURE_NARROW,
-                 FIGURE_WIDE, plain ? "" : ", which is a matter of --dpi");
+        tool_usage(t, "--width %s: it must be %d to %d pixels%s", a->width, FIGURE_NARROW,
+                   FIGURE_WIDE, plain ? "" : ", which is a matter of --dpi");
     a->style.paper.width = (size_t)round(width);
 }
 
@@ -134,23 +133,22 @@ static void
 check_options(struct tool *t, const struct args *a)
 {
     if (a->raw && a->figure)
-        tool_die(t, EXIT_USAGE, "--raw and --figure are two kinds of picture: give one");
+        tool_usage(t, "--raw and --figure are two kinds of picture: give one");
     if (a->raw && (a->contour || a->border || !isnan(a->aspect)))
-        tool_die(t, EXIT_USAGE, "--raw draws only nodes: leave out --%s",
-                 a->contour  ? "contour"
-                 : a->border ? "border"
-                             : "aspect");
+        tool_usage(t, "--raw draws only nodes: leave out --%s",
+                   a->contour  ? "contour"
+                   : a->border ? "border"
+                               : "aspect");
     if (a->raw && a->width != NULL)
-        tool_die(t, EXIT_USAGE, "--raw is as wide as the map has columns: leave out --width");
+        tool_usage(t, "--raw is as wide as the map has columns: leave out --width");
     if (a->raw && a->style.paper.family != NULL)
-        tool_die(t, EXIT_USAGE, "--raw draws no text: leave out --font");
+        tool_usage(t, "--raw draws no text: leave out --font");
     if (a->raw && canvas_format(ending_of(t->out_name)) != CANVAS_PNG)
-        tool_die(t, EXIT_USAGE,
-                 "--raw has a pixel for each node, which only a PNG has: -o must end in .png");
+        tool_usage(t, "--raw has a pixel for each node, which only a PNG has: -o must end in .png");
     if (a->raw && a->hertz)
-        tool_die(t, EXIT_USAGE, "--raw draws only nodes: leave out --hertz");
+        tool_usage(t, "--raw draws only nodes: leave out --hertz");
     if (a->clip && a->range != NULL)
-        tool_die(t, EXIT_USAGE, "--clip chooses the range: leave out --range");
+        tool_usage(t, "--clip chooses the range: leave out --range");
 }
 
 void

@@ -163,13 +163,12 @@ split_names(struct curves *c, const char *columns)
 
     c->names = tool_copy(c->tool, columns);
     if ((s = strchr(c->names, ':')) == NULL || strchr(s + 1, ':') != NULL)
-        tool_die(c->tool, EXIT_USAGE, "--curve %s: %s", columns, wrong);
+        tool_usage(c->tool, "--curve %s: %s", columns, wrong);
     *s = '\0';
     c->column[c->columns++] = c->names;
     for (char *word = s + 1;; word = s + 1) {
         if (c->columns == COLUMNS)
-            tool_die(c->tool, EXIT_USAGE, "--curve: more than %d columns over one other",
-                     COLUMNS - 1);
+            tool_usage(c->tool, "--curve: more than %d columns over one other", COLUMNS - 1);
         c->column[c->columns++] = word;
         if ((s = strchr(word, ',')) == NULL)
             break;
@@ -177,7 +176,7 @@ split_names(struct curves *c, const char *columns)
     }
     for (size_t k = 0; k < c->columns; k++)
         if (*c->column[k] == '\0')
-            tool_die(c->tool, EXIT_USAGE, "--curve %s: %s", columns, wrong);
+            tool_usage(c->tool, "--curve %s: %s", columns, wrong);
 }
 
 /* Divides a list at commas, in a copy that the caller frees. */
@@ -193,8 +192,8 @@ split_list(struct curves *c, const char *option, const char *list, const char **
         if (comma != NULL)
             *comma = '\0';
         if (*s == '\0' || *n == most)
-            tool_die(c->tool, EXIT_USAGE, "--%s %s: it must be names of columns, %zu at most",
-                     option, list, most);
+            tool_usage(c->tool, "--%s %s: it must be names of columns, %zu at most", option, list,
+                       most);
         word[(*n)++] = s;
         if (comma == NULL)
             return copy;
@@ -212,10 +211,9 @@ split_options(struct curves *c)
     if (s->error != NULL)
         c->error_names = split_list(c, "error", s->error, c->error, COLUMNS, &c->errors);
     if (c->errors > 0 && c->errors != c->columns - 1)
-        tool_die(c->tool, EXIT_USAGE, "--error %s: it must be one column for each of --curve",
-                 s->error);
+        tool_usage(c->tool, "--error %s: it must be one column for each of --curve", s->error);
     if (c->errors > 0 && s->spread)
-        tool_die(c->tool, EXIT_USAGE, "--spread and --error are two kinds of bars: give one");
+        tool_usage(c->tool, "--spread and --error are two kinds of bars: give one");
     c->asked = c->columns + c->bys + c->errors;
 }
 
@@ -445,10 +443,10 @@ take_words(struct curves *c)
         if (x->numbers)
             continue;
         if (curve_log(c->style, 'x'))
-            tool_die(c->tool, EXIT_USAGE,
-                     "--log: column %s contains words, which have no logarithm: give the other "
-                     "axis alone, as in --log y",
-                     x->name);
+            tool_usage(c->tool,
+                       "--log: column %s contains words, which have no logarithm: give the other "
+                       "axis alone, as in --log y",
+                       x->name);
         for (size_t w = 0; w < x->word_count; w++) {
             size_t number = word_number(c, 0, x->word[w]);
 
@@ -771,7 +769,7 @@ settle_given(struct curves *c)
         c->given.rms_slope = given_in_tables(c, SLOPE, c->given.rms_slope);
     c->given.area = area_in_tables(c);
     if ((lacks = law_lacks(law, &c->given)) != NULL)
-        tool_die(c->tool, EXIT_USAGE, "--law %s needs %s: give it", law, lacks);
+        tool_usage(c->tool, "--law %s needs %s: give it", law, lacks);
 }
 
 /* The law over the range of x. It is dashed, and its name comes last. */
@@ -784,8 +782,8 @@ add_law(struct curves *c)
     struct graph_series *s;
 
     if (c->columns > 2 || !law_knows(law, x, y))
-        tool_die(c->tool, EXIT_USAGE, "--law %s relates %s%s, which --curve does not draw", law,
-                 law_quantities(law), c->columns > 2 ? ", one at a time" : "");
+        tool_usage(c->tool, "--law %s relates %s%s, which --curve does not draw", law,
+                   law_quantities(law), c->columns > 2 ? ", one at a time" : "");
     settle_given(c);
     if (law_needs_area(law, &c->given, x, y) && isnan(c->given.area))
         tool_die(c->tool, EXIT_IMPOSSIBLE,

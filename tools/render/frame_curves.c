@@ -47,7 +47,7 @@ set_begin(struct set *s)
     for (size_t k = 0; k < s->n; k++) {
         survey_map(s->grid[k], &survey);
         if (isnan(survey.min))
-            tool_die_at(s->tool, s->grid[k], EXIT_IMPOSSIBLE,
+            tool_refuse(s->tool, s->grid[k],
                         "none of its %zu values is a finite number: there is nothing to draw",
                         s->grid[k]->nx * s->grid[k]->ny);
         frame_label(s->label[k], LABEL, s->grid, s->n, k);
@@ -150,7 +150,7 @@ nearest(struct tool *t, const struct rc_grid *g, const struct line *l, double pl
     double slack = 0.5 * l->step * (1 + 1e-9);
 
     if (place < line_at(l, 0) - slack || place > line_at(l, l->n - 1) + slack)
-        tool_die_at(t, g, EXIT_IMPOSSIBLE, "--cut: it has nodes from %s = %s to %s", l->title,
+        tool_refuse(t, g, "--cut: it has nodes from %s = %s to %s", l->title,
                     scale_value(line_at(l, 0), l->unit),
                     scale_value(line_at(l, l->n - 1), l->unit));
     for (size_t k = 1; k < l->n; k++)
@@ -170,10 +170,10 @@ read_cut(struct tool *t, const struct rc_grid *g, const char *cut, const struct 
 
     *along_x = n == strlen(down->name) && strncmp(cut, down->name, n) == 0;
     if (is == NULL || (!*along_x && (n != strlen(across->name) || strncmp(cut, across->name, n))))
-        tool_die(t, EXIT_USAGE, "--cut %s: it must be %s=PLACE or %s=PLACE, as in %s=0", cut,
-                 across->name, down->name, down->name);
+        tool_usage(t, "--cut %s: it must be %s=PLACE or %s=PLACE, as in %s=0", cut, across->name,
+                   down->name, down->name);
     if (unit_number(is + 1, look_unit(g), &place, &t->err) != RC_OK)
-        tool_die(t, EXIT_USAGE, "--cut %s: %s", cut, t->err.text);
+        tool_usage(t, "--cut %s: %s", cut, t->err.text);
     return place;
 }
 
@@ -205,7 +205,7 @@ add_hertz(struct set *s, const struct line *along, double across)
     struct words words;
 
     if (s->n > 1 || strcmp(g->channel, "pressure") != 0)
-        tool_die(s->tool, EXIT_USAGE, "--hertz with --cut needs a single pressure: leave it out");
+        tool_usage(s->tool, "--hertz with --cut needs a single pressure: leave it out");
     snprintf(s->label[1], LABEL, "%s", words_hertz(s->tool, &words, g, &s->style->given, &radius));
     rc_grid_number(g, "load", &load);
     peak = 1.5 * load / (FIGURE_PI * radius * radius);
@@ -293,8 +293,7 @@ find_range(const struct set *s, double *lo, double *hi)
                 *hi = fmax(*hi, s->grid[k]->v[i]);
             }
     if (*lo > *hi)
-        tool_die_at(s->tool, s->grid[0], EXIT_IMPOSSIBLE,
-                    "no node is in contact: there is no pressure to count");
+        tool_refuse(s->tool, s->grid[0], "no node is in contact: there is no pressure to count");
     if (strcmp(s->grid[0]->channel, "pressure") == 0)
         *lo = fmin(*lo, 0);
     if (!(*hi - *lo > 1e-12 * fmax(fabs(*lo), fabs(*hi)))) {
@@ -348,12 +347,12 @@ add_distribution(struct set *s, double mean, double lo, double hi)
         return false;
     if (strcmp(s->style->law, "persson") != 0 || strcmp(s->grid[0]->channel, "pressure") != 0 ||
         s->n > 1)
-        tool_die(s->tool, EXIT_USAGE, "--law %s: a histogram has the law persson, of one pressure",
-                 s->style->law);
+        tool_usage(s->tool, "--law %s: a histogram has the law persson, of one pressure",
+                   s->style->law);
     if (isnan(given.estar) && rc_grid_number(s->grid[0], "estar", &estar))
         given.estar = estar;
     if ((lacks = law_lacks("persson", &given)) != NULL)
-        tool_die(s->tool, EXIT_USAGE, "--law persson needs %s: give it", lacks);
+        tool_usage(s->tool, "--law persson needs %s: give it", lacks);
     set_series(s, s->n, GRAPH_LAW, LAW);
     s->series[s->n].name = law_title("persson");
     s->series[0].name = "pressures of the map";

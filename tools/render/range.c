@@ -193,8 +193,8 @@ read_percent(struct tool *t, const char *text, char *list, struct range *r)
         *second++ = '\0';
     if (second == NULL || !is_percent(list, &r->low_percent) ||
         !is_percent(second, &r->high_percent) || !(r->low_percent < r->high_percent))
-        tool_die(t, EXIT_USAGE,
-                 "--range %s: percentiles are P%%:Q%%, from 0%% to 100%%, with P below Q", text);
+        tool_usage(t, "--range %s: percentiles are P%%:Q%%, from 0%% to 100%%, with P below Q",
+                   text);
     r->kind = RANGE_PERCENT;
 }
 
@@ -216,12 +216,12 @@ range_read(struct tool *t, const char *text, const struct rc_grid *g, struct ran
         return;
     }
     if (unit_numbers(list, unit_of(g), &n, &t->err) != RC_OK)
-        tool_die(t, EXIT_USAGE, "--range %s: %s (channel %s is in %s)", text, t->err.text,
-                 g->channel, g->unit);
+        tool_usage(t, "--range %s: %s (channel %s is in %s)", text, t->err.text, g->channel,
+                   g->unit);
     if (n.n != 2 || !(n.v[0] < n.v[1]))
-        tool_die(t, EXIT_USAGE,
-                 "--range %s: it must be LO:HI, two values with LO below HI, P%%:Q%% or symmetric",
-                 text);
+        tool_usage(
+            t, "--range %s: it must be LO:HI, two values with LO below HI, P%%:Q%% or symmetric",
+            text);
     r->kind = RANGE_VALUES;
     r->lo = n.v[0];
     r->hi = n.v[1];
@@ -340,7 +340,7 @@ range_take_logarithm(struct tool *t, struct rc_grid *const *grid, size_t n, stru
     double least = INFINITY;
 
     if (r->kind == RANGE_VALUES && !(r->lo > 0))
-        tool_die(t, EXIT_USAGE, "--log has no place for 0 and below: give a --range above it");
+        tool_usage(t, "--log has no place for 0 and below: give a --range above it");
     if (r->lo > 0)
         return;
     for (size_t m = 0; m < n; m++)
@@ -348,7 +348,7 @@ range_take_logarithm(struct tool *t, struct rc_grid *const *grid, size_t n, stru
             if (grid[m]->v[k] > 0)
                 least = fmin(least, grid[m]->v[k]);
     if (!(r->hi > 0) || !isfinite(least))
-        tool_die_at(t, grid[0], EXIT_IMPOSSIBLE,
+        tool_refuse(t, grid[0],
                     "no value is above 0, and only those have a logarithm: leave out --log");
     r->lo = fmax(least, decades * r->hi);
     if (r->lo >= 0.999 * r->hi)

@@ -26,13 +26,12 @@ section_depths(struct tool *t, const struct rc_grid *g)
         return d.v;
     }
     if (unit_numbers(text, UNIT_M, &d, &t->err) != RC_OK)
-        tool_die_at(t, g, EXIT_IMPOSSIBLE, "its key depths: %s", t->err.text);
+        tool_refuse(t, g, "its key depths: %s", t->err.text);
     if (d.n != g->ny)
-        tool_die_at(t, g, EXIT_IMPOSSIBLE, "its key depths has %zu depths, but there are %zu rows",
-                    d.n, g->ny);
+        tool_refuse(t, g, "its key depths has %zu depths, but there are %zu rows", d.n, g->ny);
     for (size_t j = 1; j < g->ny; j++)
         if (!(d.v[j] > d.v[j - 1]))
-            tool_die_at(t, g, EXIT_IMPOSSIBLE, "its key depths must rise from row to row");
+            tool_refuse(t, g, "its key depths must rise from row to row");
     return d.v;
 }
 
@@ -182,10 +181,9 @@ section_range(struct tool *t, const char *text, const struct rc_grid *g, const d
     if ((colon = strchr(list, ':')) != NULL)
         *colon = ',';
     if (unit_numbers(list, UNIT_M, &n, &t->err) != RC_OK)
-        tool_die(t, EXIT_USAGE, "--depth-range %s: %s", text, t->err.text);
+        tool_usage(t, "--depth-range %s: %s", text, t->err.text);
     if (colon == NULL || n.n != 2 || !(n.v[0] < n.v[1]) || n.v[0] < 0)
-        tool_die(t, EXIT_USAGE, "--depth-range %s: it must be Z0:Z1, two depths, the lesser first",
-                 text);
+        tool_usage(t, "--depth-range %s: it must be Z0:Z1, two depths, the lesser first", text);
     if (g->ny > 1) {
         *top = fmax(n.v[0], first);
         *bottom = fmin(n.v[1], last);
@@ -193,6 +191,6 @@ section_range(struct tool *t, const char *text, const struct rc_grid *g, const d
         *bottom = *top; /* the only depth is left out */
     free(n.v);
     if (!(*top < *bottom))
-        tool_die_at(t, g, EXIT_IMPOSSIBLE, "--depth-range %s: its depths go from %s to %s", text,
+        tool_refuse(t, g, "--depth-range %s: its depths go from %s to %s", text,
                     scale_value(first, "m"), scale_value(last, "m"));
 }

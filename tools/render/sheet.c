@@ -22,7 +22,7 @@ sheet_size(struct tool *t, const char *text, size_t *columns, size_t *rows)
     for (int k = 0; k < 2; k++)
         if (end == NULL || *end != '\0' || !(value[k] >= 1 && value[k] <= FRAMES) ||
             value[k] != floor(value[k]))
-            tool_die(t, EXIT_USAGE, "--sheet %s: it must be COLSxROWS, as in 3x2, or auto", text);
+            tool_usage(t, "--sheet %s: it must be COLSxROWS, as in 3x2, or auto", text);
     *columns = (size_t)value[0];
     *rows = (size_t)value[1];
 }
@@ -35,13 +35,12 @@ sheet_check_alike(struct tool *t, const struct rc_grid *first, const struct figu
            high = of_first->at.bottom - of_first->at.top;
 
     if ((g->nx == 1) != (g->ny == 1) && rc_grid_get(g, "section") == NULL)
-        tool_die_at(t, g, EXIT_IMPOSSIBLE,
-                    "a profile is no map: draw several as curves, with --cut y=0");
+        tool_refuse(t, g, "a profile is no map: draw several as curves, with --cut y=0");
     if (strcmp(first->unit, g->unit) != 0 || strcmp(f->at.down, of_first->at.down) != 0 ||
         strcmp(f->at.across, of_first->at.across) != 0 ||
         fabs(f->at.right - f->at.left - size) > 1e-6 * size ||
         fabs(f->at.bottom - f->at.top - high) > 1e-6 * high)
-        tool_die_at(t, g, EXIT_IMPOSSIBLE,
+        tool_refuse(t, g,
                     "it is not of the size of the frame before: a sheet shows maps of one size: "
                     "choose with --case and --depth");
 }
@@ -55,7 +54,7 @@ sheet_survey(struct tool *t, const struct frames *frames, struct survey *all)
 
         survey_map(frames->grid[k], &s);
         if (isnan(s.min))
-            tool_die_at(t, frames->grid[k], EXIT_IMPOSSIBLE,
+            tool_refuse(t, frames->grid[k],
                         "none of its %zu values is a finite number: there is nothing to draw",
                         frames->grid[k]->nx * frames->grid[k]->ny);
         all->min = fmin(all->min, s.min);

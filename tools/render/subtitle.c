@@ -210,14 +210,14 @@ words_hertz(struct tool *t, struct words *w, const struct rc_grid *g, const stru
     struct rc_err err;
 
     if (rc_grid_get(g, "section") != NULL)
-        tool_die_at(t, g, EXIT_IMPOSSIBLE, "--hertz is a circle on a map, and this is a section");
+        tool_refuse(t, g, "--hertz is a circle on a map, and this is a section");
     if (isnan(r) && (form == NULL || strncmp(form, "sphere ", 7) != 0 ||
                      unit_number(form + 7, UNIT_M, &r, &err) != RC_OK))
         r = 0;
     if (isnan(estar) && !rc_grid_number(g, "estar", &estar))
         estar = 0;
     if (!(r > 0) || !(estar > 0) || !rc_grid_number(g, "load", &load) || !(load > 0))
-        tool_die_at(t, g, EXIT_IMPOSSIBLE,
+        tool_refuse(t, g,
                     "--hertz needs the keys load, estar and form=sphere RADIUS, which rc-solve "
                     "--radius leaves: give --radius and --estar where they are not there, or leave "
                     "it out");

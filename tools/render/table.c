@@ -537,7 +537,7 @@ table_read(struct table *table, struct tool *t, const char *file)
     if (in == NULL)
         tool_die(t, EXIT_IMPOSSIBLE, "%s: %s", file, strerror(errno));
     if (isatty(fileno(in)))
-        tool_die(t, EXIT_USAGE, "%s is a terminal: pipe a table in or name a file", table->source);
+        tool_usage(t, "%s is a terminal: pipe a table in or name a file", table->source);
     text = read_file(t, table->source, in, &size);
     if (!standard)
         fclose(in);

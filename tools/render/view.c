@@ -12,11 +12,11 @@ view_read(struct tool *t, const char *text, struct view *view)
     struct numbers n = {0};
 
     if (unit_numbers(text, UNIT_NONE, &n, &t->err) != RC_OK)
-        tool_die(t, EXIT_USAGE, "--view %s: %s", text, t->err.text);
+        tool_usage(t, "--view %s: %s", text, t->err.text);
     if (n.n != 2 || !(fabs(n.v[0]) <= 360) || !(n.v[1] > 0 && n.v[1] <= 90))
-        tool_die(t, EXIT_USAGE,
-                 "--view %s: it must be AZ,EL in degrees, as in 30,35, EL above 0 and at most 90",
-                 text);
+        tool_usage(t,
+                   "--view %s: it must be AZ,EL in degrees, as in 30,35, EL above 0 and at most 90",
+                   text);
     view->azimuth = n.v[0];
     view->elevation = n.v[1];
     free(n.v);

@@ -131,17 +131,17 @@ read_pair(struct tool *t, const struct rc_grid *g, const char *window, const cha
     if ((colon = strchr(list, ':')) != NULL)
         *colon = ',';
     if (strlen(text) >= sizeof list || colon == NULL)
-        tool_die(t, EXIT_USAGE,
-                 "--window %s: it must be X0:X1,Y0:Y1, two lengths with the lower first for each "
-                 "axis, contact or all",
-                 window);
+        tool_usage(t,
+                   "--window %s: it must be X0:X1,Y0:Y1, two lengths with the lower first for each "
+                   "axis, contact or all",
+                   window);
     if (unit_numbers(list, look_unit(g), &n, &t->err) != RC_OK)
-        tool_die(t, EXIT_USAGE, "--window %s: %s", window, t->err.text);
+        tool_usage(t, "--window %s: %s", window, t->err.text);
     if (n.n != 2 || !(n.v[0] < n.v[1]))
-        tool_die(t, EXIT_USAGE,
-                 "--window %s: it must be X0:X1,Y0:Y1, two lengths with the lower first for each "
-                 "axis, contact or all",
-                 window);
+        tool_usage(t,
+                   "--window %s: it must be X0:X1,Y0:Y1, two lengths with the lower first for each "
+                   "axis, contact or all",
+                   window);
     pair[0] = n.v[0];
     pair[1] = n.v[1];
     free(n.v);
@@ -162,16 +162,16 @@ cut_lengths(struct tool *t, const char *window, struct rc_grid *g, const struct 
     if ((second = strchr(first, ',')) != NULL)
         *second++ = '\0';
     if (section && second != NULL)
-        tool_die(t, EXIT_USAGE,
-                 "--window %s: of a section it is X0:X1 only: choose depths with --depth-range",
-                 window);
+        tool_usage(t,
+                   "--window %s: of a section it is X0:X1 only: choose depths with --depth-range",
+                   window);
     read_pair(t, g, window, first, x);
     if (second != NULL)
         read_pair(t, g, window, second, y);
     rc_grid_origin(g, &i, &j);
     if (!nodes_between(x[0], x[1], i, g->nx, g->dx, &b.x0, &b.x1) ||
         (second != NULL && !nodes_between(y[0], y[1], j, g->ny, g->dy, &b.y0, &b.y1)))
-        tool_die_at(t, g, EXIT_IMPOSSIBLE,
+        tool_refuse(t, g,
                     "no node lies in the window %s: the map ends %s to the right of its middle and "
                     "%s below it",
                     window, scale_value(w->right, unit), scale_value(w->bottom, unit));
@@ -190,8 +190,8 @@ window_cut(struct tool *t, const char *text, bool raw, struct rc_grid *g,
     place(g, w);
     asked = text != NULL && strcmp(text, "contact") == 0;
     if (asked && touch == NULL)
-        tool_die_at(
-            t, g, EXIT_IMPOSSIBLE,
+        tool_refuse(
+            t, g,
             "--window contact goes by the pressure, and there is none on this grid: give the "
             "window as X0:X1,Y0:Y1");
     if (text != NULL && !asked) {

@@ -36,12 +36,12 @@ wording_axis(struct tool *t, const struct curve_style *s, char which, struct gra
     if (text != NULL)
         axis->quantity = text;
     if (axis->shown != NULL && !scale_given(&scale, axis->shown, axis->unit))
-        tool_die(t, EXIT_USAGE, "--%c-unit %s: the axis is in %s: it must be %s", which,
-                 axis->shown,
-                 *axis->unit == '\0' || strcmp(axis->unit, "1") == 0 ? "plain numbers" : axis->unit,
-                 *axis->unit == '\0' || strcmp(axis->unit, "1") == 0
-                     ? "1 or %"
-                     : "that unit, with or without a prefix");
+        tool_usage(t, "--%c-unit %s: the axis is in %s: it must be %s", which, axis->shown,
+                   *axis->unit == '\0' || strcmp(axis->unit, "1") == 0 ? "plain numbers"
+                                                                       : axis->unit,
+                   *axis->unit == '\0' || strcmp(axis->unit, "1") == 0
+                       ? "1 or %"
+                       : "that unit, with or without a prefix");
 }
 
 /* The existing names; a single curve without a name can get one. */
@@ -66,17 +66,17 @@ wording_legend(struct tool *t, const struct curve_style *s, struct graph_series 
     if (s->legend == NULL)
         return;
     if (strlen(s->legend) >= size)
-        tool_die(t, EXIT_USAGE, "--legend: it is longer than %zu bytes", size - 1);
+        tool_usage(t, "--legend: it is longer than %zu bytes", size - 1);
     strcpy(text, s->legend);
     if (*text != '\0') {
         for (const char *c = text; *c != '\0'; c++)
             given += *c == ';';
         if (given != (alone ? 1 : names))
-            tool_die(t, EXIT_USAGE,
-                     "--legend: %zu text%s for %zu curve%s of the legend: give one each, in its "
-                     "order, separated by ';', or none at all",
-                     given, given == 1 ? "" : "s", alone ? 1 : names,
-                     alone || names == 1 ? "" : "s");
+            tool_usage(t,
+                       "--legend: %zu text%s for %zu curve%s of the legend: give one each, in its "
+                       "order, separated by ';', or none at all",
+                       given, given == 1 ? "" : "s", alone ? 1 : names,
+                       alone || names == 1 ? "" : "s");
     }
     for (; k < n; k++) {
         if (series[k].name == NULL && !(alone && k == 0))
