@@ -63,8 +63,7 @@ next_second(struct tool *t, struct second *b, const struct rc_grid *a)
     struct rc_grid *g = read_second(t, b);
 
     if (g == NULL && b->n > 1)
-        tool_die_at(t, a, EXIT_IMPOSSIBLE,
-                    "%s has only %zu surfaces: B must have one surface, or as many as A",
+        tool_refuse(t, a, "%s has only %zu surfaces: B must have one surface, or as many as A",
                     t->operand[1], b->n);
     if (g == NULL)
         return;
@@ -91,7 +90,7 @@ static void
 demand_heights(struct tool *t, const struct rc_grid *g)
 {
     if (strcmp(g->unit, "m") != 0)
-        tool_die_at(t, g, EXIT_IMPOSSIBLE,
+        tool_refuse(t, g,
                     "its unit is '%s': heights are in metres; import the file again with --z-unit",
                     g->unit);
     tool_demand_measured(t, g);
@@ -105,7 +104,7 @@ refuse_spacings(struct tool *t, const struct rc_grid *a, const struct rc_grid *b
     bool first = a->dx <= b->dx && a->dy <= b->dy;
     const struct rc_grid *to = first ? b : a;
 
-    tool_die_at(t, a, EXIT_IMPOSSIBLE,
+    tool_refuse(t, a,
                 "spacings of %s x %s m, and in %s of %s x %s m: bring them together by rc-pick "
                 "--resample %s,%s %s",
                 rc_number(a->dx), rc_number(a->dy),
@@ -240,10 +239,9 @@ static void
 open_two(struct tool *t, struct second *b)
 {
     if (t->operands != 2)
-        tool_die(t, EXIT_USAGE, "%zu files named: give two, A and B; - is standard input",
-                 t->operands);
+        tool_usage(t, "%zu files named: give two, A and B; - is standard input", t->operands);
     if (strcmp(t->operand[0], "-") == 0 && strcmp(t->operand[1], "-") == 0)
-        tool_die(t, EXIT_USAGE, "- and -: standard input is one surface, A or B");
+        tool_usage(t, "- and -: standard input is one surface, A or B");
     *b = (struct second){.t = *t};
     b->t.operand = t->operand + 1;
     t->operands = b->t.operands = 1;

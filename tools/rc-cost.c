@@ -96,14 +96,14 @@ check_effects(struct tool *t)
     if (args.contact.yield == NULL && args.contact.adhesion == NULL)
         return;
     if (tool_given(t, "kernel") || tool_given(t, "method"))
-        tool_die(t, EXIT_USAGE, "%s does not work with --kernel and --method: %s", effect,
-                 args.contact.yield != NULL
-                     ? "the trials vary increments and slabs, with pcg and fft"
-                     : "there is only one method");
+        tool_usage(t, "%s does not work with --kernel and --method: %s", effect,
+                   args.contact.yield != NULL
+                       ? "the trials vary increments and slabs, with pcg and fft"
+                       : "there is only one method");
     if (args.contact.yield != NULL && tool_given(t, "depths"))
-        tool_die(t, EXIT_USAGE,
-                 "--yield does not work with --depths: compute these stresses with rc-stress from "
-                 "the frames of rc-solve");
+        tool_usage(
+            t, "--yield does not work with --depths: compute these stresses with rc-stress from "
+               "the frames of rc-solve");
 }
 
 static void
@@ -115,17 +115,17 @@ check_arguments(struct costs *run)
     physics->attracts = args.contact.adhesion != NULL;
     physics_check(t, physics);
     if (physics_steps(physics)->n > 1 && !physics->history)
-        tool_die(t, EXIT_USAGE, "one load at a time: %zu were given", physics_steps(physics)->n);
+        tool_usage(t, "one load at a time: %zu were given", physics_steps(physics)->n);
     if (tool_given(t, "budget") && tool_given(t, "error"))
-        tool_die(t, EXIT_USAGE,
-                 "--budget selects the most accurate trial within a time, --error the fastest with "
-                 "an accuracy: give one of them");
+        tool_usage(
+            t, "--budget selects the most accurate trial within a time, --error the fastest with "
+               "an accuracy: give one of them");
     if (physics->pair.one.layers > 0 && tool_given(t, "nu"))
-        tool_die(t, EXIT_USAGE, "--nu: each layer has its own Poisson's ratio: leave it out");
+        tool_usage(t, "--nu: each layer has its own Poisson's ratio: leave it out");
     if (tool_given(t, "depths") && isnan(args.nu) && isnan(physics->nu1))
-        tool_die(t, EXIT_USAGE, "--depths: stresses need Poisson's ratio: give --nu");
+        tool_usage(t, "--depths: stresses need Poisson's ratio: give --nu");
     if (!tool_given(t, "depths") && (tool_given(t, "nu") || tool_given(t, "mu")))
-        tool_die(t, EXIT_USAGE, "--nu and --mu are for stresses: give --depths as well");
+        tool_usage(t, "--nu and --mu are for stresses: give --depths as well");
     check_effects(t);
     ending_demand_picture(t, "--plot", args.plot);
     tool_demand_writable(t, "--plot", args.plot);
@@ -241,7 +241,7 @@ write_map(struct costs *run, const struct rc_grid *g, const struct rc_grid *hard
         rc_writer_put(writer, g, &run->t.err) != RC_OK ||
         (hardness != NULL && rc_writer_put(writer, hardness, &run->t.err) != RC_OK) ||
         rc_writer_end(writer, &run->t.err) != RC_OK || fclose(file) != 0)
-        tool_die_at(&run->t, g, EXIT_IMPOSSIBLE, "%s", run->t.err.text);
+        tool_refuse(&run->t, g, "%s", run->t.err.text);
     rc_writer_free(writer);
     return fd;
 }
@@ -274,7 +274,7 @@ do_case(struct costs *run, struct rc_grid *g, const struct rc_grid *hardness)
                           .grid = {-1, -1, -1, -1}};
 
     if (++run->cases > 1 && (choosing() || args.plot != NULL))
-        tool_die_at(&run->t, g, EXIT_IMPOSSIBLE, "%s is for one case: give one height map",
+        tool_refuse(&run->t, g, "%s is for one case: give one height map",
                     args.plot != NULL ? "a picture" : "a command");
     c.about |= (args.contact.yield != NULL ? COST_YIELD : 0) |
                (args.contact.adhesion != NULL ? COST_ADHESION : 0) |

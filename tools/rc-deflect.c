@@ -53,7 +53,7 @@ pair_of(struct tool *t, const struct rc_grid *p, struct layers *layers)
 
     tool_must(t, p, layers_read(p, layers, &t->err));
     if (layers->text != NULL && !isnan(args.estar))
-        tool_die_at(t, p, EXIT_IMPOSSIBLE, "the stream already defines the layers; remove --estar");
+        tool_refuse(t, p, "the stream already defines the layers; remove --estar");
     if (isnan(args.estar) && bodies_read(p, layers, &pair, &t->err) != RC_OK)
         tool_die_at(t, p, layers->text == NULL ? EXIT_USAGE : EXIT_IMPOSSIBLE, "%s", t->err.text);
     return pair;
@@ -147,7 +147,7 @@ main(int argc, char **argv)
 
     tool_start(&t, &info, argc, argv, &args);
     if (tool_given(&t, "order") != tool_given(&t, "correction"))
-        tool_die(&t, EXIT_USAGE, "--order and --correction are given together or not at all");
+        tool_usage(&t, "--order and --correction are given together or not at all");
     while ((p = tool_channel(&t, "pressure", false)) != NULL) {
         do_case(&t, p);
         rc_grid_free(p);

@@ -272,10 +272,9 @@ failed(struct tool *t, const struct rc_grid *g, const struct step *step, const s
 
     if (step->opt->unit == UNIT_M && step->value > side &&
         step->text[strspn(step->text, "+.0123456789")] == '\0')
-        tool_die_at(t, g, EXIT_IMPOSSIBLE,
-                    "%s: a number without a unit is in metres, write %sum for micrometres",
+        tool_refuse(t, g, "%s: a number without a unit is in metres, write %sum for micrometres",
                     err->text, step->text);
-    tool_die_at(t, g, EXIT_IMPOSSIBLE, "%s", err->text);
+    tool_refuse(t, g, "%s", err->text);
 }
 
 static void
@@ -312,14 +311,13 @@ check_steps(struct tool *t)
     bool fitted = false;
 
     if (args.steps.n == 0)
-        tool_die(t, EXIT_USAGE,
-                 "nothing to do: give --plane, --poly N or --fill, or another step of --help");
+        tool_usage(t, "nothing to do: give --plane, --poly N or --fill, or another step of --help");
     for (size_t k = 0; k < args.steps.n; k++) {
         const struct work *work = args.steps.step[k].opt->of;
         fitted = fitted || work->fits;
     }
     if (args.robust && !fitted)
-        tool_die(t, EXIT_USAGE, "--robust concerns forms and filters: give one of them");
+        tool_usage(t, "--robust concerns forms and filters: give one of them");
 }
 
 /* ---- options ---- */

@@ -101,10 +101,10 @@ settle_type(struct tool *t)
         if (strcmp(types[k].name, args.type) == 0)
             wish.raw = types[k].raw;
     if (wish.typed && format->types == 0)
-        tool_die(t, EXIT_USAGE, "--type %s: %s is text and has no types", args.type, format->name);
+        tool_usage(t, "--type %s: %s is text and has no types", args.type, format->name);
     if (wish.typed && (format->types >> wish.raw & 1) == 0)
-        tool_die(t, EXIT_USAGE, "--type %s: %s holds only %s", args.type, format->name,
-                 types_text(list, format->types));
+        tool_usage(t, "--type %s: %s holds only %s", args.type, format->name,
+                   types_text(list, format->types));
 }
 
 static void
@@ -112,16 +112,16 @@ settle_missing(struct tool *t)
 {
     wish.missing = args.missing;
     if (wish.missing != NULL && !format->text)
-        tool_die(t, EXIT_USAGE, "--missing: %s is no text and marks missing points by its own rule",
-                 format->name);
+        tool_usage(t, "--missing: %s is no text and marks missing points by its own rule",
+                   format->name);
     for (const char *s = wish.missing; s != NULL && *s != '\0'; s++)
         if (*s <= ' ' || *s > '~' || strchr(",;*", *s) != NULL)
-            tool_die(t, EXIT_USAGE,
-                     "--missing '%s': one word without blanks, commas, semicolons and "
-                     "asterisks is expected",
-                     wish.missing);
+            tool_usage(t,
+                       "--missing '%s': one word without blanks, commas, semicolons and "
+                       "asterisks is expected",
+                       wish.missing);
     if (wish.missing != NULL && *wish.missing == '\0')
-        tool_die(t, EXIT_USAGE, "--missing: a word is expected");
+        tool_usage(t, "--missing: a word is expected");
 }
 
 static void
@@ -129,8 +129,8 @@ settle_relief(struct tool *t)
 {
     wish.relief = args.relief;
     if (wish.relief > 0 && !format->relief)
-        tool_die(t, EXIT_USAGE, "--relief: %s keeps the heights, and is no format for printers",
-                 format->name);
+        tool_usage(t, "--relief: %s keeps the heights, and is no format for printers",
+                   format->name);
 }
 
 /* Formats that require a date get today's, or SOURCE_DATE_EPOCH, for reproducible builds. */
@@ -146,7 +146,7 @@ settle_time(struct tool *t)
     errno = 0;
     wish.time = strtoll(given, &end, 10);
     if (errno != 0 || *end != '\0' || wish.time < 0)
-        tool_die(t, EXIT_USAGE, "SOURCE_DATE_EPOCH=%s: it must be seconds since 1970", given);
+        tool_usage(t, "SOURCE_DATE_EPOCH=%s: it must be seconds since 1970", given);
 }
 
 static void
@@ -157,16 +157,15 @@ settle(struct tool *t)
     if (args.formats)
         return;
     if (args.format != NULL && (format = rc_export_named(args.format)) == NULL)
-        tool_die(t, EXIT_USAGE, "--format %s: no such format; --formats prints them", args.format);
+        tool_usage(t, "--format %s: no such format; --formats prints them", args.format);
     if (format == NULL && t->out_name != NULL && (format = rc_export_suffixed(t->out_name)) == NULL)
-        tool_die(t, EXIT_USAGE,
-                 "-o %s: no format has this suffix: --format NAME says which one to "
-                 "write, --formats prints them",
-                 t->out_name);
+        tool_usage(t,
+                   "-o %s: no format has this suffix: --format NAME says which one to "
+                   "write, --formats prints them",
+                   t->out_name);
     if (format == NULL)
-        tool_die(t, EXIT_USAGE,
-                 "which format? --format NAME says it, or the suffix of -o FILE; "
-                 "--formats prints them");
+        tool_usage(t, "which format? --format NAME says it, or the suffix of -o FILE; "
+                      "--formats prints them");
     wanted_check(&args.wanted, t);
     settle_type(t);
     settle_missing(t);
@@ -279,13 +278,13 @@ check_frame(struct tool *t, const struct rc_grid *first, const struct rc_grid *g
     const char *channel = args.wanted.channel;
 
     if (first != NULL && !format->several && !(format->stack && is_deeper(first, g)))
-        tool_die_at(
-            t, g, EXIT_IMPOSSIBLE,
+        tool_refuse(
+            t, g,
             "a second frame%s%s, but %s holds one map%s: choose with --channel, --case and --depth",
             channel == NULL ? "" : " of channel ", channel == NULL ? "" : channel, format->name,
             format->stack ? " or the depths of one channel and case" : "");
     if (format->heights && strcmp(g->unit, "m") != 0)
-        tool_die_at(t, g, EXIT_IMPOSSIBLE,
+        tool_refuse(t, g,
                     "%s holds heights in metres, but these values are in '%s': choose a format "
                     "that stores the unit (gsf, gwy, vti, hdf5)",
                     format->name, g->unit);

@@ -120,26 +120,23 @@ check_arguments(struct run *run)
     struct tool *t = &run->t;
 
     if (ranks_count(t) > 1)
-        tool_die(t, EXIT_USAGE,
-                 "fatigue is not shared among processes: take one process, with --threads");
+        tool_usage(t, "fatigue is not shared among processes: take one process, with --threads");
     if (!tool_given(t, "depths"))
-        tool_die(t, EXIT_USAGE,
-                 "give the depths with --depths, as in --depths 1um,5um or --depths "
-                 "1um:50um:log:20, or leave their choice to --depths auto");
+        tool_usage(t, "give the depths with --depths, as in --depths 1um,5um or --depths "
+                      "1um:50um:log:20, or leave their choice to --depths auto");
     for (size_t k = 1; k < args.depths.n; k++)
         if (!(args.depths.v[k] > args.depths.v[k - 1]))
-            tool_die(t, EXIT_USAGE, "--depths: the depths must increase");
+            tool_usage(t, "--depths: the depths must increase");
     if (args.planes)
         args.criteria |= 1U << RC_FINDLEY | 1U << RC_PLANE_TILT | 1U << RC_PLANE_TURN;
     if (tool_given(t, "dangvan") && !wanted(RC_DANG_VAN))
-        tool_die(t, EXIT_USAGE, "--dangvan has no effect without the criterion dangvan");
+        tool_usage(t, "--dangvan has no effect without the criterion dangvan");
     if (wanted(RC_SHAKEDOWN) && args.pass == NULL)
-        tool_die(
-            t, EXIT_USAGE,
-            "the criterion shakedown needs --pass: only then the residual stresses do not vary "
-            "along the travel");
+        tool_usage(
+            t, "the criterion shakedown needs --pass: only then the residual stresses do not vary "
+               "along the travel");
     if (args.life.n > 3 || (args.life.n > 0 && !(args.life.v[0] > 0)))
-        tool_die(t, EXIT_USAGE, "--life: it must be C, C,H or C,H,TAU, with C above 0");
+        tool_usage(t, "--life: it must be C, C,H or C,H,TAU, with C above 0");
     fatigue_limits_read(t, &args.limits, (unsigned)args.criteria, &run->limits);
     if (isnan(args.asked.tol))
         args.asked.tol = 1e-5; /* stresses in single precision, and on coarser grids below */
@@ -180,7 +177,7 @@ add_case(struct run *run, struct rc_grid *p)
     tool_demand_grid_of(t, p, first);
     for (size_t k = 0; k < sizeof same / sizeof *same; k++)
         if (strcmp(key_text(p, same[k]), key_text(first, same[k])) != 0)
-            tool_die_at(t, p, EXIT_IMPOSSIBLE,
+            tool_refuse(t, p,
                         "its key %s is '%s', that of the first case '%s': the cases of a history "
                         "must have the same body",
                         same[k], key_text(p, same[k]), key_text(first, same[k]));
@@ -201,7 +198,7 @@ add_case(struct run *run, struct rc_grid *p)
             tool_demand_finite(t, at->traction[k], "recompute the map");
         }
         if ((at->traction[k] != NULL) != (run->position[0].traction[k] != NULL))
-            tool_die_at(t, p, EXIT_IMPOSSIBLE, "only some of the cases have a frame traction-%c",
+            tool_refuse(t, p, "only some of the cases have a frame traction-%c",
                         k == 0 ? 'x' : 'y');
     }
 }
@@ -212,10 +209,10 @@ position_of(struct run *run, const struct rc_grid *p)
     double x = 0;
 
     if (rc_grid_get(p, "position") != NULL && !rc_grid_number(p, "position", &x))
-        tool_die_at(&run->t, p, EXIT_IMPOSSIBLE, "its key position is not a number");
+        tool_refuse(&run->t, p, "its key position is not a number");
     if ((rc_grid_get(p, "position") != NULL) !=
         (rc_grid_get(run->position[0].p, "position") != NULL))
-        tool_die_at(&run->t, p, EXIT_IMPOSSIBLE, "only some of the cases have the key position");
+        tool_refuse(&run->t, p, "only some of the cases have the key position");
     return x;
 }
 
@@ -244,8 +241,8 @@ set_columns(struct run *run)
         const double at = position_of(run, run->position[k].p);
         const double moved = (x - least) / first->dx, columns = floor(moved + 0.5);
         if (columns > 1e7)
-            tool_die_at(
-                &run->t, run->position[k].p, EXIT_IMPOSSIBLE,
+            tool_refuse(
+                &run->t, run->position[k].p,
                 "its position, %g m, is %g columns from that of another case: are positions "
                 "in metres?",
                 x, columns);
@@ -658,7 +655,7 @@ main(int argc, char **argv)
     check_arguments(&run);
     while ((p = tool_channel_with(&run.t, "pressure", take, &run)) != NULL) {
         if (args.pass != NULL && rc_grid_get(p, "position") != NULL)
-            tool_die_at(&run.t, p, EXIT_IMPOSSIBLE,
+            tool_refuse(&run.t, p,
                         "it is a position of a contact that travels: leave out --pass %s, which "
                         "repeats one pressure, or choose a position, as in rc-pick --case 1 and "
                         "--set position=",

@@ -114,7 +114,7 @@ static const double *
 pair_of(struct tool *t, const char *name, const struct numbers *list)
 {
     if (list->n != 2)
-        tool_die(t, EXIT_USAGE, "--%s: give two numbers, for body 1 and body 2", name);
+        tool_usage(t, "--%s: give two numbers, for body 1 and body 2", name);
     return list->v;
 }
 
@@ -128,16 +128,15 @@ read_motion(struct run *run)
     struct rc_err err;
 
     if (one < 0 && v.n > 0)
-        tool_die(t, EXIT_USAGE,
-                 "--moving %s has the speeds of both bodies: leave out --speed, or say 1 or 2",
-                 args.moving);
+        tool_usage(t, "--moving %s has the speeds of both bodies: leave out --speed, or say 1 or 2",
+                   args.moving);
     if (one < 0 && (unit_numbers(args.moving, UNIT_SPEED, &v, &err) != RC_OK || v.n != 2))
-        tool_die(t, EXIT_USAGE,
-                 "--moving %s: it must be 1, 2 or the speeds of both bodies along x, as in "
-                 "1m/s,0.8m/s",
-                 args.moving);
+        tool_usage(t,
+                   "--moving %s: it must be 1, 2 or the speeds of both bodies along x, as in "
+                   "1m/s,0.8m/s",
+                   args.moving);
     if (v.n > 2)
-        tool_die(t, EXIT_USAGE, "--speed: it must be one value (along x) or two (x and y)");
+        tool_usage(t, "--speed: it must be one value (along x) or two (x and y)");
     for (size_t k = 0; k < v.n; k++)
         body[one < 0 ? k : (size_t)one].velocity[one < 0 ? 0 : k] = v.v[k];
     if (one < 0)
@@ -153,11 +152,10 @@ read_source(struct run *run)
     const bool friction = tool_given(t, "mu"), cycles = tool_given(t, "frequency");
 
     if (friction && cycles)
-        tool_die(t, EXIT_USAGE, "--mu and --frequency are two sources of heat: give one of them");
+        tool_usage(t, "--mu and --frequency are two sources of heat: give one of them");
     if (friction && run->speed == 0)
-        tool_die(t, EXIT_USAGE,
-                 "the bodies do not slide, so that friction makes no heat: give a speed with "
-                 "--speed, as in --speed 1m/s");
+        tool_usage(t, "the bodies do not slide, so that friction makes no heat: give a speed with "
+                      "--speed, as in --speed 1m/s");
     run->channel = friction ? "pressure" : cycles ? "dissipation" : "heat";
 }
 
@@ -174,12 +172,12 @@ read_partition(struct run *run)
     if (p->partition == RC_HEAT_SHARE &&
         (unit_number(args.partition, UNIT_NONE, &p->share, &err) != RC_OK ||
          !(p->share >= 0 && p->share <= 1)))
-        tool_die(&run->t, EXIT_USAGE,
-                 "--partition %s: it must be matched, blok, charron, or the share of body 1 from "
-                 "0 to 1",
-                 args.partition);
+        tool_usage(&run->t,
+                   "--partition %s: it must be matched, blok, charron, or the share of body 1 from "
+                   "0 to 1",
+                   args.partition);
     if (args.time_steps > 1 && !tool_given(&run->t, "time"))
-        tool_die(&run->t, EXIT_USAGE, "--time-steps needs --time");
+        tool_usage(&run->t, "--time-steps needs --time");
     p->time_steps = args.time_steps;
 }
 
@@ -193,14 +191,12 @@ read_options(struct run *run)
     double k[2];
 
     if (args.conductivity == NULL || capacity == tool_given(t, "diffusivity"))
-        tool_die(t, EXIT_USAGE,
-                 "give the materials with --conductivity and with one of --diffusivity and "
-                 "--heat-capacity");
+        tool_usage(t, "give the materials with --conductivity and with one of --diffusivity and "
+                      "--heat-capacity");
     if (unit_conductivities(args.conductivity, k, &unit, &t->err) != RC_OK)
-        tool_die(t, EXIT_USAGE, "--conductivity %s: %s", args.conductivity, t->err.text);
+        tool_usage(t, "--conductivity %s: %s", args.conductivity, t->err.text);
     if (unit != NULL && strcmp(unit, "W/K") != 0)
-        tool_die(t, EXIT_USAGE, "--conductivity %s: it must be thermal, in W/mK",
-                 args.conductivity);
+        tool_usage(t, "--conductivity %s: it must be thermal, in W/mK", args.conductivity);
     for (int b = 0; b < 2; b++) {
         p->body[b].conductivity = k[b];
         p->body[b].diffusivity = capacity ? k[b] / pair_of(t, "heat-capacity", &args.capacity)[b]
@@ -230,17 +226,17 @@ find_heat(struct run *run, struct rc_grid *g)
 
     tool_demand_finite(&run->t, g, "recompute the map");
     if (rc_grid_get(g, "layers") != NULL)
-        tool_die_at(
-            &run->t, g, EXIT_IMPOSSIBLE,
+        tool_refuse(
+            &run->t, g,
             "its body 1 has layers, and rc-heat supports only bodies of one material: where "
             "the layers conduct as the substrate does, remove the key with rc-pick --set "
             "layers=");
     if (strcmp(g->unit, unit) != 0)
-        tool_die_at(&run->t, g, EXIT_IMPOSSIBLE, "its unit is '%s': it must be %s", g->unit, unit);
+        tool_refuse(&run->t, g, "its unit is '%s': it must be %s", g->unit, unit);
     for (size_t k = 0; k < rc_grid_nodes(g); k++) {
         if (friction && g->v[k] < 0)
-            tool_die_at(
-                &run->t, g, EXIT_IMPOSSIBLE,
+            tool_refuse(
+                &run->t, g,
                 "pressure %g Pa at column %zu, row %zu: friction of bodies that attract each "
                 "other is not implemented: give the heat in a frame heat",
                 g->v[k], k % g->nx, k / g->nx);

@@ -99,11 +99,10 @@ wish_unit(struct tool *t, const char *name, const char **text, char si[RC_NUMBER
         return NAN;
     if (!rc_length_unit(*text, strlen(*text), &metres) &&
         unit_number(*text, UNIT_M, &metres, &err) != RC_OK)
-        tool_die(t, EXIT_USAGE,
-                 "--%s %s: a unit of length (um, nm, ...) or a number of metres is expected", name,
-                 *text);
+        tool_usage(t, "--%s %s: a unit of length (um, nm, ...) or a number of metres is expected",
+                   name, *text);
     if (!(metres > 0))
-        tool_die(t, EXIT_USAGE, "--%s %s: it must be above 0", name, *text);
+        tool_usage(t, "--%s %s: it must be above 0", name, *text);
     *text = rc_number_text(si, metres);
     return metres;
 }
@@ -123,10 +122,10 @@ wish_separator(struct tool *t)
         }
     if (text != NULL && (strlen(text) != 1 || text[0] < '!' || strchr("0123456789+-.", text[0]) ||
                          (text[0] | 0x20) == 'e'))
-        tool_die(t, EXIT_USAGE,
-                 "--separator '%s': space, tab, comma, semicolon or one character "
-                 "that is no part of a number is expected",
-                 text);
+        tool_usage(t,
+                   "--separator '%s': space, tab, comma, semicolon or one character "
+                   "that is no part of a number is expected",
+                   text);
     return text;
 }
 
@@ -139,7 +138,7 @@ make_wish(struct tool *t)
     wish.even = tool_given(t, "even");
     wish.even_step = isnan(args.even) ? 0 : args.even;
     if (wish.even_step > 0 && !isnan(args.dx))
-        tool_die(t, EXIT_USAGE, "--even STEP and --dx both say how wide a step is: give one");
+        tool_usage(t, "--even STEP and --dx both say how wide a step is: give one");
     wish.z_unit = wish_unit(t, "z-unit", &args.z_unit, z_unit);
     wish.xy_unit = wish_unit(t, "xy-unit", &args.xy_unit, xy_unit);
     for (size_t k = 0; args.labels != NULL && label_words[k] != NULL; k++)
@@ -149,13 +148,13 @@ make_wish(struct tool *t)
     wish.separator = wish_separator(t);
     if (args.decimal != NULL) {
         if (strcmp(args.decimal, ".") != 0 && strcmp(args.decimal, ",") != 0)
-            tool_die(t, EXIT_USAGE, "--decimal %s: it must be . or ,", args.decimal);
+            tool_usage(t, "--decimal %s: it must be . or ,", args.decimal);
         wish.decimal = args.decimal[0];
     }
     if (wish.separator != NULL && wish.separator[0] == wish.decimal)
-        tool_die(t, EXIT_USAGE, "--decimal and --separator are both '%c'", wish.decimal);
+        tool_usage(t, "--decimal and --separator are both '%c'", wish.decimal);
     if (args.format != NULL && rc_format_named(args.format) == NULL)
-        tool_die(t, EXIT_USAGE, "--format %s: no such format; --formats prints them", args.format);
+        tool_usage(t, "--format %s: no such format; --formats prints them", args.format);
     return wish;
 }
 
@@ -535,7 +534,7 @@ main(int argc, char **argv)
         return tool_finish(&t);
     }
     if (t.operands == 0)
-        tool_die(&t, EXIT_USAGE, "name the files to import, or - for standard input");
+        tool_usage(&t, "name the files to import, or - for standard input");
     for (size_t k = 0; k < t.operands; k++)
         if (args.list)
             list_file(&t, t.operand[k], &wish);

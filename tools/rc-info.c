@@ -342,7 +342,7 @@ touching(struct tool *t, const struct rc_grid *g, struct beside *b)
     }
     if (strcmp(g->channel, CONTACT_CHANNEL) == 0 && b->without == rc_grid_case(g) &&
         b->nodes != count_contact(g))
-        tool_die_at(t, g, EXIT_IMPOSSIBLE,
+        tool_refuse(t, g,
                     "%zu nodes are in contact according to this frame, %zu according to the "
                     "pressure before it: the frame contact must precede its pressure",
                     count_contact(g), b->nodes);

@@ -96,8 +96,8 @@ sides_meet(struct run *run, const struct rc_grid *g)
     if (strcmp(args.sides, "closed") == 0)
         return false;
     if (boundary != NULL && !meet)
-        tool_die_at(&run->t, g, EXIT_IMPOSSIBLE,
-                    "boundary=%s contradicts --sides periodic: remove that option", boundary);
+        tool_refuse(&run->t, g, "boundary=%s contradicts --sides periodic: remove that option",
+                    boundary);
     return true;
 }
 
@@ -232,12 +232,11 @@ main(int argc, char **argv)
 
     tool_start(&run.t, &info, argc, argv, &args);
     if (tool_given(&run.t, "viscosity") != tool_given(&run.t, "pressure-drop"))
-        tool_die(
-            &run.t, EXIT_USAGE,
+        tool_usage(
+            &run.t,
             "--viscosity and --pressure-drop are given together, for a flow rate, or not at all");
     if (args.sliding.n > 2)
-        tool_die(&run.t, EXIT_USAGE,
-                 "--sliding: it must be one speed (the rough body at rest) or two");
+        tool_usage(&run.t, "--sliding: it must be one speed (the rough body at rest) or two");
     report_open(&run.report, &run.t, args.report);
     while ((gap = tool_channel_with(&run.t, "gap", tool_take_frames, beside)) != NULL) {
         do_case(&run, gap);

@@ -86,25 +86,23 @@ settle_set(struct tool *t, struct step *step)
 
     snprintf(text, size, "%.*s", (int)n, step->text);
     if (step->text[n] == '\0' || !rc_key_valid(text))
-        tool_die(
-            t, EXIT_USAGE,
+        tool_usage(
+            t,
             "--set %s: KEY=VALUE is expected, with a key of lower-case letters, digits, points, "
             "underscores and hyphens",
             step->text);
     for (size_t k = 0; k < sizeof kept / sizeof *kept; k++)
         if (strcmp(kept[k].key, text) == 0)
-            tool_die(t, EXIT_USAGE, "--set %s: %s cannot be set: %s", step->text, text,
-                     kept[k].why);
+            tool_usage(t, "--set %s: %s cannot be set: %s", step->text, text, kept[k].why);
     if (*value == '\0' && is_field(text))
-        tool_die(t, EXIT_USAGE, "--set %s: every frame has a %s: give it a value", step->text,
-                 text);
+        tool_usage(t, "--set %s: every frame has a %s: give it a value", step->text, text);
     if (!rc_utf8_valid(value))
-        tool_die(t, EXIT_USAGE, "--set %s...: the value is not UTF-8", text);
+        tool_usage(t, "--set %s...: the value is not UTF-8", text);
     if (is_spacing(text)) {
         if (unit_number(value, UNIT_M, &step->value, &t->err) != RC_OK)
-            tool_die(t, EXIT_USAGE, "--set %s: %s", step->text, t->err.text);
+            tool_usage(t, "--set %s: %s", step->text, t->err.text);
         if (!(step->value > 0))
-            tool_die(t, EXIT_USAGE, "--set %s: it must be above 0", step->text);
+            tool_usage(t, "--set %s: it must be above 0", step->text);
         text[n] = '=';
         rc_number_text(text + n + 1, step->value);
     } else {
@@ -152,9 +150,9 @@ settle(struct tool *t)
     wanted_check(&args.wanted, t);
     if (args.steps.n == 0 && args.wanted.channel == NULL && args.wanted.depth.n == 0 &&
         args.wanted.number.n == 0)
-        tool_die(t, EXIT_USAGE,
-                 "nothing to do: give --channel, --depth or --case, or --set KEY=VALUE, or --crop, "
-                 "--resample, --mirror or --rotate");
+        tool_usage(
+            t, "nothing to do: give --channel, --depth or --case, or --set KEY=VALUE, or --crop, "
+               "--resample, --mirror or --rotate");
     for (size_t k = 0; k < args.steps.n; k++)
         if (pick_geometry(&args.steps.step[k]))
             pick_geometry_settle(t, &args.steps.step[k]);
@@ -175,8 +173,8 @@ demand_one_channel(struct tool *t, const struct rc_grid *g)
         number = rc_grid_case(g);
         snprintf(first, sizeof first, "%s", g->channel);
     } else if (strncmp(first, g->channel, sizeof first - 1) != 0) {
-        tool_die_at(
-            t, g, EXIT_IMPOSSIBLE,
+        tool_refuse(
+            t, g,
             "--set channel=... would give %s and %s of one case the same name: choose one by "
             "--channel",
             first, g->channel);

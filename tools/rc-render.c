@@ -229,7 +229,7 @@ finish(struct tool *t, const struct args *a, const struct rc_grid *g, const stru
        struct canvas *c, const struct rc_err *err)
 {
     if (c == NULL && err != NULL)
-        tool_die_at(t, g, EXIT_IMPOSSIBLE, "%s", err->text);
+        tool_refuse(t, g, "%s", err->text);
     warn_of_text(t, a, c);
     write_picture(t, g, paper, NULL, c);
     canvas_free(c);
@@ -327,8 +327,7 @@ draw_relief(struct tool *t, const struct args *a, const struct rc_grid *g, struc
 
     view_read(t, a->view, &view);
     if (look_is_profile(g) || rc_grid_get(g, "section") != NULL || g->nx == 1 || g->ny == 1)
-        tool_die_at(t, g, EXIT_IMPOSSIBLE,
-                    "a relief is of a map, this is a profile or a section: leave out --view");
+        tool_refuse(t, g, "a relief is of a map, this is a profile or a section: leave out --view");
     view.peaks = a->keep == NULL ? f->nodes.zero_is_none : f->keep_max;
     view_check(t, g, f);
     view_say(f, subtitle);
@@ -362,7 +361,7 @@ render(struct tool *t, struct args *a, struct rc_grid *g, const struct beside *b
     window_cut(t, a->window, a->raw, g, beside, touch, &w);
     survey_map(g, &s);
     if (isnan(s.min))
-        tool_die_at(t, g, EXIT_IMPOSSIBLE,
+        tool_refuse(t, g,
                     "none of its %zu values is a finite number: there is "
                     "nothing to draw",
                     g->nx * g->ny);
@@ -520,7 +519,7 @@ draw_lines(struct tool *t, struct args *a, const struct frames *f, struct drawn 
     if (a->range != NULL) {
         range_read(t, a->range, f->grid[0], &range);
         if (range.kind != RANGE_VALUES)
-            tool_die(t, EXIT_USAGE, "--range %s: for --cut it must be LO:HI, two values", a->range);
+            tool_usage(t, "--range %s: for --cut it must be LO:HI, two values", a->range);
         sheet_survey(t, f, &all);
         range_doubt(t, a->range, f->grid[0]->unit, &all, &range);
         a->range = range_text(&range);
@@ -581,7 +580,7 @@ static void
 check_text(struct tool *t, const char *option, const char *text)
 {
     if (text != NULL && !rc_utf8_valid(text))
-        tool_die(t, EXIT_USAGE, "--%s: the text is not UTF-8", option);
+        tool_usage(t, "--%s: the text is not UTF-8", option);
 }
 
 int

@@ -521,7 +521,7 @@ check_contact(struct run *run)
     run->contacts += tool_result_words(t, run->contact + run->contacts, WORDS / 2);
     rc_number_text(run->last, (double)run->loads);
     if (tool_given(t, "nu") && tool_given(t, "nu1"))
-        tool_die(t, EXIT_USAGE, "--nu: --nu1 already gives Poisson's ratio: leave --nu out");
+        tool_usage(t, "--nu: --nu1 already gives Poisson's ratio: leave --nu out");
     if (!tool_given(t, "nu1"))
         rc_number_text(run->nu, isnan(args.nu) ? 0.28 : args.nu);
 }
@@ -534,12 +534,12 @@ check_file(struct run *run)
     FILE *in;
 
     if (t->operands != 1)
-        tool_die(t, EXIT_USAGE, "%zu files were given: give one, as in rc-report -o page.html FILE",
-                 t->operands);
+        tool_usage(t, "%zu files were given: give one, as in rc-report -o page.html FILE",
+                   t->operands);
     run->file = t->operand[0];
     if (strcmp(run->file, "-") == 0)
-        tool_die(t, EXIT_USAGE,
-                 "-: the page names its file: write standard input to a file and give its name");
+        tool_usage(t,
+                   "-: the page names its file: write standard input to a file and give its name");
     if ((run->path = realpath(run->file, NULL)) == NULL || (in = fopen(run->path, "rb")) == NULL)
         tool_die(t, EXIT_IMPOSSIBLE, "%s: %s", run->file, strerror(errno));
     run->stream = fread(head, 1, 4, in) == 4 && memcmp(head, "RCG1", 4) == 0;

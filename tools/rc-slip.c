@@ -107,22 +107,21 @@ check_arguments(struct slip_run *run)
 
     run->args = &args;
     if (ranks_count(t) > 1)
-        tool_die(t, EXIT_USAGE,
-                 "rc-slip cannot share its maps among processes: take one process, with --threads");
+        tool_usage(
+            t, "rc-slip cannot share its maps among processes: take one process, with --threads");
     if (isnan(args.mu))
-        tool_die(t, EXIT_USAGE, "give the coefficient of friction with --mu, as in --mu 0.3");
+        tool_usage(t, "give the coefficient of friction with --mu, as in --mu 0.3");
     if (tool_given(t, "tangential") + tool_given(t, "displacement") + tool_given(t, "path") +
             tool_given(t, "history") + tool_given(t, "creep") + tool_given(t, "creep-force") !=
         1)
-        tool_die(t, EXIT_USAGE,
-                 "give one of --tangential, --displacement, --path, --history, --creep and "
-                 "--creep-force: how the bodies are moved");
+        tool_usage(t, "give one of --tangential, --displacement, --path, --history, --creep and "
+                      "--creep-force: how the bodies are moved");
     if (along->n > 2)
-        tool_die(t, EXIT_USAGE,
-                 "--%s: it must be one value (along x) or two (x and y), as in %s: for several "
-                 "steps take --path",
-                 along == &args.tangential ? "tangential" : "displacement",
-                 along == &args.tangential ? "36N,0" : "1um,0");
+        tool_usage(t,
+                   "--%s: it must be one value (along x) or two (x and y), as in %s: for several "
+                   "steps take --path",
+                   along == &args.tangential ? "tangential" : "displacement",
+                   along == &args.tangential ? "36N,0" : "1um,0");
     run->coupling = strcmp(args.coupling, "full") == 0      ? RC_COUPLING_FULL
                     : strcmp(args.coupling, "goodman") == 0 ? RC_COUPLING_GOODMAN
                                                             : RC_COUPLING_NONE;

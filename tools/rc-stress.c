@@ -91,9 +91,9 @@ read_section(struct run *run)
     if (s == NULL)
         return;
     if ((s[0] != 'x' && s[0] != 'y') || s[1] != '=')
-        tool_die(&run->t, EXIT_USAGE, "--section %s: it must be x=PLACE or y=PLACE, as in y=0", s);
+        tool_usage(&run->t, "--section %s: it must be x=PLACE or y=PLACE, as in y=0", s);
     if (unit_number(s + 2, UNIT_M, &run->options.at, &run->t.err) != RC_OK)
-        tool_die(&run->t, EXIT_USAGE, "--section %s: %s", s, run->t.err.text);
+        tool_usage(&run->t, "--section %s: %s", s, run->t.err.text);
     run->options.section = s[0];
     snprintf(si, sizeof si, "%c=%s", s[0], rc_number(run->options.at));
     args.section = si;
@@ -106,16 +106,15 @@ check_arguments(struct run *run)
     char list[128];
 
     if (!tool_given(t, "depths"))
-        tool_die(t, EXIT_USAGE,
-                 "give the depths with --depths, as in --depths 0,1um,5um or "
-                 "--depths 0:50um:26, or leave their choice to --depths auto");
+        tool_usage(t, "give the depths with --depths, as in --depths 0,1um,5um or "
+                      "--depths 0:50um:26, or leave their choice to --depths auto");
     read_section(run);
     for (size_t k = 1; args.section != NULL && k < args.depths.n; k++)
         if (!(args.depths.v[k] > args.depths.v[k - 1]))
-            tool_die(t, EXIT_USAGE, "--depths: the depths of a section must increase");
+            tool_usage(t, "--depths: the depths of a section must increase");
     if (args.section != NULL && stress_on_free_maps_only(args.asked.kernel))
-        tool_die(t, EXIT_USAGE, "--section is summed by %s: leave out --kernel %s",
-                 words_periodic_engines(list, sizeof list), args.asked.kernel);
+        tool_usage(t, "--section is summed by %s: leave out --kernel %s",
+                   words_periodic_engines(list, sizeof list), args.asked.kernel);
     report_open(&run->out, t, args.report);
 }
 
@@ -129,11 +128,11 @@ set_options(struct run *run, const struct rc_grid *p)
     if (stress_strain_whole(&run->t, p, &run->strain)) {
         run->options.strain = &run->strain.strain;
         if (!rc_grid_number(p, "e1", &run->options.body.e))
-            tool_die_at(&run->t, p, EXIT_IMPOSSIBLE,
+            tool_refuse(&run->t, p,
                         "its key e1, the modulus of the body that has yielded, is not there");
     }
     if (args.asked.residual && run->options.strain == NULL && run->options.residual == NULL)
-        tool_die_at(&run->t, p, EXIT_IMPOSSIBLE,
+        tool_refuse(&run->t, p,
                     "--residual: the case has no plastic strain: see rc-solve --yield and --output "
                     "strain, or --layer for a residual stress of layers");
     tool_must(&run->t, p, rc_stress_check(rc_shape_of(p), &run->options, &run->t.err));
@@ -146,7 +145,7 @@ set_depths(struct run *run, const struct rc_grid *p)
     if (args.depths.n == 0 && run->options.strain != NULL) {
         run->depths.v = stress_strain_depths(&run->strain, &run->depths.n);
         if (run->depths.v == NULL)
-            tool_die_at(&run->t, p, EXIT_IMPOSSIBLE, "out of memory for the depths");
+            tool_refuse(&run->t, p, "out of memory for the depths");
         tool_note(&run->t, "%zu depths, down to %g m", run->depths.n,
                   run->depths.v[run->depths.n - 1]);
     }
@@ -190,8 +189,7 @@ set_keys(struct run *run, const struct rc_grid *p, struct rc_grid *g)
         tool_set_number(t, g, "at", o->at);
         tool_set_numbers(t, g, "depths", run->depths.v, run->depths.n);
         if (strlen(rc_grid_get(g, "depths")) >= longest)
-            tool_die_at(t, p, EXIT_IMPOSSIBLE,
-                        "%zu depths are too many for the header of a section: ask for fewer",
+            tool_refuse(t, p, "%zu depths are too many for the header of a section: ask for fewer",
                         run->depths.n);
     }
     tool_sign(t, g);

@@ -120,13 +120,13 @@ static const struct synth_shape *
 find_shape(struct tool *t)
 {
     if (t->operands == 0)
-        tool_die(t, EXIT_USAGE, "no shape named: one of %s; see rc-synth --help", info.operands);
+        tool_usage(t, "no shape named: one of %s; see rc-synth --help", info.operands);
     if (t->operands > 1)
-        tool_die(t, EXIT_USAGE, "'%s' after %s: one shape at a time", t->operand[1], t->operand[0]);
+        tool_usage(t, "'%s' after %s: one shape at a time", t->operand[1], t->operand[0]);
     for (const struct synth_shape *row = synth_shapes; row->name != NULL; row++)
         if (strcmp(row->name, t->operand[0]) == 0)
             return row;
-    tool_die(t, EXIT_USAGE, "unknown shape '%s': one of %s", t->operand[0], info.operands);
+    tool_usage(t, "unknown shape '%s': one of %s", t->operand[0], info.operands);
 }
 
 /* Checks that all options of the shape are given, and no others. */
@@ -135,11 +135,11 @@ check_options(struct tool *t, const struct synth_shape *row)
 {
     for (const char *const *name = row->needs; *name != NULL; name++)
         if (!tool_given(t, *name))
-            tool_die(t, EXIT_USAGE, "%s needs --%s", row->name, *name);
+            tool_usage(t, "%s needs --%s", row->name, *name);
     for (const struct opt *o = opts; o->name != NULL; o++)
         if (tool_given(t, o->name) && !listed(grid_options, o->name) &&
             !listed(row->needs, o->name) && !listed(row->takes, o->name))
-            tool_die(t, EXIT_USAGE, "--%s has no meaning for %s", o->name, row->name);
+            tool_usage(t, "--%s has no meaning for %s", o->name, row->name);
 }
 
 /* Uses the position of the highest measured node for --place. */
@@ -182,12 +182,11 @@ check_place(struct tool *t, const struct rc_shape *shape)
     if (!tool_given(t, "place"))
         return;
     if (args.place.n != 2)
-        tool_die(t, EXIT_USAGE,
-                 "--place takes X,Y from the middle of the map, or, with --like, highest");
+        tool_usage(t, "--place takes X,Y from the middle of the map, or, with --like, highest");
     if (fabs(args.place.v[0]) > x || fabs(args.place.v[1]) > y)
-        tool_die(t, EXIT_USAGE,
-                 "--place %g,%g m: beyond the map, which reaches to %g m and %g m from its middle",
-                 args.place.v[0], args.place.v[1], x, y);
+        tool_usage(
+            t, "--place %g,%g m: beyond the map, which reaches to %g m and %g m from its middle",
+            args.place.v[0], args.place.v[1], x, y);
 }
 
 static struct rc_shape
@@ -195,11 +194,11 @@ wanted_shape(struct tool *t)
 {
     for (const char *const *name = grid_options; strcmp(*name, "like") != 0; name++)
         if (args.like != NULL && tool_given(t, *name))
-            tool_die(t, EXIT_USAGE, "--like already defines the grid: leave out --%s", *name);
+            tool_usage(t, "--like already defines the grid: leave out --%s", *name);
     if (args.like != NULL)
         return shape_of_file(t);
     if (!tool_given(t, "nx") || !tool_given(t, "dx"))
-        tool_die(t, EXIT_USAGE, "the grid is not known: give --nx and --dx, or --like FILE");
+        tool_usage(t, "the grid is not known: give --nx and --dx, or --like FILE");
     return (struct rc_shape){
         .nx = args.nx,
         .ny = tool_given(t, "ny") ? args.ny : args.nx,

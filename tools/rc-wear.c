@@ -134,8 +134,7 @@ read_coefficients(struct tool *t, const char *name, const char *text, const stru
 
     if (!number_in(text, n, unit, &k[0]) ||
         (comma != NULL && !number_in(comma + 1, strlen(comma + 1), unit, &k[1])))
-        tool_die(t, EXIT_USAGE, "--%s %s: it must be K1 or K1,K2, each at least 0 %s", name, text,
-                 why);
+        tool_usage(t, "--%s %s: it must be K1 or K1,K2, each at least 0 %s", name, text, why);
 }
 
 static bool
@@ -155,12 +154,11 @@ read_law(struct run *run)
     double *k = run->k;
 
     if (tool_given(t, "coefficient") + tool_given(t, "archard") + tool_given(t, "energy") > 1)
-        tool_die(t, EXIT_USAGE,
-                 "give one of --coefficient, --archard and --energy: how much wears");
+        tool_usage(t, "give one of --coefficient, --archard and --energy: how much wears");
     if (tool_given(t, "archard") != tool_given(t, "hardness"))
-        tool_die(t, EXIT_USAGE, "--archard and --hardness belong together: V = K P s/H");
+        tool_usage(t, "--archard and --hardness belong together: V = K P s/H");
     if (tool_given(t, "energy") != tool_given(t, "mu"))
-        tool_die(t, EXIT_USAGE, "--energy and --mu belong together: the energy is mu P s");
+        tool_usage(t, "--energy and --mu belong together: the energy is mu P s");
     if (args.coefficient != NULL)
         read_coefficients(t, "coefficient", args.coefficient, of_load,
                           "with its unit, as in 1e-6mm3/Nm, m2/N or 1/GPa: a number without a unit "
@@ -168,7 +166,7 @@ read_law(struct run *run)
     if (args.energy != NULL)
         read_coefficients(t, "energy", args.energy, of_energy, "with its unit, as in 1e-5mm3/J");
     if (args.archard.n > 2)
-        tool_die(t, EXIT_USAGE, "--archard: it must be K1 or K1,K2");
+        tool_usage(t, "--archard: it must be K1 or K1,K2");
     for (size_t b = 0; b < 2; b++) {
         if (b < args.archard.n)
             k[b] = args.archard.v[b] / args.hardness;
@@ -178,7 +176,7 @@ read_law(struct run *run)
     if (!any_law(t))
         return; /* the frame wear-coefficient has it */
     if (k[0] + k[1] == 0)
-        tool_die(t, EXIT_USAGE, "no body wears: give a wear coefficient above 0");
+        tool_usage(t, "no body wears: give a wear coefficient above 0");
     if (k[0] > 0 && k[1] > 0 && !tool_given(t, "output"))
         args.output |= 48;
 }
@@ -196,21 +194,22 @@ read_motion(struct run *run)
     if ((track || (!law->sliding && strcmp(text, "same") != 0)) &&
         (!track || unit_number(text + 6, UNIT_M, &law->track, &err) != RC_OK || !(law->track > 0) ||
          isinf(law->track)))
-        tool_die(t, EXIT_USAGE,
-                 "--motion %s: it must be same, sliding or track:LENGTH, with a length above 0, as "
-                 "in track:60mm",
-                 text);
+        tool_usage(
+            t,
+            "--motion %s: it must be same, sliding or track:LENGTH, with a length above 0, as "
+            "in track:60mm",
+            text);
     if ((track || law->sliding) && args.cycles.n > 0)
-        tool_die(t, EXIT_USAGE,
-                 "--motion %s and --cycles exclude each other: in a cycle of fretting the same "
-                 "points stay in contact",
-                 track ? "track" : text);
+        tool_usage(t,
+                   "--motion %s and --cycles exclude each other: in a cycle of fretting the same "
+                   "points stay in contact",
+                   track ? "track" : text);
     if (law->sliding != (args.counter != NULL))
-        tool_die(t, EXIT_USAGE,
-                 "--motion sliding and --counter belong together: it is the surface of body 2 that "
-                 "slides over body 1");
+        tool_usage(
+            t, "--motion sliding and --counter belong together: it is the surface of body 2 that "
+               "slides over body 1");
     if (law->sliding && args.until != NULL)
-        tool_die(t, EXIT_USAGE, "--until with --motion sliding is not implemented");
+        tool_usage(t, "--until with --motion sliding is not implemented");
     if (law->sliding)
         run->counter = physics_counter(t, args.counter);
 }
@@ -233,10 +232,11 @@ read_until(struct run *run)
         if (k == 3 || word[n] == '\0' ||
             unit_number(word + n + 1, k == 1 ? UNIT_M : UNIT_NONE, to[k], &err) != RC_OK ||
             !(*to[k] > 0) || (k == 0 && *to[k] > 1))
-            tool_die(&run->d.t, EXIT_USAGE,
-                     "--until %s: it must be area=FRACTION, depth=LENGTH or uniform=SPREAD, above "
-                     "0, as in area=0.9,depth=1um",
-                     args.until);
+            tool_usage(
+                &run->d.t,
+                "--until %s: it must be area=FRACTION, depth=LENGTH or uniform=SPREAD, above "
+                "0, as in area=0.9,depth=1um",
+                args.until);
     }
 }
 
@@ -265,10 +265,9 @@ refuse_others(struct tool *t, const struct rc_grid *g)
 
     for (size_t k = 0; k < 2; k++)
         if (rc_grid_get(g, keys[k][0]) != NULL)
-            tool_die_at(t, g, EXIT_IMPOSSIBLE, "its bodies %s: their wear is not implemented",
-                        keys[k][1]);
+            tool_refuse(t, g, "its bodies %s: their wear is not implemented", keys[k][1]);
     if (history != NULL && strstr(history, "--tilt free") != NULL)
-        tool_die_at(t, g, EXIT_IMPOSSIBLE,
+        tool_refuse(t, g,
                     "its counter body was free to tilt: the wear of a body that tilts is not "
                     "implemented");
 }
@@ -281,16 +280,15 @@ largest(struct tool *t, const struct rc_grid *g, const char *unit)
     double most = 0;
 
     if (strcmp(g->unit, unit) != 0)
-        tool_die_at(t, g, EXIT_IMPOSSIBLE, "its unit is '%s': it must be %s", g->unit, unit);
+        tool_refuse(t, g, "its unit is '%s': it must be %s", g->unit, unit);
     for (size_t k = 0; k < n; k++) {
         if (!(g->v[k] >= 0) || isinf(g->v[k]))
-            tool_die_at(t, g, EXIT_IMPOSSIBLE,
-                        "value %g at column %zu, row %zu: it must be at least 0 and finite",
+            tool_refuse(t, g, "value %g at column %zu, row %zu: it must be at least 0 and finite",
                         g->v[k], k % g->nx, k / g->nx);
         most = fmax(most, g->v[k]);
     }
     if (most == 0)
-        tool_die_at(t, g, EXIT_IMPOSSIBLE, "all its values are 0: no node wears");
+        tool_refuse(t, g, "all its values are 0: no node wears");
     return most;
 }
 
@@ -301,7 +299,7 @@ multiply(struct run *run, const struct rc_grid *map, double scale)
     const size_t n = rc_grid_nodes(map);
 
     if (run->part == NULL && (run->part = malloc(n * sizeof *run->part)) == NULL)
-        tool_die_at(&run->d.t, map, EXIT_IMPOSSIBLE, "out of memory for the wear of %zu nodes", n);
+        tool_refuse(&run->d.t, map, "out of memory for the wear of %zu nodes", n);
     for (size_t k = 0; k < n; k++)
         run->part[k] =
             map->v[k] / scale *
@@ -344,8 +342,7 @@ find_law(struct run *run, const struct rc_grid *g)
         least = fmin(least, run->part[k]);
     }
     if (run->part != NULL && most == 0)
-        tool_die_at(t, g, EXIT_IMPOSSIBLE,
-                    "nodes that slip have the wear coefficient 0: no node wears");
+        tool_refuse(t, g, "nodes that slip have the wear coefficient 0: no node wears");
     for (size_t k = 0; k < rc_grid_nodes(g) && run->part != NULL; k++)
         run->part[k] /= most;
     for (int b = 0; b < 2 && run->part != NULL; b++)
@@ -405,14 +402,13 @@ add_counter(struct run *run, const struct rc_grid *g)
     struct rc_statistics other;
 
     if (strcmp(rc_grid_get(g, "boundary"), "periodic") != 0)
-        tool_die_at(t, g, EXIT_IMPOSSIBLE,
+        tool_refuse(t, g,
                     "--motion sliding needs a periodic map, on which body 2 can pass for ever: run "
                     "rc-solve --periodic");
     if (run->law.part != NULL)
-        tool_die_at(t, g, EXIT_IMPOSSIBLE,
-                    "--motion sliding with a map of the wear coefficient is not implemented");
+        tool_refuse(t, g, "--motion sliding with a map of the wear coefficient is not implemented");
     if (rc_grid_get(g, "hardness") != NULL || rc_grid_get(g, "hardness_map") != NULL)
-        tool_die_at(t, g, EXIT_IMPOSSIBLE, "--motion sliding with a hardness is not implemented");
+        tool_refuse(t, g, "--motion sliding with a hardness is not implemented");
     physics_counter_beside(t, args.counter, run->counter, g, true);
     run->law.h2 = run->counter->v;
     run->d.maps = rc_crc32_add(run->d.maps, run->counter->v, rc_grid_nodes(g) * sizeof *g->v);
@@ -464,7 +460,7 @@ judge_map(struct run *run, struct rc_model *m, struct rc_grid *room)
 
     if (p == NULL || rc_model_frame(m, "pressure", p, &err) != RC_OK ||
         rc_model_frame(m, "height", room->v, &err) != RC_OK)
-        tool_die_at(&d->t, room, EXIT_IMPOSSIBLE, "%s", err.text);
+        tool_refuse(&d->t, room, "%s", err.text);
     drive_where(d, room, where, sizeof where);
     drive_judge_slope(&d->course, rc_measure_contact_slope(NULL, rc_shape_of(room), room->v, p),
                       where);
@@ -484,8 +480,8 @@ set_keys(struct drive *d, struct rc_model *m, struct rc_grid *g)
     const struct rc_wear_figures *f = rc_wear_result(m);
 
     if (run->coat > 0 && f->max_wear_depth > run->coat)
-        tool_die_at(
-            &d->t, g, EXIT_IMPOSSIBLE,
+        tool_refuse(
+            &d->t, g,
             "the worn depth, %s, is more than the thickness of the coat, %s: a coat that is "
             "worn through is not implemented",
             shown_in_unit(f->max_wear_depth, "m"), shown_in_unit(run->coat, "m"));
@@ -556,7 +552,7 @@ do_case(struct run *run, const struct rc_grid *g)
 
     refuse_others(&d->t, g);
     if (boundary == NULL || (strcmp(boundary, "free") != 0 && strcmp(boundary, "periodic") != 0))
-        tool_die_at(&d->t, g, EXIT_IMPOSSIBLE,
+        tool_refuse(&d->t, g,
                     "its boundary is '%s': it must be free or periodic, as rc-solve writes it",
                     boundary == NULL ? "" : boundary);
     problem.boundary = boundary[0] == 'p' ? RC_PERIODIC : RC_FREE;
@@ -568,7 +564,7 @@ do_case(struct run *run, const struct rc_grid *g)
     if (run->map[HARD] != NULL)
         problem.hardness_map = run->map[HARD]->v;
     else if (rc_grid_get(g, "hardness_map") != NULL)
-        tool_die_at(&d->t, g, EXIT_IMPOSSIBLE,
+        tool_refuse(&d->t, g,
                     "its pressure was bounded by a map, and it has no frame hardness: put the map "
                     "into the case");
     find_law(run, g);
@@ -689,21 +685,20 @@ main(int argc, char **argv)
 
     tool_start(&run.d.t, &info, argc, argv, &args);
     if (ranks_count(&run.d.t) > 1)
-        tool_die(&run.d.t, EXIT_USAGE,
-                 "wear is not shared among processes: take one process, with --threads");
+        tool_usage(&run.d.t,
+                   "wear is not shared among processes: take one process, with --threads");
     read_law(&run);
     read_motion(&run);
     read_until(&run);
     if ((args.distance.n > 0) == (args.cycles.n > 0))
-        tool_die(
-            &run.d.t, EXIT_USAGE,
+        tool_usage(
+            &run.d.t,
             "give the sliding distances with --distance, as in --distance 1m,10m, or --cycles");
     axes[0].list = run.list = args.cycles.n > 0 ? &args.cycles : &args.distance;
     for (size_t k = 1; k < run.list->n; k++)
         if (!(run.list->v[k] > run.list->v[k - 1]))
-            tool_die(&run.d.t, EXIT_USAGE,
-                     "--%s: each number must be larger than the one before it",
-                     args.cycles.n > 0 ? "cycles" : "distance");
+            tool_usage(&run.d.t, "--%s: each number must be larger than the one before it",
+                       args.cycles.n > 0 ? "cycles" : "distance");
     report_open(&run.steps, &run.d.t, args.steps);
     drive_open(&run.d, axes);
     while ((g = args.cycles.n > 0 ? next_cycle(&run) : next(&run)) != NULL) {

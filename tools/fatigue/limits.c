@@ -23,18 +23,18 @@ add_line(struct tool *t, struct fatigue_limits *l, size_t *room, size_t number, 
         if (unit_number(word, unit[k], &v[k], &err) != RC_OK || !(v[k] >= 0) || isinf(v[k])) {
             if (k == 0 && l->n == 0 && number == 1)
                 return; /* a heading */
-            tool_die(t, EXIT_USAGE,
-                     "--limits %s, line %zu: '%s': it must be a depth and limits, at least 0", name,
-                     number, word);
+            tool_usage(t, "--limits %s, line %zu: '%s': it must be a depth and limits, at least 0",
+                       name, number, word);
         }
     if (k < 3 || word != NULL)
-        tool_die(t, EXIT_USAGE,
-                 "--limits %s, line %zu: it must hold a depth, the limits in bending and torsion, "
-                 "and at most the yield stress",
-                 name, number);
+        tool_usage(
+            t,
+            "--limits %s, line %zu: it must hold a depth, the limits in bending and torsion, "
+            "and at most the yield stress",
+            name, number);
     if (l->n > 0 && !(v[0] > l->depth[l->n - 1]))
-        tool_die(t, EXIT_USAGE, "--limits %s, line %zu: depth %g m: the depths must increase", name,
-                 number, v[0]);
+        tool_usage(t, "--limits %s, line %zu: depth %g m: the depths must increase", name, number,
+                   v[0]);
     l->depth = tool_grown(t, l->depth, l->n, room, sizeof *l->depth, "a table of limits");
     l->at = tool_grown(t, l->at, l->n, &same, sizeof *l->at, "a table of limits");
     l->depth[l->n] = v[0];
@@ -60,7 +60,7 @@ read_table(struct tool *t, struct fatigue_limits *l)
         tool_die(t, EXIT_IMPOSSIBLE, "--limits %s: %s", l->asked->table, strerror(errno));
     fclose(file);
     if (l->n == 0)
-        tool_die(t, EXIT_USAGE, "--limits %s: it holds no limits", l->asked->table);
+        tool_usage(t, "--limits %s: it holds no limits", l->asked->table);
 }
 
 static double
@@ -91,11 +91,11 @@ fatigue_limits_read(struct tool *t, const struct fatigue_limits_asked *asked, un
 
     l->asked = asked;
     if (asked->table != NULL && any)
-        tool_die(t, EXIT_USAGE, "--limits has all limits: leave out the options with numbers");
+        tool_usage(t, "--limits has all limits: leave out the options with numbers");
     if (asked->table == NULL && needs_limits(wanted) && !both)
-        tool_die(t, EXIT_USAGE,
-                 "give both endurance limits, --bending-limit and --torsion-limit: every criterion "
-                 "needs the two, and their ratio differs between materials");
+        tool_usage(
+            t, "give both endurance limits, --bending-limit and --torsion-limit: every criterion "
+               "needs the two, and their ratio differs between materials");
     if (asked->table != NULL) {
         read_table(t, l);
     } else {
@@ -105,9 +105,9 @@ fatigue_limits_read(struct tool *t, const struct fatigue_limits_asked *asked, un
             if ((asked->bending.n > 1 && asked->bending.n != l->n) ||
                 (asked->torsion.n > 1 && asked->torsion.n != l->n) ||
                 (asked->yield.n > 1 && asked->yield.n != l->n))
-                tool_die(t, EXIT_USAGE,
-                         "the limits of materials must be lists of the same length, or one number "
-                         "for all");
+                tool_usage(
+                    t, "the limits of materials must be lists of the same length, or one number "
+                       "for all");
             l->at[k] = (struct rc_fatigue_limits){number_of(&asked->bending, k),
                                                   number_of(&asked->torsion, k),
                                                   number_of(&asked->yield, k)};
@@ -115,7 +115,7 @@ fatigue_limits_read(struct tool *t, const struct fatigue_limits_asked *asked, un
     }
     for (size_t k = 0; k < l->n; k++)
         if (rc_fatigue_check_limits(wanted, &l->at[k], &t->err) != RC_OK)
-            tool_die(t, EXIT_USAGE, "%s: see --criteria", t->err.text);
+            tool_usage(t, "%s: see --criteria", t->err.text);
 }
 
 void
@@ -123,9 +123,8 @@ fatigue_limits_check(struct tool *t, const struct rc_grid *p, const struct fatig
                      const struct rc_body *body)
 {
     if (l->depth == NULL && l->n > 1 && l->n != body->layers + 1)
-        tool_die_at(t, p, EXIT_IMPOSSIBLE,
-                    "its body has %zu material%s, and there are limits of %zu", body->layers + 1,
-                    body->layers == 0 ? "" : "s", l->n);
+        tool_refuse(t, p, "its body has %zu material%s, and there are limits of %zu",
+                    body->layers + 1, body->layers == 0 ? "" : "s", l->n);
 }
 
 static double
@@ -214,11 +213,10 @@ keep_residual(struct tool *t, struct fatigue_residual *r, const struct rc_grid *
     if (c == RC_COMPONENTS)
         return;
     if (!rc_grid_number(g, "depth", &depth))
-        tool_die_at(t, g, EXIT_IMPOSSIBLE,
-                    "--residual %s: it has no key depth: a section will not do", r->name);
+        tool_refuse(t, g, "--residual %s: it has no key depth: a section will not do", r->name);
     tool_demand_finite(t, g, "recompute the map");
     if (r->n > 0 && lines != r->lines)
-        tool_die_at(t, g, EXIT_IMPOSSIBLE, "--residual %s: its maps differ in size", r->name);
+        tool_refuse(t, g, "--residual %s: its maps differ in size", r->name);
     r->lines = lines;
     if ((k = index_of(r, depth)) == r->n) {
         room = r->room;

@@ -60,19 +60,18 @@ check_steps(struct tool *t, const struct physics *a)
 
     for (size_t k = 0; k < steps->n && !a->attracts; k++) {
         if (steps->v[k] < 0)
-            tool_die(t, EXIT_USAGE,
-                     "--%s %s %s: it must be at least 0: a negative %s needs --adhesion", name,
-                     rc_number(steps->v[k]),
-                     steps->per_metre    ? "N/m"
-                     : a->load.n > 0     ? "N"
-                     : a->approach.n > 0 ? "m"
-                                         : "Pa",
-                     a->load.n > 0       ? "load"
-                     : a->approach.n > 0 ? "approach"
-                                         : "mean pressure");
+            tool_usage(t, "--%s %s %s: it must be at least 0: a negative %s needs --adhesion", name,
+                       rc_number(steps->v[k]),
+                       steps->per_metre    ? "N/m"
+                       : a->load.n > 0     ? "N"
+                       : a->approach.n > 0 ? "m"
+                                           : "Pa",
+                       a->load.n > 0       ? "load"
+                       : a->approach.n > 0 ? "approach"
+                                           : "mean pressure");
         if (steps->v[k] == 0 && !a->history)
-            tool_die(t, EXIT_USAGE, "--%s 0: it must be above 0%s", name,
-                     steps->n > 1 ? " (0 separates the bodies only in a --history)" : "");
+            tool_usage(t, "--%s 0: it must be above 0%s", name,
+                       steps->n > 1 ? " (0 separates the bodies only in a --history)" : "");
         rises = rises && (k == 0 || steps->v[k] > steps->v[k - 1]);
     }
     if (!rises && !a->history)
@@ -96,14 +95,13 @@ check_elasticity(struct tool *t, struct physics *a)
                  tool_given(t, "E2") + tool_given(t, "nu2");
 
     if (base && a->layer.n == 0)
-        tool_die(t, EXIT_USAGE, "--E1 rigid: body 1 must have a --layer");
+        tool_usage(t, "--E1 rigid: body 1 must have a --layer");
     if (a->relaxes > 0 && bodies < (rigid ? 3 : 4))
-        tool_die(t, EXIT_USAGE,
-                 "--relaxation has the moduli of body 1: give --nu1, and --E2 --nu2 or --E2 rigid");
+        tool_usage(
+            t, "--relaxation has the moduli of body 1: give --nu1, and --E2 --nu2 or --E2 rigid");
     if (tool_given(t, "estar") ? bodies > 0 : bodies < (rigid ? 3 : 4))
-        tool_die(t, EXIT_USAGE,
-                 "give the elasticity, either as --estar or as --E1 --nu1 --E2 "
-                 "--nu2, all four (--E2 rigid needs no --nu2)");
+        tool_usage(t, "give the elasticity, either as --estar or as --E1 --nu1 --E2 "
+                      "--nu2, all four (--E2 rigid needs no --nu2)");
     if (rigid && tool_given(t, "nu2"))
         tool_warn(t, "--nu2 has no effect beside --E2 rigid: leave it out");
     if (base && tool_given(t, "nu1"))
@@ -145,16 +143,16 @@ check_layers(struct tool *t, struct physics *a)
     if (n == 0)
         return;
     if (tool_given(t, "estar"))
-        tool_die(t, EXIT_USAGE,
-                 "--layer needs a substrate and a body 2: give --E1 --nu1 and --E2 --nu2 (or --E2 "
-                 "rigid), not --estar");
+        tool_usage(
+            t, "--layer needs a substrate and a body 2: give --E1 --nu1 and --E2 --nu2 (or --E2 "
+               "rigid), not --estar");
     a->layers = tool_room(t, n, sizeof *a->layers, "the layers of a body");
     a->residual = tool_room(t, n, sizeof *a->residual, "the layers of a body");
     for (size_t k = 0; k < n; k++) {
         struct rc_layer *m = &a->layers[k];
         if (layer_read(a->layer.step[k].text, m, &a->residual[k], a->relaxes, &relaxes, &t->err) !=
             RC_OK)
-            tool_die(t, EXIT_USAGE, "--layer %s: %s", a->layer.step[k].text, t->err.text);
+            tool_usage(t, "--layer %s: %s", a->layer.step[k].text, t->err.text);
         warn_of_residual(t, a->layer.step[k].text, a->residual[k], m->e);
         si = tool_room(t, 4, RC_NUMBER_SIZE, "the layers of a body");
         snprintf(si, 4 * RC_NUMBER_SIZE, "%s,%s,%s%s%s", rc_number(m->thickness),
@@ -189,7 +187,7 @@ void
 physics_check(struct tool *t, struct physics *a)
 {
     if (tool_given(t, "load") + tool_given(t, "mean-pressure") + tool_given(t, "approach") != 1)
-        tool_die(t, EXIT_USAGE, "give one of --load, --mean-pressure and --approach");
+        tool_usage(t, "give one of --load, --mean-pressure and --approach");
     check_steps(t, a);
     check_elasticity(t, a);
     check_layers(t, a);
@@ -229,8 +227,8 @@ add_form(struct tool *t, const struct physics *a, struct rc_grid *g)
     char name[RC_NUMBER_SIZE + 8];
 
     if (form != NULL)
-        tool_die_at(t, g, EXIT_IMPOSSIBLE,
-                    "a sphere was already added to these heights (form=%s): remove --radius", form);
+        tool_refuse(t, g, "a sphere was already added to these heights (form=%s): remove --radius",
+                    form);
     if (!a->travels)
         add_sphere(t, a, g);
     snprintf(name, sizeof name, "sphere %s", rc_number(a->radius));
@@ -270,8 +268,8 @@ check_profile(struct tool *t, const struct physics *a, const struct rc_grid *g)
     const char *where = tool_where(t, g), *width = shown_in_unit(width_of(g), "m");
 
     if (a->load.per_metre && g->nx > 1 && g->ny > 1)
-        tool_die_at(
-            t, g, EXIT_IMPOSSIBLE,
+        tool_refuse(
+            t, g,
             "--load in N/m is for profiles, and this map has %zu rows: give the whole force, in N",
             g->ny);
     if ((g->nx > 1) == (g->ny > 1))
@@ -329,7 +327,7 @@ void
 physics_heights(struct tool *t, const struct physics *a, struct rc_grid *g)
 {
     if (strcmp(g->unit, "m") != 0)
-        tool_die_at(t, g, EXIT_IMPOSSIBLE,
+        tool_refuse(t, g,
                     "its unit is '%s': heights are in metres; import the file again with --z-unit",
                     g->unit);
     if (!isnan(a->radius))
@@ -346,12 +344,11 @@ physics_hardness(struct tool *t, const struct rc_grid *hardness)
     if (hardness == NULL)
         return;
     if (tool_given(t, "hardness"))
-        tool_die_at(
-            t, hardness, EXIT_IMPOSSIBLE,
+        tool_refuse(
+            t, hardness,
             "the case holds a map of hardness, and --hardness gives a number: leave one out");
     if (strcmp(hardness->unit, "Pa") != 0)
-        tool_die_at(t, hardness, EXIT_IMPOSSIBLE, "its unit is '%s': a hardness is in pascals",
-                    hardness->unit);
+        tool_refuse(t, hardness, "its unit is '%s': a hardness is in pascals", hardness->unit);
 }
 
 struct rc_problem
@@ -396,14 +393,14 @@ physics_counter_beside(struct tool *t, const char *name, const struct rc_grid *o
     const double near = 1e-6;
 
     if (fabs(other->dx / g->dx - 1) > near || fabs(other->dy / g->dy - 1) > near)
-        tool_die_at(
-            t, g, EXIT_IMPOSSIBLE,
+        tool_refuse(
+            t, g,
             "spacings of %g x %g m, and of %g x %g m in --counter %s: bring them together by "
             "rc-pick --resample",
             g->dx, g->dy, other->dx, other->dy, name);
     if (periodic && (other->nx != g->nx || other->ny != g->ny))
-        tool_die_at(
-            t, g, EXIT_IMPOSSIBLE,
+        tool_refuse(
+            t, g,
             "with --periodic both surfaces must have the same period: this one has %zu x %zu "
             "nodes, --counter %s has %zu x %zu",
             g->nx, g->ny, name, other->nx, other->ny);

@@ -125,7 +125,7 @@ void
 yield_law_refuse(struct tool *t, bool given, const char *what, const char *why)
 {
     if (given)
-        tool_die(t, EXIT_USAGE, "--yield does not work with %s: %s", what, why);
+        tool_usage(t, "--yield does not work with %s: %s", what, why);
 }
 
 /* Warns of a yield stress outside the range from a millionth of the modulus to the modulus. */
@@ -136,10 +136,9 @@ check_unit(struct tool *t, double stress, double estar)
 
     if (stress >= least * estar && stress <= estar)
         return;
-    tool_die(t, EXIT_USAGE,
-             "--yield: the yield stress, %s, is %s, %s: is its unit right, as in 1GPa?",
-             shown_in_unit(stress, "Pa"), stress > estar ? "above E*" : "below a millionth of E*",
-             shown_in_unit(estar, "Pa"));
+    tool_usage(t, "--yield: the yield stress, %s, is %s, %s: is its unit right, as in 1GPa?",
+               shown_in_unit(stress, "Pa"), stress > estar ? "above E*" : "below a millionth of E*",
+               shown_in_unit(estar, "Pa"));
 }
 
 void

@@ -12,11 +12,10 @@ slip_check_bodies(struct slip_run *run)
     bool rigid = isinf(run->args->e2);
 
     if (bodies > 0 && (rigid ? bodies != 3 || tool_given(t, "nu2") : bodies != 4))
-        tool_die(t, EXIT_USAGE,
-                 "give both bodies, --E1 --nu1 --E2 --nu2, or --E1 --nu1 --E2 rigid");
+        tool_usage(t, "give both bodies, --E1 --nu1 --E2 --nu2, or --E1 --nu1 --E2 rigid");
     if (bodies > 0 && tool_given(t, "nu"))
-        tool_die(t, EXIT_USAGE,
-                 "--nu is Poisson's ratio of both bodies: give either --nu, or --nu1 and --nu2");
+        tool_usage(t,
+                   "--nu is Poisson's ratio of both bodies: give either --nu, or --nu1 and --nu2");
 }
 
 /* (1 - nu)/G, nu/G and (1 - 2 nu)/G, up to a common factor. */
@@ -66,14 +65,14 @@ take_given(struct slip_run *run)
         pair->two = (struct rc_body){.e = a->e2, .nu = a->nu2};
     of_these = 1 / ((1 - a->nu1 * a->nu1) / a->e1 + (rigid ? 0 : (1 - a->nu2 * a->nu2) / a->e2));
     if (rc_grid_number(run->p, "estar", &estar) && !(fabs(of_these / estar - 1) < 1e-9))
-        tool_die_at(&run->d.t, run->p, EXIT_IMPOSSIBLE,
+        tool_refuse(&run->d.t, run->p,
                     "its E* is %.9g Pa, but --E1 --nu1 --E2 --nu2 give %.9g Pa: solve the contact "
                     "for these bodies first",
                     estar, of_these);
     if (rc_grid_get(run->p, "e1") != NULL &&
         !(same(run->p, "e1", a->e1, NAN) && same(run->p, "nu", a->nu1, NAN) &&
           same(run->p, "e2", rigid ? 0 : a->e2, 0) && same(run->p, "nu2", rigid ? 0 : a->nu2, 0)))
-        tool_die_at(&run->d.t, run->p, EXIT_IMPOSSIBLE,
+        tool_refuse(&run->d.t, run->p,
                     "its bodies differ from --E1 --nu1 --E2 --nu2: leave these options out, or "
                     "solve the contact for these bodies first");
 }
@@ -87,11 +86,11 @@ take_own(struct slip_run *run)
 
     if (rc_grid_number(run->p, "e1", &pair->one.e) && rc_grid_number(run->p, "nu", &pair->one.nu)) {
         if (!isnan(run->args->nu))
-            tool_die_at(&run->d.t, run->p, EXIT_IMPOSSIBLE,
+            tool_refuse(&run->d.t, run->p,
                         "the stream already gives Poisson's ratios: leave out --nu");
         if (rc_grid_get(run->p, "e2") != NULL && (!rc_grid_number(run->p, "e2", &pair->two.e) ||
                                                   !rc_grid_number(run->p, "nu2", &pair->two.nu)))
-            tool_die_at(&run->d.t, run->p, EXIT_IMPOSSIBLE,
+            tool_refuse(&run->d.t, run->p,
                         "its keys e2 and nu2 are not both numbers: solve the contact again");
         return;
     }
@@ -111,7 +110,7 @@ slip_find_bodies(struct slip_run *run)
 {
     run->bodies = (struct slip_pair){.nu = 0};
     if (rc_grid_get(run->p, "layers") != NULL)
-        tool_die_at(&run->d.t, run->p, EXIT_IMPOSSIBLE,
+        tool_refuse(&run->d.t, run->p,
                     "its body 1 has layers, and rc-slip supports only bodies without layers: solve "
                     "the contact without --layer");
     if (tool_given(&run->d.t, "E1"))

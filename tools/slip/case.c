@@ -41,7 +41,7 @@ check_pressure(struct slip_run *run)
     for (size_t k = 0; k < n; k++)
         pulled += run->p->v[k] < 0;
     if (pulled > 0 || rc_grid_get(run->p, "adhesion") != NULL)
-        tool_die_at(&run->d.t, run->p, EXIT_IMPOSSIBLE,
+        tool_refuse(&run->d.t, run->p,
                     "it is the net pressure of an adhesive contact, negative at %zu of %zu nodes, "
                     "and friction needs the pressure of the touching nodes alone: solve the "
                     "contact without --adhesion",
@@ -50,7 +50,7 @@ check_pressure(struct slip_run *run)
     for (size_t k = 0; k < n; k++)
         without += rc_in_contact(run->p->v[k]) && !rc_in_contact(touch->v[k]);
     if (without > 0)
-        tool_die_at(&run->d.t, run->contact, EXIT_IMPOSSIBLE,
+        tool_refuse(&run->d.t, run->contact,
                     "%zu nodes have a pressure, but are not in contact according to this frame: "
                     "solve the contact again",
                     without);
@@ -66,19 +66,19 @@ check_solvable(struct slip_run *run)
     if (!run->solves)
         return;
     if (run->height == NULL && run->alternates)
-        tool_die_at(&run->d.t, run->p, EXIT_IMPOSSIBLE,
+        tool_refuse(&run->d.t, run->p,
                     "its bodies are dissimilar (beta %.3g), so that tractions change the pressure, "
                     "and this needs a height in the same case: keep all frames of rc-solve, or "
                     "take --coupling goodman or none",
                     run->bodies.beta);
     if (run->height == NULL)
-        tool_die_at(&run->d.t, run->p, EXIT_IMPOSSIBLE,
+        tool_refuse(&run->d.t, run->p,
                     "the path has loads other than that of the stream, %g N, and these contacts "
                     "need a height in the same case: keep all frames of rc-solve",
                     run->load);
     for (size_t k = 0; k < sizeof more / sizeof *more; k++)
         if (rc_grid_get(run->p, more[k]) != NULL)
-            tool_die_at(&run->d.t, run->p, EXIT_IMPOSSIBLE,
+            tool_refuse(&run->d.t, run->p,
                         "its key %s says that the bodies are not elastic, and rc-slip solves other "
                         "loads for elastic bodies only: use the load of the stream alone%s",
                         more[k], run->alternates ? ", with --coupling goodman" : "");
@@ -234,8 +234,7 @@ add_slip(struct slip_run *run, struct rc_model *m)
     if ((now = malloc(2 * n * sizeof *now)) == NULL ||
         rc_model_frame(m, "slip-x", now, &err) != RC_OK ||
         rc_model_frame(m, "slip-y", now + n, &err) != RC_OK)
-        tool_die_at(&run->d.t, run->p, EXIT_IMPOSSIBLE, "%s",
-                    now == NULL ? "out of memory for the slip" : err.text);
+        tool_refuse(&run->d.t, run->p, "%s", now == NULL ? "out of memory for the slip" : err.text);
     for (size_t k = 0; k < n; k++)
         way[k] += hypot(now[k] - x[k], now[n + k] - y[k]);
     memcpy(x, now, 2 * n * sizeof *now);
@@ -291,7 +290,7 @@ follow(struct slip_run *run)
 
     if (run->args->output >> SLIP_LENGTH & 1 &&
         (run->slipped = calloc(3 * rc_grid_nodes(run->p), sizeof *run->slipped)) == NULL)
-        tool_die_at(&d->t, run->p, EXIT_IMPOSSIBLE, "out of memory for the slip");
+        tool_refuse(&d->t, run->p, "out of memory for the slip");
     run->state = (struct slip_state){.dissipated_total = 0};
     d->frame = slip_frame;
     d->unit = "m";
@@ -361,7 +360,7 @@ slip_case(struct slip_run *run)
     check_beside(run, run->height);
     run->boundary = contact_boundary(&run->d.t, run->p, run->args->periodic);
     if (run->args->output >> SLIP_HEIGHT & 1 && run->height == NULL)
-        tool_die_at(&run->d.t, run->p, EXIT_IMPOSSIBLE,
+        tool_refuse(&run->d.t, run->p,
                     "--output height: there is no height beside it: take all that rc-solve writes");
     slip_find_bodies(run);
     if (run->rolls) {

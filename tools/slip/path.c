@@ -65,18 +65,18 @@ read_path(struct slip_run *run, const char *path)
     while (*path != '\0') {
         size_t n = strcspn(path, ";");
         if (n >= sizeof part)
-            tool_die(&run->d.t, EXIT_USAGE, "--path %.40s...: it must be LOAD,FX,FY; ...", path);
+            tool_usage(&run->d.t, "--path %.40s...: it must be LOAD,FX,FY; ...", path);
         memcpy(part, path, n);
         part[n] = '\0';
         path += n + (path[n] == ';');
         if (blank(part))
             continue;
         if (read_corner(part, &c, &run->d.t.err) != RC_OK)
-            tool_die(&run->d.t, EXIT_USAGE, "--path %s: %s", part, run->d.t.err.text);
+            tool_usage(&run->d.t, "--path %s: %s", part, run->d.t.err.text);
         add_corner(run, &c);
     }
     if (run->givens == 0)
-        tool_die(&run->d.t, EXIT_USAGE, "--path: it must be LOAD,FX,FY; ..., as in 240N,36N,0");
+        tool_usage(&run->d.t, "--path: it must be LOAD,FX,FY; ..., as in 240N,36N,0");
 }
 
 /* Reads a file of such lines. '#' begins a comment, and a first line of words is a heading. */
@@ -89,25 +89,24 @@ read_history(struct slip_run *run, const char *name)
     size_t number = 0;
 
     if (file == NULL)
-        tool_die(&run->d.t, EXIT_USAGE, "--history %s: %s", name, strerror(errno));
+        tool_usage(&run->d.t, "--history %s: %s", name, strerror(errno));
     while (fgets(line, sizeof line, file) != NULL) {
         number++;
         if (strchr(line, '\n') == NULL && !feof(file))
-            tool_die(&run->d.t, EXIT_USAGE, "--history %s: line %zu is too long", name, number);
+            tool_usage(&run->d.t, "--history %s: line %zu is too long", name, number);
         line[strcspn(line, "#\r\n")] = '\0';
         if (blank(line) || (run->givens == 0 && strpbrk(line, "0123456789") == NULL))
             continue;
         if (read_corner(line, &c, &run->d.t.err) != RC_OK)
-            tool_die(&run->d.t, EXIT_USAGE, "--history %s: line %zu: %s", name, number,
-                     run->d.t.err.text);
+            tool_usage(&run->d.t, "--history %s: line %zu: %s", name, number, run->d.t.err.text);
         add_corner(run, &c);
     }
     if (ferror(file))
-        tool_die(&run->d.t, EXIT_USAGE, "--history %s: %s", name, strerror(errno));
+        tool_usage(&run->d.t, "--history %s: %s", name, strerror(errno));
     fclose(file);
     if (run->givens == 0)
-        tool_die(
-            &run->d.t, EXIT_USAGE,
+        tool_usage(
+            &run->d.t,
             "--history %s: the file contains no line with load, force along x and force along y",
             name);
 }
@@ -142,9 +141,8 @@ slip_read_path(struct slip_run *run, struct slip_args *args)
     if (args->increments != NULL && strcmp(args->increments, "auto") != 0) {
         if (unit_number(args->increments, UNIT_NONE, &n, &err) != RC_OK ||
             !(n >= 1 && n <= 1e6 && n == floor(n)))
-            tool_die(&run->d.t, EXIT_USAGE,
-                     "--increments %s: it must be auto or a number from 1 to 1000000",
-                     args->increments);
+            tool_usage(&run->d.t, "--increments %s: it must be auto or a number from 1 to 1000000",
+                       args->increments);
         run->increments = (size_t)n;
     }
     if (args->path != NULL)

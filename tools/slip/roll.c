@@ -23,26 +23,25 @@ slip_check_rolling(struct slip_run *run)
     run->rolls = a->creep.n > 0 || forced(run);
     run->position = NAN;
     if (!run->rolls && a->steady)
-        tool_die(t, EXIT_USAGE, "--steady needs --creep or --creep-force");
+        tool_usage(t, "--steady needs --creep or --creep-force");
     if (!run->rolls)
         return;
     if (forced(run) ? a->creep_force.n > 2 : a->creep.n < 2 || a->creep.n > 3)
-        tool_die(t, EXIT_USAGE, "--%s: it must be %s", which,
-                 forced(run) ? "one value (along x) or two (x and y), as in 36N,0"
-                             : "two creepages (x and y), or these and a spin, as in 1e-3,0,20");
+        tool_usage(t, "--%s: it must be %s", which,
+                   forced(run) ? "one value (along x) or two (x and y), as in 36N,0"
+                               : "two creepages (x and y), or these and a spin, as in 1e-3,0,20");
     if (tool_given(t, none[0]))
-        tool_die(t, EXIT_USAGE, "--increments has no effect with --%s: each case is one", which);
+        tool_usage(t, "--increments has no effect with --%s: each case is one", which);
     if (tool_given(t, none[1]) && run->coupling == RC_COUPLING_FULL)
-        tool_die(t, EXIT_USAGE,
-                 "--coupling full: rolling neglects the effect of tractions on the pressure: take "
-                 "--coupling goodman, or none");
+        tool_usage(
+            t, "--coupling full: rolling neglects the effect of tractions on the pressure: take "
+               "--coupling goodman, or none");
     if (run->coupling == RC_COUPLING_FULL)
         run->coupling = RC_COUPLING_GOODMAN;
     for (size_t k = SLIP_LENGTH; k <= SLIP_DISSIPATION; k++)
         if (a->output >> k & 1)
-            tool_die(t, EXIT_USAGE,
-                     "--output %s needs --tangential, --displacement, --path or --history",
-                     slip_frame_word(k));
+            tool_usage(t, "--output %s needs --tangential, --displacement, --path or --history",
+                       slip_frame_word(k));
 }
 
 /* ---- a point ---- */
@@ -103,11 +102,11 @@ find_position(struct slip_run *run)
 
     (void)rc_grid_number(run->p, "position", &position);
     if (!steady && isnan(position))
-        tool_die_at(&run->d.t, run->p, EXIT_IMPOSSIBLE,
+        tool_refuse(&run->d.t, run->p,
                     "it has no key position, and rolling from case to case needs the positions of "
                     "rc-solve --travel: give --steady for steady rolling under one pressure");
     if (steady && (run->position < position || run->position > position))
-        tool_die_at(&run->d.t, run->p, EXIT_IMPOSSIBLE,
+        tool_refuse(&run->d.t, run->p,
                     "its position is %g m, that of the case before %g m: in steady rolling the "
                     "pressure does not change; leave out --steady to roll from case to case",
                     position, run->position);
@@ -146,7 +145,7 @@ model_of(struct slip_run *run)
     if (run->path == NULL)
         run->path = new_model(run);
     else if (memcmp(now, run->first, sizeof now) != 0)
-        tool_die_at(&run->d.t, p, EXIT_IMPOSSIBLE,
+        tool_refuse(&run->d.t, p,
                     "its grid, boundary or bodies differ from those of the case before: roll over "
                     "the cases of one rc-solve --travel");
     memcpy(run->first, now, sizeof now);

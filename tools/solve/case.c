@@ -213,7 +213,7 @@ look_at_closed_gap(struct run *run, const struct rc_grid *g, struct rc_model *m,
     struct rc_err err = {"out of memory for a map"};
 
     if (touch == NULL || rc_model_frame(m, CONTACT_CHANNEL, touch, &err) != RC_OK)
-        tool_die_at(&run->d.t, g, EXIT_IMPOSSIBLE, "%s", err.text);
+        tool_refuse(&run->d.t, g, "%s", err.text);
     look_at_contact(run, g, touch, s);
 }
 
@@ -242,13 +242,13 @@ find_stiffness(struct run *run, const struct rc_grid *g, struct rc_solver *solve
 {
     if (run->conductance && rc_solver_conductance(solver, run->k[0], run->k[1], &s->conductance,
                                                   &run->d.t.err) != RC_OK)
-        tool_die_at(&run->d.t, g, EXIT_IMPOSSIBLE, "%s", run->d.t.err.text);
+        tool_refuse(&run->d.t, g, "%s", run->d.t.err.text);
     if (!run->stiffness)
         return;
     if (run->conductance && s->contact.plastic_nodes == 0)
         s->stiffness = s->conductance.stiffness;
     else if (rc_solver_stiffness(solver, &s->stiffness, &run->d.t.err) != RC_OK)
-        tool_die_at(&run->d.t, g, EXIT_IMPOSSIBLE, "%s", run->d.t.err.text);
+        tool_refuse(&run->d.t, g, "%s", run->d.t.err.text);
 }
 
 /* Finds the figures of this load, and warns. */
@@ -405,12 +405,8 @@ make_points(struct run *run)
 static struct rc_model *
 elastic_model(struct run *run, const struct rc_problem *problem)
 {
-    struct rc_model *m =
-        rc_elastic_new(rc_shape_of(run->g), run->g->v, problem, NULL, &run->d.t.err);
-
-    if (m == NULL)
-        tool_die_at(&run->d.t, run->g, EXIT_IMPOSSIBLE, "%s", run->d.t.err.text);
-    return m;
+    return tool_made(&run->d.t, run->g,
+                     rc_elastic_new(rc_shape_of(run->g), run->g->v, problem, NULL, &run->d.t.err));
 }
 
 static void
@@ -461,8 +457,7 @@ take_hardness(struct run *run, const struct rc_grid *hardness)
     run->hardness_min = -ranks_most(&run->d.t, -low);
     run->hardness_max = ranks_most(&run->d.t, high);
     if ((run->relaxing.wanted || run->sliding.wanted) && run->hardness != NULL)
-        tool_die_at(&run->d.t, run->g, EXIT_IMPOSSIBLE,
-                    "--relaxation with a map of hardness is not implemented");
+        tool_refuse(&run->d.t, run->g, "--relaxation with a map of hardness is not implemented");
     if (run->args->physics.history && isinf(run->hardness_min) && !run->yielding.wanted &&
         !run->adhering.wanted && !run->relaxing.wanted)
         tool_warn(&run->d.t,

@@ -17,7 +17,7 @@ static void
 refuse(struct run *run, bool given, const char *what, const char *why)
 {
     if (given)
-        tool_die(&run->d.t, EXIT_USAGE, "--relaxation does not work with %s: %s", what, why);
+        tool_usage(&run->d.t, "--relaxation does not work with %s: %s", what, why);
 }
 
 /* Before the checks of the bodies: the material is that of body 1. */
@@ -30,7 +30,7 @@ relax_read(struct run *run, struct solve_args *args)
 
     x->wanted = args->relaxation != NULL && args->speed.n == 0;
     if (args->relaxation == NULL && (args->time.n > 0 || tool_given(t, "shift")))
-        tool_die(t, EXIT_USAGE, "--time and --shift have no effect without --relaxation");
+        tool_usage(t, "--time and --shift have no effect without --relaxation");
     if (args->relaxation == NULL)
         return;
     refuse(run, tool_given(t, "E1") && !isinf(a->e1), "--E1",
@@ -38,7 +38,7 @@ relax_read(struct run *run, struct solve_args *args)
     refuse(run, tool_given(t, "estar"), "--estar",
            "body 1 needs its Poisson's ratio: give --nu1, and --E2 --nu2 or --E2 rigid");
     if (relaxation_law_read(&x->law, args->relaxation, args->shift, &t->err) != RC_OK)
-        tool_die(t, EXIT_USAGE, "--relaxation %s: %s", args->relaxation, t->err.text);
+        tool_usage(t, "--relaxation %s: %s", args->relaxation, t->err.text);
     a->relaxes = 1 / x->law.material->instant;
     a->history = x->wanted; /* each time continues from the last one */
 }
@@ -52,22 +52,22 @@ check_times(struct run *run)
     struct tool *t = &run->d.t;
 
     if (time->n == 0)
-        tool_die(t, EXIT_USAGE, "--relaxation needs the times of the cases: give --time LIST");
+        tool_usage(t, "--relaxation needs the times of the cases: give --time LIST");
     if (run->steps->n > 1 && run->steps->n != time->n)
-        tool_die(t, EXIT_USAGE,
-                 "--time has %zu values, and the list of loads or approaches %zu: give lists of "
-                 "equal length, or one load",
-                 time->n, run->steps->n);
+        tool_usage(t,
+                   "--time has %zu values, and the list of loads or approaches %zu: give lists of "
+                   "equal length, or one load",
+                   time->n, run->steps->n);
     if (time->v[0] < 0 || (time->v[0] > 0 && run->steps->n > 1))
-        tool_die(t, EXIT_USAGE, "--time: the first time is %g s: it must be 0", time->v[0]);
+        tool_usage(t, "--time: the first time is %g s: it must be 0", time->v[0]);
     x->before = time->v[0] > 0;
     x->shortest = INFINITY;
     for (size_t k = 0; k < time->n; k++) {
         const double leg = time->v[k] - (k > 0 ? time->v[k - 1] : 0);
         if (!(leg >= 0) || isinf(leg) || (leg == 0 && k > 0 && run->steps->n == 1))
-            tool_die(t, EXIT_USAGE, "--time: %g s after %g s: the times must rise%s", time->v[k],
-                     k > 0 ? time->v[k - 1] : 0,
-                     run->steps->n > 1 ? ", or be equal at a jump" : "");
+            tool_usage(t, "--time: %g s after %g s: the times must rise%s", time->v[k],
+                       k > 0 ? time->v[k - 1] : 0,
+                       run->steps->n > 1 ? ", or be equal at a jump" : "");
         if (leg > 0)
             x->shortest = fmin(x->shortest, leg);
     }
@@ -130,9 +130,8 @@ relax_check(struct run *run)
         x->increments = strtoul(args->increments, &end, 10);
         if (*end != '\0' || args->increments[0] == '-' || x->increments < 2 ||
             x->increments > RC_YIELDING_INCREMENTS)
-            tool_die(&run->d.t, EXIT_USAGE,
-                     "--increments %s: it must be auto or a number from 2 to %d", args->increments,
-                     RC_YIELDING_INCREMENTS);
+            tool_usage(&run->d.t, "--increments %s: it must be auto or a number from 2 to %d",
+                       args->increments, RC_YIELDING_INCREMENTS);
     }
 }
 
@@ -189,11 +188,9 @@ relax_model(struct run *run, struct rc_model *inner)
         .longest = run->args->time.v[run->args->time.n - 1],
         .points = relax_points(run),
         .increments = x->increments};
-    struct rc_model *m = rc_viscoelastic_new(inner, run->g->v, &problem, &run->d.t.err);
 
-    if (m == NULL)
-        tool_die_at(&run->d.t, run->g, EXIT_IMPOSSIBLE, "%s", run->d.t.err.text);
-    return m;
+    return tool_made(&run->d.t, run->g,
+                     rc_viscoelastic_new(inner, run->g->v, &problem, &run->d.t.err));
 }
 
 /* The expected cost of a time. */

@@ -314,7 +314,7 @@ solve_plan(struct run *run, const struct rc_grid *g, const struct rc_problem *pr
               : run->sliding.wanted
                   ? slide_expect(run, problem, &e, &run->d.t.err)
                   : rc_solver_expect(&shape, problem, &e, &run->d.t.err)) != RC_OK)
-        tool_die_at(&run->d.t, g, EXIT_IMPOSSIBLE, "%s", run->d.t.err.text);
+        tool_refuse(&run->d.t, g, "%s", run->d.t.err.text);
     each = e.convolutions + (run->conductance ? STIFFNESS + 1 : 0) +
            (run->stiffness && !(run->conductance && isinf(run->hardness_min)) ? STIFFNESS : 0);
     memory = ranks_most(&run->d.t, (double)before + (double)(run->adhering.wanted

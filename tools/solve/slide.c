@@ -48,7 +48,7 @@ static void
 refuse(struct run *run, bool given, const char *what, const char *why)
 {
     if (given)
-        tool_die(&run->d.t, EXIT_USAGE, "--speed does not work with %s: %s", what, why);
+        tool_usage(&run->d.t, "--speed does not work with %s: %s", what, why);
 }
 
 /* The relaxation of E/(1 - nu^2) of body 1. */
@@ -67,7 +67,7 @@ make_material(struct run *run)
             rc_relaxation_new(m->relaxed / plane, m->terms, modulus, m->time, &err);
     free(modulus);
     if (run->sliding.material == NULL)
-        tool_die(&run->d.t, EXIT_USAGE, "--relaxation: %s", err.text);
+        tool_usage(&run->d.t, "--relaxation: %s", err.text);
 }
 
 /* A fitted curve says nothing beyond its frequencies. */
@@ -97,11 +97,11 @@ slide_check(struct run *run)
 
     s->wanted = a->speed.n > 0;
     if (!s->wanted && (tool_given(t, "along") || tool_given(t, "track")))
-        tool_die(t, EXIT_USAGE, "--along and --track have no effect without --speed");
+        tool_usage(t, "--along and --track have no effect without --speed");
     if (!s->wanted)
         return;
     if (a->relaxation == NULL)
-        tool_die(t, EXIT_USAGE, "--speed needs the material of body 1: give --relaxation");
+        tool_usage(t, "--speed needs the material of body 1: give --relaxation");
     refuse(run, !a->physics.periodic && repeats(run), "--track repeated",
            "only a map that repeats has one: give --periodic");
     refuse(run, a->time.n > 0, "--time", "a steady state has no time");
@@ -117,14 +117,14 @@ slide_check(struct run *run)
            "solve a coarser map in a second command instead");
     refuse(run, ranks_of(t) != NULL, "several processes", "take one");
     if (!(run->relaxing.law.material->relaxed > 0))
-        tool_die(t, EXIT_USAGE,
-                 "--relaxation: the relaxed modulus is 0: body 2 would sink without end, and there "
-                 "is no steady state for --speed");
+        tool_usage(
+            t, "--relaxation: the relaxed modulus is 0: body 2 would sink without end, and there "
+               "is no steady state for --speed");
     if (run->steps->n > 1 && a->speed.n > 1 && run->steps->n != a->speed.n)
-        tool_die(t, EXIT_USAGE,
-                 "--speed has %zu values, and the list of loads or approaches %zu: give lists of "
-                 "equal length, or one load or one speed",
-                 a->speed.n, run->steps->n);
+        tool_usage(t,
+                   "--speed has %zu values, and the list of loads or approaches %zu: give lists of "
+                   "equal length, or one load or one speed",
+                   a->speed.n, run->steps->n);
     run->stiffness = false;
     make_material(run);
     warn_of_material(run);
@@ -159,11 +159,9 @@ slide_model(struct run *run, const struct rc_problem *problem)
         .compliance = fmax(1 / a->surface_estar - (1 - a->nu1 * a->nu1) / a->e1, 0),
         .along_y = slides_along_y(run),
         .repeats = repeats(run)};
-    struct rc_model *m = rc_slide_new(rc_shape_of(run->g), run->g->v, problem, &law, &run->d.t.err);
 
-    if (m == NULL)
-        tool_die_at(&run->d.t, run->g, EXIT_IMPOSSIBLE, "%s", run->d.t.err.text);
-    return m;
+    return tool_made(&run->d.t, run->g,
+                     rc_slide_new(rc_shape_of(run->g), run->g->v, problem, &law, &run->d.t.err));
 }
 
 enum rc_status

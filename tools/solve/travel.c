@@ -18,7 +18,7 @@ static void
 refuse(struct run *run, bool given, const char *what, const char *why)
 {
     if (given)
-        tool_die(&run->d.t, EXIT_USAGE, "--travel does not work with %s: %s", what, why);
+        tool_usage(&run->d.t, "--travel does not work with %s: %s", what, why);
 }
 
 static void
@@ -30,8 +30,7 @@ read_window(struct run *run, const char *text)
     w->window[0] = strtoul(text, &end, 10);
     w->window[1] = *end == 'x' ? strtoul(end + 1, &end, 10) : 0;
     if (*end != '\0' || strchr(text, '-') != NULL || w->window[0] == 0 || w->window[1] == 0)
-        tool_die(&run->d.t, EXIT_USAGE,
-                 "--window %s: it must be numbers of nodes, WxH, as in 256x256", text);
+        tool_usage(&run->d.t, "--window %s: it must be numbers of nodes, WxH, as in 256x256", text);
 }
 
 void
@@ -45,24 +44,22 @@ travel_read(struct run *run)
     w->wanted = args->travel.n > 0;
     for (size_t k = 0; k < 4; k++)
         if (!w->wanted && tool_given(t, others[k]))
-            tool_die(t, EXIT_USAGE, "--%s has no effect without --travel", others[k]);
+            tool_usage(t, "--%s has no effect without --travel", others[k]);
     if (!w->wanted)
         return;
     if (isnan(args->physics.radius) && args->counter == NULL)
-        tool_die(t, EXIT_USAGE,
-                 "--travel: nothing travels: give a ball, --radius, or a surface, "
-                 "--counter FILE");
+        tool_usage(t, "--travel: nothing travels: give a ball, --radius, or a surface, "
+                      "--counter FILE");
     if (args->counter == NULL && tool_given(t, "counter-travel"))
-        tool_die(t, EXIT_USAGE, "--counter-travel has no effect without --counter");
+        tool_usage(t, "--counter-travel has no effect without --counter");
     if (args->yield == NULL && tool_given(t, "passes"))
-        tool_die(t, EXIT_USAGE,
-                 "--passes has no effect without --yield: an elastic body does not "
-                 "change from pass to pass");
+        tool_usage(t, "--passes has no effect without --yield: an elastic body does not "
+                      "change from pass to pass");
     if (run->steps->n > 1)
-        tool_die(t, EXIT_USAGE,
-                 "--travel takes one load, and this list has %zu: run rc-solve once "
-                 "for each load",
-                 run->steps->n);
+        tool_usage(t,
+                   "--travel takes one load, and this list has %zu: run rc-solve once "
+                   "for each load",
+                   run->steps->n);
     refuse(run, args->adhesion != NULL, "--adhesion", "it is not implemented");
     refuse(run, run->tilt, "--tilt free", "the bodies move along their normal only");
     refuse(run, args->discretization, "--discretization",
@@ -99,9 +96,8 @@ window_of(struct run *run, const struct rc_grid *g)
     struct rc_grid of = *g, *to;
 
     if (w->window[0] > g->nx || w->window[1] > g->ny)
-        tool_die_at(&run->d.t, g, EXIT_IMPOSSIBLE,
-                    "--window %s is larger than the map of %zu x %zu nodes", run->args->window,
-                    g->nx, g->ny);
+        tool_refuse(&run->d.t, g, "--window %s is larger than the map of %zu x %zu nodes",
+                    run->args->window, g->nx, g->ny);
     if (w->window[0] > 0) {
         of.nx = w->window[0];
         of.ny = w->window[1];
@@ -122,8 +118,7 @@ travel_begin(struct run *run)
     if (!w->wanted)
         return;
     if (run->hardness != NULL)
-        tool_die_at(&run->d.t, g, EXIT_IMPOSSIBLE,
-                    "--travel with a map of hardness is not implemented");
+        tool_refuse(&run->d.t, g, "--travel with a map of hardness is not implemented");
     if (w->counter != NULL)
         physics_counter_beside(&run->d.t, run->args->counter, w->counter, g,
                                run->args->physics.periodic);

@@ -37,14 +37,13 @@ read_count(struct run *run, const char *name, const char *text, size_t *count,
         return;
     }
     if (lengths == NULL || (end != text && *end == '\0'))
-        tool_die(&run->d.t, EXIT_USAGE, "--%s %s: it must be auto%s or a number from 1 to %d", name,
-                 text, lengths == NULL ? "" : ", a list of thicknesses", RC_YIELDING_INCREMENTS);
+        tool_usage(&run->d.t, "--%s %s: it must be auto%s or a number from 1 to %d", name, text,
+                   lengths == NULL ? "" : ", a list of thicknesses", RC_YIELDING_INCREMENTS);
     if (unit_numbers(text, UNIT_M, lengths, &run->d.t.err) != RC_OK)
-        tool_die(&run->d.t, EXIT_USAGE, "--%s %s: %s", name, text, run->d.t.err.text);
+        tool_usage(&run->d.t, "--%s %s: %s", name, text, run->d.t.err.text);
     for (size_t k = 0; k < lengths->n; k++)
         if (!(lengths->v[k] > 0))
-            tool_die(&run->d.t, EXIT_USAGE, "--%s %s: a slab must have a thickness above 0", name,
-                     text);
+            tool_usage(&run->d.t, "--%s %s: a slab must have a thickness above 0", name, text);
 }
 
 /* Reads --increments, which may end with ",half". */
@@ -67,12 +66,12 @@ read_increments(struct run *run, const char *text)
     count[length] = '\0';
     read_count(run, "increments", count, &y->asked, NULL);
     if (y->asked < LEAST || y->asked % 2 != 0)
-        tool_die(&run->d.t, EXIT_USAGE, "--increments %s: N,half needs an even number from %d",
-                 text, LEAST);
+        tool_usage(&run->d.t, "--increments %s: N,half needs an even number from %d", text, LEAST);
     if (run->args->travel.n > 0)
-        tool_die(&run->d.t, EXIT_USAGE,
-                 "--increments %s: a contact that travels has no second run: give --increments %zu",
-                 text, y->asked);
+        tool_usage(
+            &run->d.t,
+            "--increments %s: a contact that travels has no second run: give --increments %zu",
+            text, y->asked);
 }
 
 void
@@ -84,15 +83,15 @@ yield_read(struct run *run)
 
     y->wanted = args->yield != NULL;
     if (!y->wanted && (args->slabs != NULL || (args->increments != NULL && !run->relaxing.wanted)))
-        tool_die(&run->d.t, EXIT_USAGE, "--increments and --slabs have no effect without --yield");
+        tool_usage(&run->d.t, "--increments and --slabs have no effect without --yield");
     for (int f = SOLVE_RESIDUAL; !y->wanted && f <= SOLVE_STRAIN; f++)
         if (solve_wanted(args, f))
-            tool_die(&run->d.t, EXIT_USAGE, "--output %s has no effect without --yield",
-                     solve_frame_word((size_t)f));
+            tool_usage(&run->d.t, "--output %s has no effect without --yield",
+                       solve_frame_word((size_t)f));
     if (!y->wanted)
         return;
     if (yield_law_read(&y->read, args->yield, &run->d.t.err) != RC_OK)
-        tool_die(&run->d.t, EXIT_USAGE, "--yield %s: %s", args->yield, run->d.t.err.text);
+        tool_usage(&run->d.t, "--yield %s: %s", args->yield, run->d.t.err.text);
     y->law = y->read.law;
     read_increments(run, args->increments);
     read_count(run, "slabs", args->slabs, &y->slab_count, &y->list);
@@ -173,11 +172,8 @@ yield_model(struct run *run, const struct rc_grid *g, const struct rc_problem *c
                                                .thickness = y->list.n > 0 ? y->list.v : NULL,
                                                .increments = y->asked,
                                                .companion = y->companion};
-    struct rc_model *m = rc_yielding_new(rc_shape_of(g), g->v, &problem, &run->d.t.err);
 
-    if (m == NULL)
-        tool_die_at(&run->d.t, g, EXIT_IMPOSSIBLE, "%s", run->d.t.err.text);
-    return m;
+    return tool_made(&run->d.t, g, rc_yielding_new(rc_shape_of(g), g->v, &problem, &run->d.t.err));
 }
 
 void
@@ -211,7 +207,7 @@ yield_expect(struct run *run, double load, struct rc_expected *expected)
     while (tool_interrupted() == 0 && status == RC_MORE && loops.coming == 0 &&
            (status = rc_model_step(run->model, &run->d.t.err)) == RC_MORE);
     if (status == RC_FAIL || rc_model_plan(run->model, &to, expected, &run->d.t.err) != RC_OK)
-        tool_die_at(&run->d.t, run->g, EXIT_IMPOSSIBLE, "%s", run->d.t.err.text);
+        tool_refuse(&run->d.t, run->g, "%s", run->d.t.err.text);
     for (size_t k = 0; k < run->steps->n; k++) {
         loads += run->steps->v[k] > most ? 1 : other;
         most = fmax(most, run->steps->v[k]);

@@ -56,7 +56,7 @@ set_material(struct tool *t, const struct stress_asked *asked, const struct rc_g
 {
     tool_must(t, p, layers_read(p, &in->layers, &t->err));
     if (in->layers.text != NULL && !isnan(asked->nu))
-        tool_die_at(t, p, EXIT_IMPOSSIBLE,
+        tool_refuse(t, p,
                     "its body is coated and each material has its own Poisson's ratio: --nu "
                     "contradicts its layers, leave it out");
     o->body = in->layers.body;
@@ -76,8 +76,8 @@ refuse_adhesion(struct tool *t, const struct rc_grid *p, double mu)
         pulled += p->v[k] < 0;
     pulled = (size_t)ranks_sum(t, (double)pulled);
     if (pulled > 0 && rc_grid_get(p, "adhesion") != NULL)
-        tool_die_at(
-            t, p, EXIT_IMPOSSIBLE,
+        tool_refuse(
+            t, p,
             "it is the net pressure of bodies that attract each other, negative at %zu of %zu "
             "nodes, where --mu %g would turn friction round: leave out --mu",
             pulled, p->nx * p->ny, mu);
@@ -114,7 +114,7 @@ set_traction(struct tool *t, const struct stress_asked *asked, const struct rc_g
         if (g == NULL || asked->residual)
             continue;
         if (tool_given(t, "mu"))
-            tool_die_at(t, g, EXIT_IMPOSSIBLE,
+            tool_refuse(t, g,
                         "the case has its own traction, and --mu %g contradicts it: leave it out, "
                         "or take the pressure alone, rc-pick --channel pressure",
                         asked->mu);
@@ -142,8 +142,7 @@ stress_input_read(struct tool *t, const struct rc_grid *p, const struct stress_a
     o->strain = NULL;
     set_traction(t, asked, p, in, o);
     if (o->boundary == RC_PERIODIC && stress_on_free_maps_only(asked->kernel))
-        tool_die_at(t, p, EXIT_IMPOSSIBLE,
-                    "its boundary is periodic, where only %s sums: leave out --kernel %s",
+        tool_refuse(t, p, "its boundary is periodic, where only %s sums: leave out --kernel %s",
                     words_periodic_engines(list, sizeof list), asked->kernel);
 }
 
@@ -176,7 +175,7 @@ refuse_rigid(struct tool *t, const struct rc_grid *p, const struct rc_body *body
 {
     for (size_t k = 0; isinf(body->e) && k < depths->n; k++)
         if (rc_body_material(body, depths->v[k]) == body->layers)
-            tool_die_at(t, p, EXIT_IMPOSSIBLE,
+            tool_refuse(t, p,
                         "depth %g m is inside its rigid substrate, where stresses are unknown: "
                         "give depths down to its face",
                         depths->v[k]);
@@ -213,7 +212,7 @@ stress_depths_read(struct tool *t, const struct rc_grid *p, struct rc_stress_opt
     warn_of_depths(t, p, depths);
     if (automatic && rc_stress_depths(o->ranks, rc_shape_of(p), p->v, o->boundary, &o->body,
                                       &depths->v, &depths->n, &t->err) != RC_OK)
-        tool_die_at(t, p, EXIT_IMPOSSIBLE, "%s", t->err.text);
+        tool_refuse(t, p, "%s", t->err.text);
     refuse_rigid(t, p, &o->body, depths);
     if (automatic)
         tool_note(t, "%zu depths, down to %g m", depths->n, depths->v[depths->n - 1]);

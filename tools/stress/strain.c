@@ -20,13 +20,13 @@ keep(struct tool *t, struct stress_strain *s, struct rc_grid *g, size_t part)
     double thickness;
 
     if (k % PARTS != part || k / PARTS >= s->slabs)
-        tool_die_at(
-            t, g, EXIT_IMPOSSIBLE,
+        tool_refuse(
+            t, g,
             "plastic strain comes slab by slab, exx eyy exy exz eyz in that order, %zu slabs: "
             "take the stream as rc-solve has written it",
             s->slabs);
     if (!rc_grid_number(g, "thickness", &thickness) || !(thickness > 0) || isinf(thickness))
-        tool_die_at(t, g, EXIT_IMPOSSIBLE, "its key thickness is not a length above 0");
+        tool_refuse(t, g, "its key thickness is not a length above 0");
     tool_demand_finite(t, g, "recompute the map");
     s->thickness[k / PARTS] = thickness;
     s->frame[k] = g;
@@ -50,8 +50,7 @@ begin(struct tool *t, const struct rc_grid *p, struct stress_strain *s)
     if (!rc_grid_number(p, "slabs", &number))
         return false;
     if (!(number >= 1) || number > 1e4 || number != floor(number))
-        tool_die_at(t, p, EXIT_IMPOSSIBLE, "its key slabs is %g: it must be a whole number",
-                    number);
+        tool_refuse(t, p, "its key slabs is %g: it must be a whole number", number);
     s->slabs = (size_t)number;
     s->thickness = tool_room(t, s->slabs, sizeof *s->thickness, "the strain of slabs");
     s->frame = tool_room(t, s->slabs * PARTS, sizeof *s->frame, "the strain of slabs");
@@ -70,7 +69,7 @@ stress_strain_take(struct tool *t, const struct rc_grid *p, struct rc_grid *g,
     if (part == PARTS || !begin(t, p, s))
         return false;
     if (!same_grid(g, p))
-        tool_die_at(t, g, EXIT_IMPOSSIBLE, "it is not on the grid of the pressure");
+        tool_refuse(t, g, "it is not on the grid of the pressure");
     keep(t, s, g, part);
     return true;
 }

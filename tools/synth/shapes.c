@@ -25,13 +25,13 @@ check_wave(struct tool *t, const struct synth_args *a, const struct rc_shape *sh
     const size_t n[] = {shape->nx, shape->ny};
 
     if (w->n > 2 || w->v[0] + (w->n == 2 ? w->v[1] : 0) == 0)
-        tool_die(t, EXIT_USAGE, "--wavelength takes LX, or LX,LY where one of them may be 0");
+        tool_usage(t, "--wavelength takes LX, or LX,LY where one of them may be 0");
     for (size_t k = 0; k < w->n; k++)
         if (n[k] > 1 && w->v[k] != 0 && w->v[k] < 2 * d[k] * (1 - 1e-9))
-            tool_die(t, EXIT_USAGE,
-                     "--wavelength %g m: shorter than two nodes %g m apart: take a "
-                     "finer grid",
-                     w->v[k], d[k]);
+            tool_usage(t,
+                       "--wavelength %g m: shorter than two nodes %g m apart: take a "
+                       "finer grid",
+                       w->v[k], d[k]);
 }
 
 static enum rc_status
@@ -62,8 +62,7 @@ check_radius(struct tool *t, const struct synth_args *a, const struct rc_shape *
 {
     (void)shape;
     if (a->radius.n != 1)
-        tool_die(t, EXIT_USAGE, "--radius takes one radius of a %s, not %zu", t->operand[0],
-                 a->radius.n);
+        tool_usage(t, "--radius takes one radius of a %s, not %zu", t->operand[0], a->radius.n);
 }
 
 static void
@@ -71,7 +70,7 @@ check_paraboloid(struct tool *t, const struct synth_args *a, const struct rc_sha
 {
     (void)shape;
     if (a->radius.n != 2)
-        tool_die(t, EXIT_USAGE, "--radius takes the two radii of a paraboloid, R1,R2");
+        tool_usage(t, "--radius takes the two radii of a paraboloid, R1,R2");
 }
 
 static struct rc_place
@@ -145,14 +144,13 @@ check_selfaffine(struct tool *t, const struct synth_args *a, const struct rc_sha
 {
     (void)shape;
     if (isnan(a->rms_slope) == isnan(a->rms_height))
-        tool_die(t, EXIT_USAGE,
-                 "selfaffine needs one of --rms-slope and --rms-height: the other "
-                 "one follows");
+        tool_usage(t, "selfaffine needs one of --rms-slope and --rms-height: the other "
+                      "one follows");
     if (!isnan(a->direction) && isnan(a->anisotropy))
-        tool_die(t, EXIT_USAGE, "--direction %g: give --anisotropy too: without it there is no lay",
-                 a->direction);
+        tool_usage(t, "--direction %g: give --anisotropy too: without it there is no lay",
+                   a->direction);
     if (!isnan(a->skewness) && !isnan(a->weibull))
-        tool_die(t, EXIT_USAGE, "--skewness and --weibull: heights have one distribution");
+        tool_usage(t, "--skewness and --weibull: heights have one distribution");
 }
 
 static enum rc_status
