@@ -284,7 +284,7 @@ if [ -d "$RC_CORPUS/corpus" ]; then
         steps=$(sed -E 's/ +([0-9.]+ *){5}$//' <<<"$line")
         case $steps in
         step* | after*) continue ;;
-        "as it came") row '' ;;
+        "unchanged") row '' ;;
         --resample*) row "$fit" "$steps" ;;
         --plane | --poly\ 2*) row "$steps" ;;
         *) row "$fit $steps" ;;
