@@ -23,7 +23,7 @@ enum {
     ROOT = 5
 };
 
-#define END UINT32_C(0xfffffffa) /* larger numbers are no sectors */
+#define END UINT32_C(0xfffffffa) /* larger numbers are not sectors */
 
 static const unsigned char magic[8] = {0xd0, 0xcf, 0x11, 0xe0, 0xa1, 0xb1, 0x1a, 0xe1};
 

@@ -220,7 +220,7 @@ rc_xml_number(const char *document, const char *name, const char *text, double *
 
     if (end != NULL && *end == '\0')
         return RC_OK;
-    return rc_err_set(err, "%s is '%s' in %s: that is no number", name, rc_word_shown(text),
+    return rc_err_set(err, "%s is '%s' in %s: that is not a number", name, rc_word_shown(text),
                       document);
 }
 

@@ -181,7 +181,7 @@ rc_axis_step(const char *name, double *x, size_t n, double *step, struct rc_err 
     *step = (x[n - 1] - x[0]) / (double)(n - 1);
     for (size_t k = 0; k < n; k++)
         if (!isfinite(x[k]))
-            return rc_err_set(err, "position %zu of the axis '%s' is no finite number", k + 1,
+            return rc_err_set(err, "position %zu of the axis '%s' is not a finite number", k + 1,
                               rc_word_shown(name));
     if (*step > 0 && judge_steps(x, n, NULL) == RC_OK)
         return RC_OK;

@@ -243,7 +243,7 @@ rc_flow_read(struct rc_piece *text, double *v, size_t n, struct rc_err *err)
             v[k] = NAN;
         else if ((!rc_piece_number(word, &v[k], &rest) || rest.n > 0) &&
                  !rc_piece_infinite(word, &v[k]))
-            return rc_err_set(err, "number %zu of the data is '%s': that is no number", k + 1,
+            return rc_err_set(err, "number %zu of the data is '%s': that is not a number", k + 1,
                               rc_piece_shown(word));
     }
     return RC_OK;

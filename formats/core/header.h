@@ -63,7 +63,7 @@ enum rc_status rc_fields_read(const struct rc_field *field, size_t n, struct rc_
                               const char *marks, const char *last, void *into, struct rc_err *err);
 
 /* Reads n numbers from *text on, separated by white space or line ends; NAN for the words NaN, NA,
- * BAD, -- and ---. RC_FAIL when a word is no number or there are too few numbers. */
+ * BAD, -- and ---. RC_FAIL when a word is not a number or there are too few numbers. */
 enum rc_status rc_flow_read(struct rc_piece *text, double *v, size_t n, struct rc_err *err);
 
 #endif

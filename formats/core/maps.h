@@ -43,7 +43,7 @@ struct rc_map {
     struct rc_notes *notes;
     struct rc_piece title; /* title of this map, for the key file.title; n = 0: none */
     bool periodic;         /* the file says that the map repeats */
-    bool heights;          /* the values are heights: a unit that is no length is refused */
+    bool heights;          /* the values are heights: a unit that is not a length is refused */
     bool own_dy;           /* --dx does not give the spacing in y */
     const char *doubt;     /* a doubt about the heights: noted, unless --z-unit is given     */
     double step[2]; /* the spacing if the file gives it without a unit, and a text about it for the

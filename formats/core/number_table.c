@@ -225,14 +225,16 @@ bad_field(const struct rc_number_table *t, size_t line, const char *s, char deci
         end++;
     rc_text_shown_to(quote, s, (size_t)(end - s));
     if (decimal != 0 && memchr(s, other, (size_t)(end - s)) != NULL)
-        return rc_err_set(err,
-                          "line %zu: '%s' is no number with the decimal mark '%c': give --decimal "
-                          "and --separator",
-                          line, quote, decimal);
-    return rc_err_set(err,
-                      "line %zu: '%s' is no number: give --separator for the columns, or --missing "
-                      "WORD for missing values",
-                      line, quote);
+        return rc_err_set(
+            err,
+            "line %zu: '%s' is not a number with the decimal mark '%c': give --decimal "
+            "and --separator",
+            line, quote, decimal);
+    return rc_err_set(
+        err,
+        "line %zu: '%s' is not a number: give --separator for the columns, or --missing "
+        "WORD for missing values",
+        line, quote);
 }
 
 /* Reads one row from s, which is not at an empty line. Values beyond `most` are counted, not

@@ -34,7 +34,7 @@ enum rc_status rc_number_table_size(const struct rc_number_table *table, size_t 
 /* All values, row by row, NaN where missing. RC_FAIL names the line that does not fit. */
 enum rc_status rc_number_table_read(struct rc_number_table *table, double *v, struct rc_err *err);
 /* The first row (columns values) and the first value of each row, without the rest. RC_FAIL where one
- * of them is no number. */
+ * of them is not a number. */
 enum rc_status rc_number_table_edges(const struct rc_number_table *table, double *row,
                                      double *column, struct rc_err *err);
 

@@ -25,7 +25,7 @@ double rc_prefix_factor(int power);
  * upper or lower case, singular or plural: "Micrometers", "mil", "inches". False when it is not a unit of
  * length. */
 bool rc_length_unit(const char *text, size_t n, double *metres);
-/* The same for a word that ends with NUL; NAN if it is no unit of length. */
+/* The same for a word that ends with NUL; NAN if it is not a unit of length. */
 double rc_word_metres(const char *word);
 
 #endif

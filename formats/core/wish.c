@@ -68,7 +68,7 @@ rc_height_unit(const struct rc_wish *wish, double by_file, const char *unit, dou
                                "(um, nm, or a number of metres)");
     if (isnan(*metres))
         return rc_err_set(err,
-                          "the values are in '%s', which is no length: --z-unit says how many "
+                          "the values are in '%s', which is not a length: --z-unit says how many "
                           "metres one of them is",
                           unit);
     if (*metres == 0 || isinf(*metres))

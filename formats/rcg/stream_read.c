@@ -541,14 +541,14 @@ rc_reader_head(struct rc_reader *r, struct rc_grid **grid, struct rc_err *err)
         if (n < 0)
             return n == -3 && (feof(r->file) || ferror(r->file))
                        ? cut_off(r, "inside a line", err)
-                       : rc_err_set(err, "this is no grid stream: no RCG1 line at its start");
+                       : rc_err_set(err, "this is not a grid stream: no RCG1 line at its start");
         if (strcmp(line, "RCG1") == 0)
             return read_frame(r, grid, err);
         if (strncmp(line, "RCGFAIL", 7) == 0)
             return read_failure(r, line + 7, err);
         if (strncmp(line, "RCGEND ", 7) != 0)
             return rc_err_set(err,
-                              "'%.40s' is in place of a frame or an end line: this is no grid "
+                              "'%.40s' is in place of a frame or an end line: this is not a grid "
                               "stream, or it is damaged",
                               line);
         if (read_end(r, line + 7, err) != RC_OK)

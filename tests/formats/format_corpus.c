@@ -98,7 +98,7 @@ static const struct {
     {"igor2__mac-version2.ibw", "version 2", 0},
     {"igor2__win-version5.ibw", NULL, 5},
     {"igor2__mac-version3Dependent.ibw", "version 3", 0},
-    {"nanonispy__Bias-Spectroscopy002.dat", "the positions are in 'V', which is no length", 0},
+    {"nanonispy__Bias-Spectroscopy002.dat", "the positions are in 'V', which is not a length", 0},
     {"SurfaceTopography__mitutoyo_mock.xlsx", in_manifest, 0},
     {"afmformats__fmt-jpk-fd_spot3-0192.jpk-force", "force curves of JPK", 0},
 };

@@ -101,7 +101,7 @@ members_are_joined(void **state)
         expect(&b, data, UNPACKED);
         expect_refusal(&b, UNPACKED - 1, "unpack to more than 0 MiB");
         add(&b, "x", 1);
-        expect_refusal(&b, UNPACKED, "the file has 4 further bytes that are no gzip data");
+        expect_refusal(&b, UNPACKED, "the file has 4 further bytes that are not gzip data");
         drop(&b);
     }
     free(data);
@@ -126,7 +126,7 @@ every_truncation(void **state)
             expect(&cut, data, 1000);
         else
             expect_refusal(&cut, UNPACKED,
-                           n == first + 1 ? "the file has 1 further bytes that are no gzip data"
+                           n == first + 1 ? "the file has 1 further bytes that are not gzip data"
                                           : "cut short");
     }
     drop(&b);

@@ -55,7 +55,7 @@ look_on(const struct rc_file *file, const z_stream *z, bool *more, struct rc_err
     for (size_t k = 0; k < rest.size && !*more; k++)
         if (rest.data[k] != 0)
             return rc_err_set(
-                err, "after its gzip data the file has %zu further bytes that are no gzip data",
+                err, "after its gzip data the file has %zu further bytes that are not gzip data",
                 rest.size);
     return RC_OK;
 }

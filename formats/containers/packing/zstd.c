@@ -57,7 +57,7 @@ rc_zstd_unpack(const char *what, const unsigned char *from, size_t n, size_t mos
 
     *size = SIZE_MAX;
     if (said == ZSTD_CONTENTSIZE_ERROR || (said != ZSTD_CONTENTSIZE_UNKNOWN && said > most))
-        return rc_err_null(err, "the %s are no frame of zstd, or one of more bytes than can be",
+        return rc_err_null(err, "the %s are not a frame of zstd, or one of more bytes than can be",
                            what);
     if ((d = ZSTD_createDCtx()) == NULL || (room = malloc(capacity + 1)) == NULL ||
         ZSTD_isError(ZSTD_DCtx_setParameter(d, ZSTD_d_windowLogMax, WINDOW_MOST)))

@@ -293,8 +293,8 @@ take_line(struct rc_ascii_head *h, const char *s, size_t n)
     return false;
 }
 
-/* Gwyddion writes its header in the user's language: four lines, of which the second and third are
- * lengths and the last is a unit. */
+/* Gwyddion writes its header in the user's language: four lines. The second and third are lengths, and
+ * the last is a unit. */
 static void
 take_by_shape(struct rc_ascii_head *h)
 {

@@ -21,7 +21,7 @@ struct rc_ascii_head {
     double width, height, pixel; /* m, NAN when not given                            */
     double step_x, step_y;       /* m, likewise                                      */
     double z, factor;            /* m per number, by unit and by factor; NAN likewise */
-    char unit[16];               /* unit of the numbers if it is no length */
+    char unit[16];               /* unit of the numbers if it is not a length */
     size_t nx, ny;               /* 0 when not given                                 */
     char separator[2];           /* separator of a line `sep=;`, "" for none */
     size_t comments;

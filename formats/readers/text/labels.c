@@ -15,7 +15,7 @@ struct edges {
     size_t columns, rows;       /* lengths of top and left: `rows` includes the titles if they are
                                    numbers */
     bool numeric_titles, words; /* titles that are numbers, or that are not                   */
-    bool open;                  /* the corner is no number */
+    bool open;                  /* the corner is not a number */
     struct rc_piece corner;
     double *v; /* all values of the table, read when needed */
 };
@@ -62,7 +62,7 @@ read_all(struct edges *e, struct rc_err *err)
     return rc_number_table_read(&table, e->v, err);
 }
 
-/* True if a value outside the first row and column is no integer. */
+/* True if a value outside the first row and column is not an integer. */
 static bool
 has_fractions(const struct edges *e)
 {
@@ -247,7 +247,7 @@ judge_row_alone(const struct edges *e, struct rc_err *err)
     return rc_err_set(err,
                       "the first row, behind an empty corner, holds positions or labels, the first "
                       "column (%s, ...) neither rises evenly nor counts: --labels keep, row, "
-                      "column or both says which are no heights",
+                      "column or both says which are not heights",
                       rc_number(e->left[1]));
 }
 

@@ -52,7 +52,7 @@ positions_of(const struct profile *p)
     return columns > 2 && t->titles > 2 && counts(p, 0);
 }
 
-/* The other columns, without those that are known to be no heights. */
+/* Finds the columns of heights: the others, except columns that are known not to be heights. */
 static void
 find_heights(struct profile *p)
 {
@@ -145,7 +145,7 @@ profile_open(struct profile *p, const struct rc_file *file, const struct rc_wish
         return RC_OK;
     unit = rc_titled_table_unit(&p->table, p->x, 'x');
     if (unit.n > 0 && isnan(rc_piece_metres(unit)))
-        return rc_err_set(err, "the positions are in '%s', which is no length",
+        return rc_err_set(err, "the positions are in '%s', which is not a length",
                           rc_piece_shown(unit));
     return judge_direction(p, err);
 }

@@ -158,7 +158,7 @@ smd_find(const struct rc_file *file, struct rc_maps *maps, struct rc_err *err)
         return rc_err_set(err, "the header promises %zu positions and %g heights, in %zu bytes",
                           map->nx, s.heights, data.n);
     if (isnan(metres_of(s.x_unit)) || isnan(metres_of(s.z_unit)))
-        return rc_err_set(err, "'%s' is no unit of length",
+        return rc_err_set(err, "'%s' is not a unit of length",
                           rc_piece_shown(isnan(metres_of(s.x_unit)) ? s.x_unit : s.z_unit));
     map->ny = 1;
     map->at = (size_t)(data.text - (const char *)file->data);
