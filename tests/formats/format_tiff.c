@@ -229,7 +229,7 @@ lext_is_refused(void **state)
          "gives no HeightDataPerPixelX"},
         {"<TiffTagDescData><HeightInfo><HeightDataPerPixelX>x</HeightDataPerPixelX></HeightInfo>"
          "</TiffTagDescData>",
-         NULL, "HEIGHT", "is 'x': that is no number"},
+         NULL, "HEIGHT", "is 'x': that is not a number"},
         {"<!DOCTYPE l [<!ENTITY a \"aaaaaaaaaa\"><!ENTITY b \"&a;&a;&a;&a;&a;&a;&a;&a;\">]>"
          "<TiffTagDescData>&b;</TiffTagDescData>",
          NULL, "HEIGHT", "document type"},

@@ -33,7 +33,7 @@ enum {
     COMPLEX = 0x800, /* the flag of complex numbers, next to the class */
 };
 
-/* Classes that are no arrays of numbers. */
+/* Classes that are not arrays of numbers. */
 static const char *const other_classes[] = {
     [1] = "a cell array", [2] = "a struct",    [3] = "an object",
     [5] = "sparse",       [16] = "a function", [17] = "an object",

@@ -44,7 +44,7 @@ is_channel(const struct facts *f, const struct rc_matlab_array *a)
     return !is_axis(f, a) && (f->maps > 0 ? is_map(a) : is_vector(a));
 }
 
-/* Keeps the kind of an array that is no channel, for the refusal of a file without channels. */
+/* Keeps the kind of an array that is not a channel, for the refusal of a file without channels. */
 static void
 remember_other(struct facts *f, const struct rc_matlab_array *a)
 {

@@ -7,7 +7,7 @@
 
 struct rc_matlab_array {
     char name[64];
-    const char *other; /* its kind, if it is no real array of numbers; otherwise NULL */
+    const char *other; /* its kind, if it is not a real array of numbers; otherwise NULL */
     bool is_text;
     size_t rows, columns, more; /* more: dimensions that are neither */
     double first;               /* its single number; NAN: none */

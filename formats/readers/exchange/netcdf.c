@@ -1,12 +1,12 @@
 /*
  * NetCDF classic (versions 1, 2 and 5) is big-endian throughout. It has a header with dimensions, attributes
- * and variables. The values of each variable follow from its offset on. A variable along the record dimension
- * is spread over the records, which hold a row of each such variable.
+ * and variables. The values of each variable follow from its offset on. A variable along the record
+ * dimension is spread over the records, which hold a row of each such variable.
  *
  * NetCDF's library would also fetch files from the network and read HDF5; only the header is needed here. A
  * map is a variable of two dimensions, others of length 1 before them. Rows run along the second to last
- * dimension; a map (x, y) is transposed. The variables with the names of the dimensions give the spacings. If
- * some maps have them, a variable without them is no map.
+ * dimension; a map (x, y) is transposed. The variables with the names of the dimensions give the spacings.
+ * If some maps have them, a variable without them is not a map.
  *
  * GXSM keeps the field of a scan as (time, value, dimy, dimx), to be multiplied by the scalar dz. All its
  * lengths are in Angstroms, whatever unit it displays them in.
@@ -47,7 +47,7 @@ has_axis(const struct rc_cdf *f, size_t dimension)
 static bool
 could_be_map(const struct rc_cdf *f, const struct rc_cdf_variable *v)
 {
-    size_t least = v->rank == 2 ? 1 : 2; /* a row among more dimensions is no map */
+    size_t least = v->rank == 2 ? 1 : 2; /* a row among more dimensions is not a map */
 
     return v->rank >= 2 && v->lead == 1 && v->type != RC_CDF_CHAR &&
            length(f, v->dimension[0]) >= least && length(f, v->dimension[1]) >= least;

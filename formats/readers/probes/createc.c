@@ -92,7 +92,7 @@ stream_at(const struct rc_file *file)
     return HEADER;
 }
 
-/* Takes a line by either of its keys; values that are no numbers, of keys that should have one, count as
+/* Takes a line by either of its keys; values that are not numbers, of keys that should have one, count as
  * not given. */
 static void
 take_line(struct rc_piece line, struct createc *c, struct rc_maps *maps)

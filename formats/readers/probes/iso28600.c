@@ -72,7 +72,7 @@ number_in(const struct iso *iso, size_t line)
     return rc_piece_number(iso->line[line], &value, NULL) ? value : NAN;
 }
 
-/* The number of channels; RC_FAIL if the data is no regular map. */
+/* The number of channels; RC_FAIL if the data is not a regular map. */
 static enum rc_status
 judge_mode(const struct iso *iso, size_t *channels, struct rc_err *err)
 {

@@ -59,7 +59,7 @@ take_buffer(struct rc_maps *maps, struct rc_map **map, struct rc_piece key, stru
     if (rc_piece_is(key, "bufferUnit"))
         rc_map_unit(*map, value.text, value.n);
     if (rc_piece_is(key, "bufferRange") && !rc_piece_number(value, &(*map)->scale, NULL))
-        return rc_err_set(err, "bufferRange is '%s': that is no number", rc_piece_shown(value));
+        return rc_err_set(err, "bufferRange is '%s': that is not a number", rc_piece_shown(value));
     return RC_OK;
 }
 
@@ -119,7 +119,7 @@ mi_find(const struct rc_file *file, struct rc_maps *maps, struct rc_err *err)
         rc_maps_keep(maps, keys, sizeof keys / sizeof *keys, key, value);
     }
     if (!rc_piece_is(m.type, "Image"))
-        return rc_err_set(err, "the file is no image but '%s'", rc_piece_shown(m.type));
+        return rc_err_set(err, "the file is not an image but '%s'", rc_piece_shown(m.type));
     return place_buffers(&m, (size_t)(lines.at - text), maps, err);
 }
 

@@ -60,7 +60,7 @@ set_scale(const struct rc_file *file, const struct wsxm *w, struct rc_map *map, 
     struct rc_piece unit;
 
     if (!rc_piece_number(w->amplitude, &amplitude, &unit))
-        return rc_err_set(err, "Z Amplitude is '%s': that is no number",
+        return rc_err_set(err, "Z Amplitude is '%s': that is not a number",
                           rc_piece_shown(w->amplitude));
     rc_map_unit(map, unit.text, unit.n);
     if (rc_map_range(map, file, &low, &high) && high > low)

@@ -1,7 +1,7 @@
 /*
  * FRT MicroProf has a magic line, the number of blocks, and the blocks. A block has a 16-bit kind, a length
- * and that many bytes, little-endian. Heights are whole numbers from the bottom row on, of which 1 is
- * missing.
+ * and that many bytes, little-endian. Heights are whole numbers from the bottom row on; 1 marks a missing
+ * point.
  */
 #include <string.h>
 

@@ -59,7 +59,7 @@ take_element(void *arg, const char *path, const char *text, struct rc_err *err)
             continue;
         end = rc_number_read(text, false, &l->scale[k]);
         if (end == NULL || *end != '\0')
-            return rc_err_set(err, "%s is '%s': that is no number", strrchr(path, '/') + 1,
+            return rc_err_set(err, "%s is '%s': that is not a number", strrchr(path, '/') + 1,
                               rc_word_shown(text));
     }
     return RC_OK;

@@ -17,7 +17,7 @@ enum {
 
 struct block {
     struct rc_piece name;
-    int type; /* 6: int16, 7: float, 8: double, 12: int32; other ones are no numbers */
+    int type; /* 6: int16, 7: float, 8: double, 12: int32; other ones are not numbers */
     size_t at, n;
 };
 

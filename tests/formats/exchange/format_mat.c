@@ -43,7 +43,7 @@ add_rising(struct bytes *m, const char *name, unsigned flags, size_t rows, size_
     drop(&b);
 }
 
-/* Several arrays are several channels; single numbers are no channels; the unit then applies to none of
+/* Several arrays are several channels; single numbers are not channels; the unit then applies to none of
  * them. */
 static void
 several_arrays(void **state)
@@ -207,7 +207,7 @@ hdf_behind_header(hid_t file)
     return b;
 }
 
-/* Arrays are transposed, fields of structs are no variables, and a file without an array is refused. */
+/* Arrays are transposed, fields of structs are not variables, and a file without an array is refused. */
 static void
 version_7_3(void **state)
 {

@@ -417,7 +417,7 @@ positions_off_a_grid(void **state)
     static const struct {
         double off;
         const char *why;
-    } cases[] = {{300, "the places of axis CX are no grid: point 6"}, {20, NULL}};
+    } cases[] = {{300, "the places of axis CX do not form a grid: point 6"}, {20, NULL}};
 
     (void)state;
     for (size_t k = 0; k < 2; k++) {

@@ -27,7 +27,7 @@ wrong_headers(void **state)
         {"1.1e-6", "NaN", "'NaN' in main.xml: it must be finite"},
         {"1.1e-6", "inf", "'inf' in main.xml: it must be finite"},
         {"1.1e-6", "1e999", "'1e999' in main.xml: it must be finite"},
-        {"1.1e-6", "1,1e-6", "'1,1e-6' in main.xml: that is no number"},
+        {"1.1e-6", "1,1e-6", "'1,1e-6' in main.xml: that is not a number"},
         {"1.29e-6", "0.0", "spacing in y is 0 m"},
         {"1.29e-6", "", "--dy LENGTH"},
         {"0.25", "0", "increment of CZ is 0"},

@@ -113,8 +113,8 @@ compare_reader(size_t f, const struct rc_grid *g, const struct written *made)
 }
 
 /* The readers of text ask the user in some cases. A matrix of one column could be a profile, three points
- * could be a list, and one line is no raster. In MATLAB a column is a profile too, and one number is no
- * map. */
+ * could be a list, and one line is not a raster. In MATLAB a column is a profile too, and one number is not
+ * a map. */
 static bool
 reader_takes(size_t f, const struct rc_grid *g)
 {

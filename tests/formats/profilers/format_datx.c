@@ -159,7 +159,7 @@ datx_is_refused(void **state)
     struct bytes b = datx_file(true, "Waves", false, 1e-6);
 
     (void)state;
-    refuse(&rc_format_datx, &b, "'Waves', which is no length");
+    refuse(&rc_format_datx, &b, "'Waves', which is not a length");
     drop(&b);
     b = datx_file(true, "NanoMeters", false, 0); /* not calibrated */
     refuse(&rc_format_datx, &b, "does not give the spacing in x: --dx");

@@ -86,7 +86,7 @@ plux_is_refused(void **state)
         {"FOV_X>1.25", "FOV_X>-1", "must be positive"},
         {"FOV_X>1.25", "FOV_X>nan", "does not give the spacing"},
         {"FOV_X>1.25", "FOV_X>inf", "must be positive and finite"},
-        {"FOV_X>1.25", "FOV_X>wide", "no number"},
+        {"FOV_X>1.25", "FOV_X>wide", "not a number"},
         {"LAYER_0.raw", "LAYER_9.raw", "no member 'LAYER_9.raw'"},
         {"LAYER_0.raw", "../../etc/passwd", "no member"},
         {"<?xml version=\"1.0\"?>",

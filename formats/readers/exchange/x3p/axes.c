@@ -43,9 +43,9 @@ find_step(const struct rc_x3p *x, struct points *p, bool is_x, double *step, boo
         double steps = (double)(is_x ? k % x->nx : k / x->nx), here = place_of(p, k, skip, raw);
 
         if (!(fabs(here - first - (*falls ? -even : even) * steps) <= 0.1 * even))
-            return rc_err_set(err,
-                              "the places of axis %s are no grid: point %zu is not where its %s is",
-                              is_x ? "CX" : "CY", k + 1, is_x ? "column" : "row");
+            return rc_err_set(
+                err, "the places of axis %s do not form a grid: point %zu is not where its %s is",
+                is_x ? "CX" : "CY", k + 1, is_x ? "column" : "row");
     }
     *step = even;
     return RC_OK;

@@ -184,7 +184,7 @@ take_datum(struct rc_x3p *x, const char *text, struct rc_err *err)
             err, "Datum %zu is '%s': lists with coordinates are not read, only matrices of heights",
             x->listed + 1, rc_word_shown(text));
     if (end == NULL || *end != '\0')
-        return rc_err_set(err, "Datum %zu is '%s': that is no number", x->listed + 1,
+        return rc_err_set(err, "Datum %zu is '%s': that is not a number", x->listed + 1,
                           rc_word_shown(text));
     if (grow(x, x->listed + 1, err) != RC_OK)
         return RC_FAIL;

@@ -59,7 +59,7 @@ struct rc_x3p {
     size_t listed, capacity; /* numbers in the list, and its capacity */
 };
 
-/* Reads and checks main.xml: RC_FAIL if the data is no map on a regular grid. */
+/* Reads and checks main.xml: RC_FAIL if the data is not a map on a regular grid. */
 enum rc_status rc_x3p_head(struct rc_x3p *x, struct rc_err *err);
 /* The key of the grid that stores a field, for fields from RC_X3P_FIRST_KEY on. */
 const char *rc_x3p_key(size_t field);
@@ -76,7 +76,7 @@ double *rc_x3p_profile(struct rc_x3p *x, struct rc_notes *notes, struct rc_err *
 unsigned char *rc_x3p_unpack_points(struct rc_x3p *x, size_t member, size_t size,
                                     struct rc_notes *notes, struct rc_err *err);
 /* Sets x->dx and dy of a map with absolute axes by its points, and puts their numbers into v unless it is
- * NULL. RC_FAIL where the places are no even grid. */
+ * NULL. RC_FAIL where the places do not form an even grid. */
 enum rc_status rc_x3p_axes(struct rc_x3p *x, const struct rc_file *file, double *v,
                            struct rc_notes *notes, struct rc_err *err);
 /* Puts the heights into v, in metres; missing ones are NAN. */

@@ -207,7 +207,7 @@ end_cell(struct reading *r, struct rc_err *err)
         const char *end = rc_number_read(r->value, false, &r->cell.number);
 
         if (end == NULL || *end != '\0')
-            return rc_err_set(err, "'%s' in sheet '%s', row %u, column %u, is no number",
+            return rc_err_set(err, "'%s' in sheet '%s', row %u, column %u, is not a number",
                               rc_word_shown(r->value), r->sheet->name, r->cell.row, r->cell.column);
     } else if (strcmp(r->type, "e") != 0 && r->inline_text == 0)
         return RC_OK; /* a date or another type */
@@ -233,7 +233,7 @@ take_cell(void *arg, const char *path, const char *text, struct rc_err *err)
         r->cell.column = 0;
     } else if (strcmp(path, "/c/@r") == 0) {
         if (!read_place(text, &r->cell))
-            return rc_err_set(err, "'%s' is no place in a sheet", rc_word_shown(text));
+            return rc_err_set(err, "'%s' is not a cell of a sheet", rc_word_shown(text));
         r->row = r->cell.row - 1;
     } else if (strcmp(path, "/c/@t") == 0 && strlen(text) < sizeof r->type)
         strcpy(r->type, text);

@@ -1,11 +1,11 @@
 /*
- * Workbooks (XLSX) are ZIP archives of XML. In each sheet, blocks of numbers are looked for: neighbouring
- * columns that are filled over the same rows. A block is read as the text would be that it is when it is
- * copied out of the sheet, with the titles above it. Two columns as a profile, three as points or a matrix,
- * more as a matrix, whose first row and column may be positions. The largest is the first channel.
+ * Workbooks (XLSX) are ZIP archives of XML. The reader looks in each sheet for blocks of numbers:
+ * neighbouring columns that are filled over the same rows. A block, with the titles above it, is read like a
+ * text file of the same content. Two columns are a profile, three are points or a matrix, more are a matrix,
+ * whose first row and column may be positions. The largest block is the first channel.
  *
- * SurfTest of Mitutoyo gives a profile without titles. Its positions are then in the unit of the cut-off, its
- * heights in that of the first roughness in column A.
+ * SurfTest of Mitutoyo gives a profile without titles. Its positions are then in the unit of the cut-off,
+ * its heights in the unit of the first roughness in column A.
  *
  * Written from ECMA-376, and for SurfTest from how SurfaceTopography reads it.
  */
@@ -270,8 +270,8 @@ put_titles(const struct rc_workbook *w, const struct block *b, struct text *t)
         title_of(w, b, c, title);
         titled += title[0] != '\0';
     }
-    any =
-        titled > 0 && titled + 1 >= columns; /* a text over one column or two is no row of titles */
+    any = titled > 0 &&
+          titled + 1 >= columns; /* a text over one column or two is not a row of titles */
     if (titled == 0 && b->right == b->left + 1) {
         mitutoyo_titles(w, b, pair[0], pair[1]);
         any = pair[0][0] != '\0';
