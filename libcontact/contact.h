@@ -571,8 +571,8 @@ struct rc_problem {
     const struct rc_ranks *ranks; /* processes that share the map; NULL: none */
     /* If this is not 0 (a signal handler may set it), the caller cannot wait. A step ends before it changes
      * the pressure, and rc_solver_result uses gap and displacement of the last step, in single precision if
-     * its convolutions were. NULL: never. Ignored with ranks, and in problems of which a contact is a
-     * part. */
+     * its convolutions were. NULL: never. Ignored with ranks, and where a contact is part of another
+     * problem. */
     const volatile sig_atomic_t *hurry;
 };
 
@@ -832,7 +832,7 @@ RC_API struct rc_model *rc_yielding_new(const struct rc_shape *shape, const doub
 /* Announces this number of loads, N the largest: slabs are chosen for the largest, and increments also for
  * the loads that inherit their error. Optional. */
 RC_API void rc_yielding_plan(struct rc_model *model, size_t loads, double largest);
-/* The figures after a look, of a yielding model or of a model with a yielding inner model; NULL: neither. */
+/* The figures after a look. NULL: neither the model nor its inner model yields. */
 RC_API const struct rc_yielding_figures *rc_yielding_result(const struct rc_model *model);
 /* Plastic strain of a slab, nx ny each; NULL: not needed. False: no voxel has yielded, or the slab does not
  * exist. */
@@ -931,8 +931,7 @@ struct rc_adhesive_figures {
 RC_API struct rc_model *rc_adhesive_new(const struct rc_shape *shape, const double *h,
                                         const struct rc_adhesion_problem *problem,
                                         struct rc_err *err);
-/* The figures after a look, of an adhesive model or of a model with an adhesive inner model; NULL:
- * neither. */
+/* The figures after a look. NULL: neither the model nor its inner model is adhesive. */
 RC_API const struct rc_adhesive_figures *rc_adhesive_result(const struct rc_model *model);
 
 /* ---- leakage ---- */
@@ -960,7 +959,7 @@ struct rc_leak_figures {
     /* factors of Patir and Cheng for sliding along the flow, the rough body at rest: the flow per width
      * without a pressure difference is U/2 (mean_gap + gap_rms shear_flow_factor); NAN: an even gap */
     double shear_flow_factor;
-    /* of the pressure term of the shear stress: that flow over U/2 mean_gap */
+    /* of the pressure term of the shear stress: the flow due to this term, over U/2 mean_gap */
     double shear_stress_factor;
     double mean_gap; /* m: over all nodes, 0 in contact                                        */
     double gap_rms;  /* m: RMS deviation from mean_gap over all nodes                          */
@@ -1193,8 +1192,8 @@ struct rc_wear_problem {
     /* nx ny numbers from 0 to 1, by which k is multiplied at each node, the largest 1; NULL: 1 everywhere.
      * The caller keeps them as long as the model. */
     const double *part;
-    /* m: body 1 stays in contact and body 2 passes it along x, on a track of this length, each point of which
-     * it wears once per this distance; 0: the same points of both bodies stay in contact */
+    /* m: body 1 stays in contact and body 2 passes it along x, on a track of this length. It wears each
+     * point of the track once per this distance; 0: the same points of both bodies stay in contact */
     double track;
     /* Two rough bodies slide over each other along x, on a map that repeats: h gives the heights of body 1,
      * and h2 those of body 2, nx ny m, face to face (NULL: body 2 is smooth). Each wears by the mean pressure

@@ -125,7 +125,7 @@ RC_API const char *rc_grid_dunit(const struct rc_grid *grid);
 /* Column and row at which x and y are 0: the middle of the map, which may lie between two nodes. A map of
  * wave numbers (dunit=rad/m) has them at the node (nx/2, ny/2). */
 RC_API void rc_grid_origin(const struct rc_grid *grid, double *i, double *j);
-/* The case the frame belongs to: the key `case`, 1 when absent, 0 when it is no whole number > 0. */
+/* The case the frame belongs to: the key `case`, 1 when absent, 0 when it is not a whole number > 0. */
 RC_API size_t rc_grid_case(const struct rc_grid *grid);
 
 /* Adds one step to the key `history`, steps joined by " | ". Past 32 KiB middle steps become "...", and so

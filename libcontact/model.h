@@ -205,8 +205,8 @@ RC_API void rc_model_progress(const struct rc_model *model, struct rc_loops *loo
 RC_API size_t rc_model_state_size(struct rc_model *model);
 RC_API void rc_model_state(struct rc_model *model, double *state);
 /* Continues from this state in a model that was made in the same way. *going: a point is set and not reached
- * yet, so that steps follow, and no go. RC_FAIL when the numbers are no state of such a model, which then can
- * only be freed. */
+ * yet, so that steps follow, and no go. RC_FAIL when the numbers are not a state of such a model, which then
+ * can only be freed. */
 RC_API enum rc_status rc_model_restore(struct rc_model *model, const double *state, size_t n,
                                        bool *going, struct rc_err *err);
 

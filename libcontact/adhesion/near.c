@@ -1,7 +1,7 @@
 /*
  * A times the part of a step that the bounds cut off. Most steps of a large map reach 0 at few nodes, and a
  * convolution for them would cost as much as the rest of the step. The coefficients of A fall with the third
- * power of the distance: those near each node suffice, and the sum of the others bounds the error.
+ * power of the distance: the terms near each node suffice, and the sum of the others bounds the error.
  */
 #include <stdlib.h>
 #include <string.h>

@@ -1,6 +1,6 @@
 /*
  * Temperatures of maps of heat flux by Fourier transforms. A free map is padded; the coefficients are
- * transformed by their even and odd parts, of which a quarter determines the whole. A periodic map needs
+ * transformed by their even and odd parts; a quarter of each part determines the whole. A periodic map needs
  * only the symbol.
  */
 #include <stdlib.h>

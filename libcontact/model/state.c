@@ -334,5 +334,5 @@ rc_model_restore(struct rc_model *m, const double *state, size_t n, bool *going,
         rc_state_refuse(&s, "it has more numbers than the model");
     *going = m->status == RC_MORE;
     return !s.bad ? RC_OK
-                  : rc_err_set(err, "this is no state of the %s model: %s", m->row->name, s.why);
+                  : rc_err_set(err, "this is not a state of the %s model: %s", m->row->name, s.why);
 }

@@ -391,7 +391,7 @@ rc_fft_quarter_row(const struct rc_fft *f, size_t count, unsigned odd, double *c
     half_run(&f->along_x, count, odd, lines);
 }
 
-/* Copies n columns from `first`, of rows `wide` numbers apart. */
+/* Copies the n columns from `first` on; rows are `wide` numbers long. */
 static void
 gather_columns(const double *rows, size_t cy, size_t wide, size_t first, size_t n, double *columns)
 {

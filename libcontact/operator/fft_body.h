@@ -3,12 +3,13 @@
  * sets REAL, COMPLEX, FFTW(name) and C99(name).
  *
  * The padded array is never formed. Each row is transformed separately (real, nx of px values not zero) into
- * `waves`, ny rows of px/2 + 1 complex numbers. Then the columns, one cache line of them at a time, are
- * gathered, transformed to length py, multiplied, transformed back. The needed ny values are scattered. Then
- * the rows are transformed back. Every pass reads and writes each number once.
+ * `waves`, ny rows of px/2 + 1 complex numbers. Then columns are taken together, as many as fill a cache
+ * line. They are gathered, transformed to length py, multiplied and transformed back, and the needed ny
+ * values are scattered. Then the rows are transformed back. Every pass reads and writes each number once.
  *
- * Plans are one-dimensional, out of place and estimated (FFTW_ESTIMATE). For the lengths after splitting they
- * are as fast as measured plans within a tenth. They take no time to make, and are the same in every run.
+ * Plans are one-dimensional, out of place and estimated (FFTW_ESTIMATE). For the lengths after splitting
+ * they are as fast as measured plans within a tenth. They take no time to make, and are the same in every
+ * run.
  */
 #include <complex.h> /* before fftw3.h: its complex numbers are then C's own */
 #include <fftw3.h>

@@ -15,7 +15,7 @@
 enum {
     STRIP_STEPS = 256
 };
-/* Sums over wave numbers from end exp(-k step) to end, 1/Pa; end = 0: the map is no strip. */
+/* Sums over wave numbers from end exp(-k step) to end, 1/Pa; end = 0: the map is not a strip. */
 struct strip {
     double end, step, sum[STRIP_STEPS];
     double width; /* width of the map, m */
@@ -274,11 +274,12 @@ rc_operator_free(struct rc_operator *op)
 
 /* ---- the inverse ---- */
 
-/* The spectrum of a padded kernel may be negative for some waves, under stiff coatings that bend over lengths
- * near that of the map. Its inverse is then kept within these bounds of that of a uniform half-space with the
- * stiffness of the bodies for each wave. A positive spectrum, under soft coatings, is used unchanged except
- * for the longest waves. For thin, nearly incompressible coatings it decreases to 0.005 of that half-space at
- * the shortest waves. With these bounds the estimated error was down to half of the error. */
+/* The spectrum of a padded kernel may be negative for some waves, under stiff coatings that bend over
+ * lengths near that of the map. Its inverse is then kept within these bounds of the inverse of a uniform
+ * half-space with the stiffness of the bodies for each wave. A positive spectrum, under soft coatings, is
+ * used unchanged except for the longest waves. For thin, nearly incompressible coatings it decreases to
+ * 0.005 of that half-space at the shortest waves. With these bounds the estimated error was down to half of
+ * the error. */
 static const double least = 0.7, most = 1.5;
 static const double long_waves = 6; /* times half the smallest wave number of the padded map */
 

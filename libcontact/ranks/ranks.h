@@ -115,8 +115,8 @@ enum rc_status rc_ranks_agree(const struct rc_ranks *ranks, enum rc_status statu
                               struct rc_err *err);
 /* Pieces to columns, or, `back`, columns to pieces. */
 void rc_ranks_turn(const struct rc_turn *turn, bool back, const void *from, void *to);
-/* Moves rows of `bytes`, of which rank r holds from[r] .. from[r + 1] - 1. It gets those up to the last from
- * to[r] .. to[r + 1] - 1 + more; NULL: all. */
+/* Moves rows of `bytes`. Before, rank r holds the rows from[r] .. from[r + 1] - 1; afterwards it holds
+ * to[r] .. to[r + 1] - 1 + more, but none beyond the last row. NULL: all rows. */
 void rc_ranks_move(const struct rc_ranks *ranks, size_t bytes, const size_t *from, const size_t *to,
                    size_t more, const void *v, void *w);
 /* The row before the first one held here and the one after the last. False where there is none: at the ends

@@ -106,8 +106,8 @@ largest(const struct rc_ranks *ranks, const double *v, size_t n)
 
 /* ---- between ranks ---- */
 
-/* The first coarse row of each rank: `under`: of those that cover its fine rows; `own`: of those that it
- * solves. */
+/* The first coarse row of each rank: `under`: the first that covers its fine rows; `own`: the
+ * first that it solves. */
 struct dealt {
     size_t *under, *own;
 };

@@ -179,8 +179,8 @@ make_room(struct rc_preconditioner *e, struct rc_err *err)
                       op->shape.ny);
 }
 
-/* The pyramid's finest grid on a map of which `count` ranks hold rows: this rank holds `rows`, with its part
- * of the frame. */
+/* The pyramid's finest grid, on a map shared by `count` ranks: this rank holds `rows`, with its part of the
+ * frame. */
 static struct rc_pyramid_base
 base_of(const struct rc_shape *whole, enum rc_boundary boundary, struct rc_frame frame,
         size_t count, const struct rc_rows *rows)

@@ -116,7 +116,7 @@ rc_projection_of(const struct rc_solver *s, double *y)
 /* ---- of a step ---- */
 
 /* Context of the passes over all nodes: on W p becomes y = p + alpha (d - mean), and then clip(y + shift, 0,
- * H). Loads are those above the lower bounds. */
+ * H). Loads count from the lower bounds. */
 struct step {
     struct rc_move *m;
     struct rc_box box;
@@ -247,8 +247,8 @@ scaled(const struct scale *c, struct rc_box box, size_t k)
     return low + c->f * (c->s->it.p[k] - low);
 }
 
-/* sums[0]: load of the elastic nodes; sums[1]: rooms of those that would reach the bound with the factor
- * f. */
+/* sums[0]: load of the elastic nodes; sums[1]: rooms of the elastic nodes that would reach the
+ * bound with the factor f. */
 static void
 elastic_block(void *at, size_t first, size_t n, double *sums)
 {
@@ -319,7 +319,7 @@ room_block(void *at, size_t first, size_t n, double *sums)
             sums[0] += rc_room(box, k);
 }
 
-/* Sum of the rooms of those nodes. */
+/* Sum of the rooms of these nodes. */
 static double
 room_of_gaps(struct scale *c, double least, double most)
 {

@@ -15,8 +15,8 @@ enum {
 
 /* ---- one direction ---- */
 
-/* One direction of a grid of n nodes, of which the coarser grid has `coarse` nodes. Its node j lies over
- * nodes 2 j and 2 j + 1 or, where this direction is kept, over node j. */
+/* One direction of a grid: n nodes here, `coarse` on the next coarser grid. Coarse node j lies over nodes
+ * 2 j and 2 j + 1 or, where this direction is kept, over node j. */
 struct axis {
     size_t n, coarse;
     bool halved, round;
@@ -649,7 +649,7 @@ rc_pyramid_row(const struct rc_pyramid *p, int c, size_t j, float *row)
             row[i] = p->beyond[c];
 }
 
-/* A symmetric matrix, xx yy xy, as a function f of it: the same axes, eigenvalues f(...). */
+/* Replaces a symmetric matrix A = (xx, yy, xy) by f(A): the axes stay, an eigenvalue e becomes f(e). */
 struct eigen {
     float mean, half; /* mean of both eigenvalues, and half of their difference */
 };

@@ -1,5 +1,5 @@
 /*
- * The parts of an areal description, each of which sets its own fields. Internal: never installed.
+ * The parts of an areal description. Each function sets its own fields. Internal: never installed.
  */
 #ifndef RC_SURFACE_AREAL_H
 #define RC_SURFACE_AREAL_H

@@ -1,10 +1,10 @@
 /*
- * Widths of holes: exact distances of missing points from measured ones. The time is proportional to the size
- * of the map (Felzenszwalb and Huttenlocher, Theory of Computing 8, 2012).
+ * Widths of holes: exact distances of missing points from measured ones. The time is proportional to the
+ * size of the map (Felzenszwalb and Huttenlocher, Theory of Computing 8, 2012).
  *
  * A count down and one up each column gives the steps from every node to the nearest measured node of its
  * column. Along a row the squared distance of column i is then the least of f_k + (i - k)^2 over the columns
- * k. f_k is the square of that count, in units of dx. These are parabolas of one shape, any two of which
+ * k. f_k is the square of that count, in units of dx. These are parabolas of one shape, and any two of them
  * cross once. Their lower envelope is a list of parabolas from left to right, each the lowest on one run of
  * columns.
  */

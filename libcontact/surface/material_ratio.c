@@ -3,9 +3,10 @@
  * for the ratios k/n to (k+1)/n, so that areas under the curve are sums. Heights between nodes are
  * interpolated from (k + 1/2)/n.
  *
- * The core's line is that of least squares over the 40 % of smallest secant slope (ISO 25178-2, ISO 13565-2).
- * It meets the ratios 0 and 1 at the top and the bottom of the core. The material above the top and the void
- * below the bottom are each replaced by a triangle. It has the same area and the same range of ratios.
+ * The core's line is a least-squares fit over the 40 % with the smallest secant slope (ISO 25178-2, ISO
+ * 13565-2). It meets the ratios 0 and 1 at the top and the bottom of the core. The material above the top
+ * and the void below the bottom are each replaced by a triangle. It has the same area and the same range of
+ * ratios.
  */
 #include "areal.h"
 

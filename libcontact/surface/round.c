@@ -369,8 +369,8 @@ find_residuals(const struct round *f, surface_row *row, const double *p)
 
 /* ---- the equations ---- */
 
-/* x of (matrix + damping times its diagonal) x = right, n unknowns, by Cholesky's factors of the matrix
- * scaled to a diagonal of 1. False where a pivot is below no_pivot. */
+/* Solves (matrix + damping times its diagonal) x = right for n unknowns x, by Cholesky's factors of the
+ * matrix scaled to a diagonal of 1. False where a pivot is below no_pivot. */
 static bool
 solve_damped(size_t n, const struct normal *normal, double damping, double *x)
 {
@@ -505,7 +505,7 @@ start_sphere(const struct round *f, double *p, struct rc_err *err)
     return RC_OK;
 }
 
-/* The direction is that of the largest curvature of a quadratic polynomial. */
+/* Finds the direction of the largest curvature of a quadratic polynomial. */
 static enum rc_status
 start_cylinder(const struct round *f, double *p, struct rc_err *err)
 {

@@ -120,9 +120,9 @@ correlation_of(const double *c, const struct rc_offsets *at, double x, double y)
     return c[(size_t)y * (2 * at->mx + 1) + (size_t)(x + (double)at->mx)];
 }
 
-/* The correlation at (x, y) nodes, one of which is whole. A cubic goes through four values along the other
- * direction, because linear interpolation would give the smooth maximum a kink. It is linear where the outer
- * two of the four are missing. */
+/* The correlation at the offset (x, y) in nodes; x or y is a whole number. A cubic goes through four values
+ * along the other direction, because linear interpolation would give the smooth maximum a kink. It is linear
+ * where the outer two of the four are missing. */
 static double
 correlation_at(const double *c, const struct rc_offsets *at, double x, double y)
 {

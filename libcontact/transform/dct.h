@@ -1,6 +1,6 @@
 /*
- * Real even and odd transforms of lines of which half a period is given (the discrete cosine and
- * sine transforms of type I). Internal: never installed.
+ * Real even and odd transforms of lines, given by half a period (the discrete cosine and sine
+ * transforms of type I). Internal: never installed.
  */
 #ifndef RC_DCT_H
 #define RC_DCT_H

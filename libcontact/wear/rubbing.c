@@ -129,7 +129,7 @@ keep(struct rc_model *m, struct rc_err *err)
     return RC_OK;
 }
 
-/* Starts a contact. The last one had another alignment, so that its pressure is no start. */
+/* Starts a contact. The last one had another alignment, so its pressure is not used. */
 static enum rc_status
 contact(struct sliding *v, size_t stage, struct rc_err *err)
 {
@@ -181,7 +181,7 @@ find_figures(struct sliding *v)
     f->wear_error = v->s > 0 ? caution * apart / (lost[0] + lost[1]) + v->of_contacts / v->s : 0;
 }
 
-/* Ends at a point, of which both runs have the pressure. */
+/* Ends at a point, when both runs have its pressure. */
 static enum rc_status
 arrive(struct sliding *v)
 {

@@ -819,7 +819,8 @@ goes_on(void **state)
     assert_true(step > 30 && exact >= thorough(KEPT_LOADS, 1) && pressure < 1e-7 && strain < 1e-6);
 }
 
-/* Numbers that are no state of this problem are refused, and the model that they came from is not changed. */
+/* Numbers that are not a state of this problem are refused, and the model that they came from is not
+ * changed. */
 static void
 refuses_states(void **state)
 {
