@@ -198,13 +198,13 @@ mirror(struct tool *t, struct rc_grid *g, double value, struct rc_err *err)
 
     (void)t, (void)value;
     if (rc_grid_get(g, "section") != NULL || strcmp(rc_grid_dunit(g), "m") != 0)
-        return rc_err_set(err, "--mirror: the frame is no map of places: leave it out, with "
+        return rc_err_set(err, "--mirror: the frame is not a map of places: leave it out, with "
                                "rc-pick --channel");
     if (is_periodic(g))
         return rc_err_set(
             err, "--mirror has no effect, because the map is already periodic: leave it out");
     if (from.nx * from.ny == 1)
-        return rc_err_set(err, "--mirror: a single node is no map");
+        return rc_err_set(err, "--mirror: a single node is not a map");
     if (rc_shape_check(&to, err) != RC_OK || rc_size_mul(to.nx, to.ny, &nodes, err) != RC_OK ||
         rc_size_mul(nodes, sizeof *v, &bytes, err) != RC_OK)
         return RC_FAIL;

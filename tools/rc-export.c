@@ -112,7 +112,7 @@ settle_missing(struct tool *t)
 {
     wish.missing = args.missing;
     if (wish.missing != NULL && !format->text)
-        tool_usage(t, "--missing: %s is no text and marks missing points by its own rule",
+        tool_usage(t, "--missing: %s is not a text format and marks missing points by its own rule",
                    format->name);
     for (const char *s = wish.missing; s != NULL && *s != '\0'; s++)
         if (*s <= ' ' || *s > '~' || strchr(",;*", *s) != NULL)
@@ -129,7 +129,7 @@ settle_relief(struct tool *t)
 {
     wish.relief = args.relief;
     if (wish.relief > 0 && !format->relief)
-        tool_usage(t, "--relief: %s keeps the heights, and is no format for printers",
+        tool_usage(t, "--relief: %s keeps the heights, and is not a format for printers",
                    format->name);
 }
 

@@ -124,7 +124,7 @@ wish_separator(struct tool *t)
                          (text[0] | 0x20) == 'e'))
         tool_usage(t,
                    "--separator '%s': space, tab, comma, semicolon or one character "
-                   "that is no part of a number is expected",
+                   "that is not part of a number is expected",
                    text);
     return text;
 }

@@ -330,7 +330,7 @@ count_contact(const struct rc_grid *touch)
 }
 
 /* The frame that defines the contact of this one: `contact` earlier in its case, or the pressure itself.
- * NULL: unknown, or it is no pressure. */
+ * NULL: unknown, or it is not a pressure. */
 static const struct rc_grid *
 touching(struct tool *t, const struct rc_grid *g, struct beside *b)
 {

@@ -52,7 +52,7 @@ static const struct tool_info info = {
 
 /* ---- --set KEY=VALUE ---- */
 
-/* Header lines that --set refuses: those that describe the grid, and those that order the stream. */
+/* Header lines that --set refuses: they describe the grid or order the stream. */
 static const struct {
     const char *key, *why;
 } kept[] = {

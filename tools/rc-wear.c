@@ -447,8 +447,7 @@ suspect_unit(struct run *run, const struct rc_grid *g)
 
 /* ---- a worn map ---- */
 
-/* Warns of worn heights that are steep, and of a surface of which nothing is left. `room` has a map for
- * them. */
+/* Warns of steep worn heights, and of a surface that is worn away. `room` has a map for the heights. */
 static void
 judge_map(struct run *run, struct rc_model *m, struct rc_grid *room)
 {

@@ -106,7 +106,7 @@ class Step:
 
     def __init__(self, tool, options, number, source):
         if not tables()[tool]['step']:
-            raise Refused('%s is no step of this page' % tool)
+            raise Refused('%s is not a step of this page' % tool)
         stem = '%d-%s' % (number, tool[3:])
         self.tool, self.output = tool, stem + '.rcg'
         self.report = stem + '.tsv' if tables()[tool]['report'] else None

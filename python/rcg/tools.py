@@ -245,7 +245,7 @@ def _reported(command, data, has_report, timeout=None, progress=False):
 
 def _frames_of(tool, output):
     if output and not isinstance(output, _Stream):
-        raise Error('the output of %s is no grid stream: run it in a shell' % tool)
+        raise Error('the output of %s is not a grid stream: run it in a shell' % tool)
     if output and output.error is not None:
         raise output.error
     return output.frames if output else []

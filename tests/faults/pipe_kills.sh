@@ -123,11 +123,11 @@ costs() {
 claim "rc-cost, stopped at random moments, leaves no half-written file" costs
 claim "a new map replaces the old one" bash -c '
     echo old >map.rcg && rc-info --psd --psd-map map.rcg rough.rcg && rc-info map.rcg'
-refuses 2 'rc-solve: --checkpoint -: .*give a file name' "a checkpoint is no pipe" \
+refuses 2 'rc-solve: --checkpoint -: .*give a file name' "a checkpoint is not a pipe" \
     "rc-solve --estar 1GPa --load 0.1N --checkpoint - -o x.rcg rough.rcg"
 refuses 2 'rc-cost: --plot -: a picture is' "a plot has to say what it is" \
     "rc-cost --estar 1GPa --load 0.1N --plot - rough.rcg"
-refuses 2 'rc-info: --psd-map -: ' "a map of waves is no pipe" "rc-info --psd --psd-map - rough.rcg"
+refuses 2 'rc-info: --psd-map -: ' "a map of waves is not a pipe" "rc-info --psd --psd-map - rough.rcg"
 claim "no file has the name -" test ! -e -
 
 finish

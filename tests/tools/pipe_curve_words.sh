@@ -148,7 +148,7 @@ refuses 2 '--by ,k: it must be names of columns' "a column without a name" "$dra
 refuses 1 'few.tsv: there is no column z: there are x, y, k, e' "a column that is not there" "$draw --curve x:y --by z few.tsv"
 refuses 2 'it is for tables, with --curve X:Y: leave out --spread' "the spread of a map" "$draw --spread ball.rcg"
 refuses 2 'it is for curves: --curve, --cut, --histogram, --material-ratio: leave out --x-unit' "units of a map" "$draw --x-unit mm ball.rcg"
-refuses 2 'the text is not UTF-8' "a legend that is no text" "$draw --curve x:y --legend \$'\\xff' few.tsv"
+refuses 2 'the text is not UTF-8' "a legend that is not text" "$draw --curve x:y --legend \$'\\xff' few.tsv"
 refuses 1 'more than 63 curves in one picture' "a curve a row" "perl -e 'print \"x\ty\tk\n\"; print \"\$_\t1\t\$_\n\" for 1 .. 80' | $draw --curve x:y --by k"
 claim "refused commands leave no picture" bash -c '[ ! -e out.svg ] && [ -z "$(ls out.svg.* 2>/dev/null)" ]'
 

@@ -48,9 +48,9 @@ END
 # ---- refusals ----
 
 refuses 1 'p.rcg is a grid stream: --curve draws tables' "a stream" "$draw --curve load:approach p.rcg"
-refuses 1 'r.json is no grid stream: it looks like a table: draw columns of it, as in --curve' \
+refuses 1 'r.json is not a grid stream: it looks like a table: draw columns of it, as in --curve' \
     "a report without --curve" "$draw r.json"
-refuses 1 'standard input is no grid stream: it looks like a table' "a table in a pipe without --curve" "$draw <r.tsv"
+refuses 1 'standard input is not a grid stream: it looks like a table' "a table in a pipe without --curve" "$draw <r.tsv"
 refuses 1 'r.tsv: there is no column force: there are case, source, nx' "a column that is not there" \
     "$draw --curve force:approach r.tsv"
 refuses 1 'r.json: there is no column force: there are case, source, nx' "the same of JSON" "$draw --curve force:approach r.json"
@@ -59,9 +59,9 @@ refuses 1 'approach is in m, contact_area in m2: an axis has one unit' "two unit
     "$draw --curve load:contact_area,approach r.tsv"
 refuses 1 'line 3: it has 1 columns, the heading has 2' "a row too short" \
     "printf 'a\tb\n1\t2\n3\n' | $draw --curve a:b"
-refuses 1 "line 2: this is no JSON: '}' is missing|line 2: this is no JSON: ',' is missing" "JSON that is cut off" \
+refuses 1 "line 2: this is not JSON: '}' is missing|line 2: this is not JSON: ',' is missing" "JSON that is cut off" \
     "printf '{\"a\": 1, \"b\": 2}\n{\"a\": 3' | $draw --curve a:b"
-refuses 1 'this is no JSON' "half of JSON" "printf '{\"a\": 1, \"b\" 2}' | $draw --curve a:b"
+refuses 1 'this is not JSON' "half of JSON" "printf '{\"a\": 1, \"b\" 2}' | $draw --curve a:b"
 refuses 1 'its JSON is nested too deep' "JSON of a thousand brackets" \
     "perl -e 'print \"{\\\"a\\\":\" . \"[\" x 100000' | $draw --curve a:b"
 refuses 1 'its arrays have 3 and 2 values' "arrays that differ" \
@@ -118,7 +118,7 @@ refuses 1 '20 columns on 400 pixels leave' "a sheet too narrow" "$draw --sheet 2
 rc-synth sphere --nx 33 --dx 10um --radius 7.5mm -o small.rcg
 refuses 1 'a sheet shows maps of one size' "maps of two sizes" "$draw --sheet auto ball.rcg small.rcg"
 rc-synth wave --nx 30 --ny 1 --dx 1um --amplitude 1um --wavelength 10um -o wave.rcg
-refuses 1 'a profile is no map: draw several as curves' "profiles" "$draw --sheet auto wave.rcg wave.rcg"
+refuses 1 'a profile is not a map: draw several as curves' "profiles" "$draw --sheet auto wave.rcg wave.rcg"
 claim "profiles are drawn as curves" rc-render --cut y=0 --case 1,2 -o c.png wave.rcg wave.rcg
 
 # ---- reliefs ----

@@ -128,7 +128,7 @@ refuses 1 'sur says of its spacings that they are lengths, these are in rad/m' "
 claim "vti: column 0 is at -32 steps" bash -c 'rc-export -o ridge.vti ridge.rcg && head -c 400 ridge.vti | grep -a "Origin=\"-3141592\.65[0-9]* -3141592\.65"'
 rc-pick --set channel=height ridge.rcg -o false.rcg
 for tool in "rc-detrend --plane" "rc-solve --load 1N --estar 1GPa" "rc-info --areal" "rc-synth sphere --radius 1mm --like"; do
-    refuses 1 'its dx and dy are in rad/m .key dunit.' "wave numbers are no lengths: $tool" "$tool false.rcg"
+    refuses 1 'its dx and dy are in rad/m .key dunit.' "wave numbers are not lengths: $tool" "$tool false.rcg"
 done
 claim "a picture of the spectrum has its title and units" bash -c 'rc-render --log -o ridge.svg ridge.rcg && says ">Power spectral density<" cat ridge.svg &&
     says ">qx \\(10" cat ridge.svg && says ">qy \\(10" cat ridge.svg && says "rad/m" cat ridge.svg && lacks "Mm" ridge.svg'

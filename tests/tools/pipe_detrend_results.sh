@@ -24,7 +24,7 @@ refuses 1 'case 2, frame 4' "in the second case too" "rc-detrend --plane surface
 
 $solve --output gap surface.rcg | sed 's/^channel=gap/channel=colour/' | reseal >colour.rcg
 { head -c -9 surface.rcg; head -c -9 colour.rcg; printf 'RCGEND 2\n'; } >both.rcg
-claim "frames that are no results are passed on" says '^  *2$' bash -c \
+claim "frames that are not results are passed on" says '^  *2$' bash -c \
     'rc-detrend --plane both.rcg | rc-info | grep -c "^  grid" | sed "s/^/ /"'
 $solve --output height surface.rcg -o alone.rcg
 claim "the height of a solution alone can be changed" rc-detrend --plane alone.rcg -o out.rcg

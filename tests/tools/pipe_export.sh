@@ -23,7 +23,7 @@ refuses 2 "--format png: no such format" "and a name of none" 'rc-export --forma
 refuses 2 "--type f64: gsf holds only f32" "and a type that the format lacks" \
     'rc-export --format gsf --type f64 one.rcg'
 refuses 2 "--type f64: csv is text and has no types" "and one for text" 'rc-export --format csv --type f64 one.rcg'
-refuses 2 "--missing: npy is no text and marks missing points by its own rule" "--missing is for text" \
+refuses 2 "--missing: npy is not a text format and marks missing points by its own rule" "--missing is for text" \
     'rc-export --format npy --missing X one.rcg'
 refuses 2 "--missing 'a b': one word without blanks" "and takes one word" 'rc-export --format csv --missing "a b" one.rcg'
 

@@ -132,10 +132,10 @@ claim "  a map of hardness is mirrored too, without a message" bash -c '
 refuses 1 'case 1.*--mirror has no effect, because the map is already periodic: leave it out' "a mirror of what repeats" "rc-detrend --mirror m.rcg"
 refuses 1 '--mirror has no effect, because the map is already periodic' "two mirrors" "rc-detrend --mirror --mirror level.rcg"
 rc-pick --crop 0,0,1,1 level.rcg -o node.rcg
-refuses 1 '--mirror: a single node is no map' "a mirror of one node" "rc-detrend --mirror node.rcg"
+refuses 1 '--mirror: a single node is not a map' "a mirror of one node" "rc-detrend --mirror node.rcg"
 rc-pick --set channel=psd level.rcg | rc-pick --set dunit=rad/m - -o wave.rcg
 beside level.rcg wave.rcg >waved.rcg
-refuses 1 '--mirror: the frame is no map of places: leave it out' "a mirror of a spectrum" "rc-detrend --mirror waved.rcg"
+refuses 1 '--mirror: the frame is not a map of places: leave it out' "a mirror of a spectrum" "rc-detrend --mirror waved.rcg"
 claim "the history has all steps in SI" \
     says 'rc-detrend [0-9.]* --outliers 3.5 --sphere --lowpass 9e-06 --fill --taper 5e-06 --robust"' bash -c '
     rc-detrend --robust --outliers 3.5 --sphere --lowpass 9um --fill --taper 5um spikes.rcg | rc-info --json'

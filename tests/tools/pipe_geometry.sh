@@ -154,7 +154,7 @@ refuses 1 'selfaffine-seed-1, case 1, frame 1 \(sxz\): --mirror: stresses would 
 refuses 1 '\(sxz\): --rotate: stresses would change sign or places' "turned stresses" "rc-pick --channel sxz --rotate 90 stress.rcg"
 rc-stress --nu 0.3 --section y=0 --depths 0:10um:5 --components mises solved.rcg -o section.rcg
 for step in '--crop 0,0,2,2' '--resample 2um' '--mirror x' '--rotate 90'; do
-    refuses 1 "\(mises\): ${step%% *}: a section is no map: its rows are depths" "a section: $step" "rc-pick $step section.rcg"
+    refuses 1 "\(mises\): ${step%% *}: a section is not a map: its rows are depths" "a section: $step" "rc-pick $step section.rcg"
 done
 rc-pick --set channel=psd --set unit=m4 rough.rcg -o psd.rcg
 refuses 1 'a spectrum has its zero in the middle: do it to the surface' "a part of a spectrum" "rc-pick --crop 0,0,5,5 psd.rcg"

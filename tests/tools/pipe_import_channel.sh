@@ -54,7 +54,7 @@ first_value() {
 
 # ---- names ----
 
-reads 2 "a deflection in metres is no topography" 'Deflection|Scan forward|m' 'Z-Axis|Scan forward|m'
+reads 2 "a deflection in metres is not a topography" 'Deflection|Scan forward|m' 'Z-Axis|Scan forward|m'
 reads 2 "nor is a height that is an error" 'Height Error|Scan forward|m' 'Topography|Scan forward|m'
 reads 2 "a name that says nothing comes before a deflection" 'Deflection||m' 'User||m'
 reads 3 "and after a topography" 'Deflection||m' 'User||m' 'Topography||m'

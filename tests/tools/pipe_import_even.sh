@@ -127,7 +127,7 @@ printf 'aISO-1.0\nNumPoints = 4\nNumProfiles = 1\nXscale = 1e-6\nYscale = 1e-6\n
 rc-import --even=0.5um p.sdf -o sdf.rcg
 claim "the same holds for any format" same_heights <(heights sdf.rcg) <(heights half.rcg)
 printf '# Width: 2 um\n# Height: 2 um\n# Value units: nm\n1 2 3\n4 5 6\n' >map.txt
-claim "a map is refused, because it is no profile" bash -c 'rc-import --even map.txt | grep -a ^ny=2'
+claim "a map is refused, because it is not a profile" bash -c 'rc-import --even map.txt | grep -a ^ny=2'
 refuses 1 "map.txt: --even STEP resamples profiles, and this is a map of 2 rows" "and takes no step" 'rc-import --even=1um map.txt'
 
 # ---- without a unit ----

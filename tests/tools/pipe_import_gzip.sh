@@ -37,7 +37,7 @@ claim "several members form one file" same_as map.txt members.txt.gz
 (gzip -c map.txt; head -c 700 /dev/zero) >padded.txt.gz
 claim "zeros after the last member are ignored" same_as map.txt padded.txt.gz
 (gzip -c map.txt; printf 'more') >more.txt.gz
-refuses 1 "more.txt.gz: after its gzip data the file has 4 further bytes that are no gzip data" "other bytes are" 'rc-import more.txt.gz'
+refuses 1 "more.txt.gz: after its gzip data the file has 4 further bytes that are not gzip data" "other bytes are" 'rc-import more.txt.gz'
 size=$(wc -c <ball.sdf.gz)
 for n in 2 3 9 10 11 100 $((size / 2)) $((size - 9)) $((size - 8)) $((size - 1)); do
     head -c "$n" ball.sdf.gz >cut.sdf.gz

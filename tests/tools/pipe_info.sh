@@ -60,7 +60,7 @@ claim "-o FILE writes to the file" bash -c 'rc-info --json -o file.json map.rcg 
 size=$(wc -c <map.rcg)
 refuses 1 'the stream stops before the checksum of a frame' "a stream cut off" "head -c $((size - 20)) map.rcg | rc-info"
 refuses 1 "the checksum is [0-9a-f]{8}, but that of the data is [0-9a-f]{8}" "a damaged one" "sed 's/^unit=m/unit=n/' map.rcg | rc-info"
-refuses 1 '^rc-info: map.txt is no grid stream, it looks like text: rc-import map.txt [|] rc-info ...$' "something else" "rc-info map.txt"
+refuses 1 '^rc-info: map.txt is not a grid stream, it looks like text: rc-import map.txt [|] rc-info ...$' "something else" "rc-info map.txt"
 refuses 1 'nowhere.rcg: No such file' "nothing" "rc-info nowhere.rcg"
 refuses 2 'unknown option --yaml: see rc-info --help' "an unknown option" "rc-info --yaml map.rcg"
 refuses 1 'writing failed \(No space left on device\)' "a full disk" "rc-info map.rcg >/dev/full"

@@ -102,7 +102,7 @@ refuses 1 'each material has its own Poisson' "--nu beside layers" "rc-stress --
 coat ball.rcg '2e-05,4e11,0.2;inf,inf,0.3' >rigid.rcg
 refuses 1 'depth 3e-05 m is inside its rigid substrate' "a depth in a rigid substrate" \
     "rc-stress --depths 20um,30um rigid.rcg"
-claim "a rigid substrate is no material for stresses, and auto ends at it" bash -c '
+claim "a rigid substrate is not a material for stresses, and auto ends at it" bash -c '
     rc-stress --depths 20um --components szz rigid.rcg -o face.rcg &&
     rc-stress --depths auto --components szz rigid.rcg | rc-info | grep "depth=" | tail -n 1 >last.txt &&
     grep -q "depth=2e-05$" last.txt'

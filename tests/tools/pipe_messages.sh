@@ -33,7 +33,7 @@ for unit in N Pa um mN s; do
     refuses 1 "^rc-solve: $unit: No such file or directory: a unit follows its number without a blank, as in 60$unit$" \
         "60 $unit" "rc-solve --load 60 $unit --estar 114GPa ball.rcg -o never.rcg"
 done
-refuses 1 '^rc-solve: none: No such file or directory$' "a word that is no unit" "rc-solve --load 60 none --estar 114GPa -o never.rcg"
+refuses 1 '^rc-solve: none: No such file or directory$' "a word that is not a unit" "rc-solve --load 60 none --estar 114GPa -o never.rcg"
 refuses 1 'no frame with the channel pressure, only height: rc-solve finds the pressure of heights under a load$' "stresses of heights" \
     "rc-stress --nu 0.3 --depths 0 ball.rcg -o never.rcg"
 rc-synth wave --nx 64 --dx 1um --amplitude 1um --wavelength 16um -o ridges.rcg

@@ -14,23 +14,23 @@ gzip -c heights.txt >heights.gz
 rc-synth sphere --nx 17 --dx 5um --radius 7.5mm -o ball.rcg
 rc-render -o ball.png ball.rcg
 
-refuses 1 '^rc-solve: steel.x3p is no grid stream, it looks like a ZIP archive: rc-import steel.x3p [|] rc-solve \.\.\.$' \
+refuses 1 '^rc-solve: steel.x3p is not a grid stream, it looks like a ZIP archive: rc-import steel.x3p [|] rc-solve \.\.\.$' \
     "an instrument's file" "$press steel.x3p"
 claim "  the message is right" bash -c 'rc-import steel.x3p | rc-info >/dev/null'
-refuses 1 "no grid stream, it looks like a ZIP archive: rc-import 'my steel.x3p' [|] rc-info" "a name with a blank" "rc-info 'my steel.x3p'"
-refuses 1 'heights.txt is no grid stream, it looks like text: rc-import heights.txt [|] rc-detrend' "text" "rc-detrend --plane heights.txt"
-refuses 1 'heights.gz is no grid stream, it looks like GZIP' "something compressed" "rc-stress --nu 0.3 --depths 0 heights.gz"
-refuses 1 '^rc-info: standard input is no grid stream, it looks like text: rc-import - [|] rc-info' "through a pipe" "cat heights.txt | rc-info"
-refuses 1 'ball.png is no grid stream, but looks like a PNG picture: rc-info reads streams of rc-import$' "a picture" "rc-info ball.png"
+refuses 1 "not a grid stream, it looks like a ZIP archive: rc-import 'my steel.x3p' [|] rc-info" "a name with a blank" "rc-info 'my steel.x3p'"
+refuses 1 'heights.txt is not a grid stream, it looks like text: rc-import heights.txt [|] rc-detrend' "text" "rc-detrend --plane heights.txt"
+refuses 1 'heights.gz is not a grid stream, it looks like GZIP' "something compressed" "rc-stress --nu 0.3 --depths 0 heights.gz"
+refuses 1 '^rc-info: standard input is not a grid stream, it looks like text: rc-import - [|] rc-info' "through a pipe" "cat heights.txt | rc-info"
+refuses 1 'ball.png is not a grid stream, but looks like a PNG picture: rc-info reads streams of rc-import$' "a picture" "rc-info ball.png"
 printf '{"case": 1}\n' >report.json
-refuses 1 'report.json is no grid stream: it looks like a table: draw columns of it, as in --curve' "a report" "rc-render -o x.png report.json"
+refuses 1 'report.json is not a grid stream: it looks like a table: draw columns of it, as in --curve' "a report" "rc-render -o x.png report.json"
 head -c 3000 /dev/zero >zeros
-refuses 1 'zeros is no grid stream: rc-import zeros [|] rc-info' "zeros" "rc-info zeros"
+refuses 1 'zeros is not a grid stream: rc-import zeros [|] rc-info' "zeros" "rc-info zeros"
 tr '\0' 'x' <zeros >exes
-refuses 1 'exes is no grid stream, it looks like text' "a line without an end" "rc-info exes"
+refuses 1 'exes is not a grid stream, it looks like text' "a line without an end" "rc-info exes"
 sed 's/$/\r/' ball.rcg >dos.rcg
 refuses 1 'dos.rcg: a copy in text mode has changed its line ends' "a stream copied as text" "rc-info dos.rcg"
-refuses 1 '^rc-info: steel.x3p is no grid stream' "the second of two files" "rc-info ball.rcg steel.x3p"
+refuses 1 '^rc-info: steel.x3p is not a grid stream' "the second of two files" "rc-info ball.rcg steel.x3p"
 
 # ---- empty ----
 

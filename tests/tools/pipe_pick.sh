@@ -104,7 +104,7 @@ for key in channel unit dx dy; do
 done
 refuses 2 '--set Load=1: KEY=VALUE is expected' "a key with a capital letter" 'rc-pick --set Load=1 surface.rcg'
 refuses 2 '--set load: KEY=VALUE is expected' "a key without a value" 'rc-pick --set load surface.rcg'
-refuses 2 "--set dx=1Pa: unknown unit 'Pa'" "a spacing that is no length" 'rc-pick --set dx=1Pa surface.rcg'
+refuses 2 "--set dx=1Pa: unknown unit 'Pa'" "a spacing that is not a length" 'rc-pick --set dx=1Pa surface.rcg'
 refuses 2 '--set dx=0: it must be above 0' "no spacing" 'rc-pick --set dx=0 surface.rcg'
 refuses 2 '--case 1.5: it must be a whole number' "half a case" 'rc-pick --case 1.5 surface.rcg'
 refuses 2 "--channel 'a,,b': a name is empty" "a list with a hole" 'rc-pick --channel a,,b surface.rcg'

@@ -172,7 +172,7 @@ refuses 2 '--width -85mm: on paper it must be at least 60mm' "a width below noth
 refuses 2 '--width 85N: unknown unit' "a width in newtons" "$draw --width 85N height.rcg"
 refuses 2 '--raw draws no text: leave out --font' "letters in a raw picture" "$draw --raw --font serif height.rcg"
 refuses 2 '--raw has a pixel for each node, which only a PNG has' "a raw SVG" "rc-render --raw -o out.svg height.rcg"
-refuses 2 '--title: the text is not UTF-8' "a title that is no text" "$draw --title $'\\xff' height.rcg"
+refuses 2 '--title: the text is not UTF-8' "a title that is not text" "$draw --title $'\\xff' height.rcg"
 refuses 2 'unknown option --hue: see rc-render --help' "an unknown option" "$draw --hue red height.rcg"
 stream mises Pa 20 4 "section=y depths=0,1e-06" 1 >few.rcg
 refuses 1 'its key depths has 2 depths, but there are 4 rows' "a section with too few depths" "$draw few.rcg"

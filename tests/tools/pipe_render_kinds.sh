@@ -110,7 +110,7 @@ refuses 1 'there is no room for a relief: ask for a larger --width' "a relief on
 refuses 2 '--hertz is for one flat map' "the circle of Hertz on a sheet" "$draw --hertz --sheet auto p.rcg"
 refuses 2 '--window contact is another one in each map' "a window of what touches on a sheet" \
     "$draw --window contact --sheet auto p.rcg"
-refuses 2 'a curve is no part of a map: leave out --window' "a window of a curve" "$draw --cut y=0 --window 0:9um,0:9um p.rcg"
+refuses 2 'a curve is not part of a map: leave out --window' "a window of a curve" "$draw --cut y=0 --window 0:9um,0:9um p.rcg"
 refuses 2 'a curve has no colours: leave out --clip' "clipped curves" "$draw --curve load:approach --clip r.tsv"
 refuses 2 '--range 1%:99%: for --cut it must be LO:HI' "percentiles of a curve" "$draw --cut y=0 --range 1%:99% p.rcg"
 claim "refused commands leave no picture" bash -c '[ ! -e out.png ]'

@@ -74,7 +74,7 @@ for width in 700 800 900 1000 1100; do # the bar may be below the plot or beside
 done
 refuses 2 '--aspect 100: the plot would be [0-9.]+ times as high as wide: give a value for at most 12 times' "a tower" "$draw --aspect 100 --channel height rough.rcg"
 refuses 2 '--aspect is for flat maps and sections; a relief has --exaggeration' "a relief" "$draw --view 30,40 --aspect 2 rough.rcg"
-refuses 2 'a curve is no part of a map: leave out --aspect' "a curve" "$draw --histogram --aspect 2 rough.rcg"
+refuses 2 'a curve is not part of a map: leave out --aspect' "a curve" "$draw --histogram --aspect 2 rough.rcg"
 refuses 2 '--raw draws only nodes: leave out --border' "raw pixels" "rc-render --raw --border -o out.png rough.rcg"
 
 # ---- words ----

@@ -39,7 +39,7 @@ claim "Poisson's ratio of an earlier solution is removed if --estar is given" ba
     rc-info later.rcg >later.txt && lacks "nu=" later.txt'
 
 sed 's/^unit=m$/unit=rad/' ball.rcg | reseal >rad.rcg
-refuses 1 "case 1, frame 1 \(height\): its unit is 'rad': heights are in metres" "heights that are no heights" \
+refuses 1 "case 1, frame 1 \(height\): its unit is 'rad': heights are in metres" "heights that are not heights" \
     "rc-solve --load 1N --estar 1GPa rad.rcg"
 refuses 1 '--report nowhere/r.json: No such file' "a report that cannot be written, before the work" \
     "rc-solve --load 1N --estar 1GPa --report nowhere/r.json ball.rcg"

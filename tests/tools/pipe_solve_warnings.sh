@@ -103,7 +103,7 @@ claim "it names a mean pressure or an approach" bash -c '
     warns "case 1, approach 10 um: .*outer" press --approach 10um'
 claim "a list that does not rise causes a warning" warns 'load: the list does not rise, but each value starts from unloaded bodies' press --load 5N,3N,4N
 claim "  a rising list causes none" bash -c 'press --load 3N,4N,5N 2>err; ! grep -q rise err'
-refuses 2 '--load 0: it must be above 0 .0 separates the bodies only in a --history.' "no load is no first loading" \
+refuses 2 '--load 0: it must be above 0 .0 separates the bodies only in a --history.' "no load is not a first loading" \
     'rc-solve --estar 1GPa --load 0,3N ball.rcg'
 
 # ---- a sphere that is added twice; slopes, judged where the bodies touch ----

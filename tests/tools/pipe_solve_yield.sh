@@ -169,7 +169,7 @@ table 'line 2: stress 1e.09 Pa: it must not be below 2e.09' "a table that falls"
 table 'line 1: plastic strain 0.01: the table must begin at 0' "a table that does not begin at 0" '0.01 2GPa\n'
 table 'line 3: plastic strain 0.1: it must be above 0.1' "a table whose strain stands still" '0 2GPa\n0.1 3GPa\n0.1 4GPa\n'
 table 'line 1: stress 0 Pa: it must be above 0' "a table without a yield stress" '0 0\n'
-table "line 1: '0 nan'" "a number that is none, which is no heading" '0 nan\n0.1 1GPa\n'
+table "line 1: '0 nan'" "a number that is none, which is not a heading" '0 nan\n0.1 1GPa\n'
 refuses 2 'the yield stress, 1 Pa, is below a millionth of E' "a yield stress without its unit" "$base --periodic --yield 1 absent.rcg"
 refuses 2 'the yield stress, 1 TPa, is above E' "a yield stress above the modulus" "$base --periodic --yield 1e12 absent.rcg"
 refuses 2 'output residual has no effect without --yield' "a residual displacement of nothing" "$base --periodic --output residual absent.rcg"

@@ -239,7 +239,7 @@ claim "--verbose prints the figures of a case" warns 'case 2, load 10 N, distanc
     rc-wear --verbose --coefficient 1e-6mm3/Nm --distance 0,1m -o x.rcg ball.rcg
 refuses 2 'with its unit, as in 1e-6mm3/Nm.*--archard' "a coefficient without a unit" "rc-wear --coefficient 1e-4 --distance 1m ball.rcg -o x.rcg"
 refuses 2 'each at least 0' "one below 0" "rc-wear --coefficient -1e-6mm3/Nm --distance 1m ball.rcg -o x.rcg"
-refuses 2 'each at least 0' "one that is no number" "rc-wear --coefficient nanmm3/Nm --distance 1m ball.rcg -o x.rcg"
+refuses 2 'each at least 0' "one that is not a number" "rc-wear --coefficient nanmm3/Nm --distance 1m ball.rcg -o x.rcg"
 refuses 2 'no body wears' "two of 0" "rc-wear --coefficient 0,0 --distance 1m ball.rcg -o x.rcg"
 refuses 2 'give one of --coefficient' "none" "rc-wear --distance 1m ball.rcg -o x.rcg"
 refuses 2 'belong together' "Archard's number without a hardness" "rc-wear --archard 1e-4 --distance 1m ball.rcg -o x.rcg"

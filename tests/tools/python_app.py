@@ -136,7 +136,7 @@ def loopback():
 
 
 def names():
-    """Names from the browser are no paths, options or names of steps."""
+    """Names from the browser are not paths, options or names of steps."""
     for name, kept in (('../../../etc/passwd', 'passwd'), ('..', '_..'), ('C:\\scans\\a.x3p', 'a.x3p'), ('a\n$(touch x);b.txt', 'a_$(touch x);b.txt'),
                        ('-o.txt', '-o.txt'), ('1-import.rcg', '_1-import.rcg'), ('', '_'), ('ä' * 200, 'ä' * 100)):
         file = found('upload', {'name': name}, b'1 2\n3 4\n')
@@ -159,7 +159,7 @@ def limit():
 
 
 def large():
-    """A file of 200 MB is stored; it is no surface, as rc-import says."""
+    """A file of 200 MB is stored; it is not a surface, as rc-import says."""
     def zeros():
         for _ in range(200):
             yield bytes(1000000)
@@ -189,7 +189,7 @@ def options():
                                 ('rc-solve', ['load', '1N\n'], 'without a folder'), ('rc-solve', ['counter', '/etc/passwd'], 'without a folder'),
                                 ('rc-solve', ['yield', '../a.tsv'], 'without a folder'), ('rc-solve', ['kernel', 'ftt'], 'did you mean'),
                                 ('rc-solve', ['load', ['1N']], 'no option'), ('rc-solve', ['load', True], 'needs a value'),
-                                ('rc-cost', [], 'not understood'), ('sh', [], 'not understood'), ('rc-render', [], 'no step')):
+                                ('rc-cost', [], 'not understood'), ('sh', [], 'not understood'), ('rc-render', [], 'not a step')):
         body = json.dumps({'file': SAMPLE, 'start': False, 'steps': [{'tool': tool, 'options': [option] if option else [], 'from': 0}]})
         refused(400, words, 'steps', body=body)
     refused(400, 'not understood', 'steps', body='{')

@@ -493,7 +493,7 @@ def hints(stub, tables):
 
 
 def progress():
-    """The tool's lines for programs, which rise to 1 and are no warnings; a function gets them, a terminal sees one line."""
+    """The tool's lines for programs, which rise to 1 and are not warnings; a function gets them, a terminal sees one line."""
     rough = rcg.synth('selfaffine', nx=256, dx='1um', hurst=0.8, rms_slope=0.05, seed=3)
     wanted = dict(periodic=True, mean_pressure='100MPa', estar='100GPa', output='pressure', quiet=False)
     said = []

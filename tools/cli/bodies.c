@@ -172,7 +172,7 @@ bodies_read(const struct rc_grid *g, const struct layers *l, struct rc_pair *p, 
 
     *p = (struct rc_pair){.one = l->body};
     if (rc_grid_get(g, "estar") != NULL && (!rc_grid_number(g, "estar", &estar) || !(estar > 0)))
-        return rc_err_set(err, "its estar '%.40s' is no modulus", rc_grid_get(g, "estar"));
+        return rc_err_set(err, "its estar '%.40s' is not a modulus", rc_grid_get(g, "estar"));
     if (l->text == NULL) {
         p->estar = estar;
         return isnan(estar) ? rc_err_set(err, "E* is not in the stream: give it with --estar")
@@ -180,7 +180,7 @@ bodies_read(const struct rc_grid *g, const struct layers *l, struct rc_pair *p, 
     }
     if (rc_grid_get(g, "e2") != NULL &&
         (!rc_grid_number(g, "e2", &p->two.e) || !rc_grid_number(g, "nu2", &p->two.nu)))
-        return rc_err_set(err, "its e2 '%.40s' and nu2 '%.40s' are no material",
+        return rc_err_set(err, "its e2 '%.40s' and nu2 '%.40s' are not a material",
                           rc_grid_get(g, "e2"),
                           rc_grid_get(g, "nu2") == NULL ? "" : rc_grid_get(g, "nu2"));
     of_these = estar_of(p);

@@ -59,10 +59,10 @@ foreign_message(char *text, size_t size, const char *tool, const char *name, con
                  shown);
     else if (kind != NULL && !kind->readable)
         snprintf(text, size,
-                 "%s is no grid stream, but looks like %s: %s reads streams of rc-import", shown,
+                 "%s is not a grid stream, but looks like %s: %s reads streams of rc-import", shown,
                  what, tool);
     else
-        snprintf(text, size, "%s is no grid stream%s%s: rc-import %s | %s ...", shown,
+        snprintf(text, size, "%s is not a grid stream%s%s: rc-import %s | %s ...", shown,
                  what == NULL ? "" : ", it looks like ", what == NULL ? "" : what,
                  shell_name(word, sizeof word, name), tool);
     return text;

@@ -129,7 +129,7 @@ cannot_read(struct tool *t, const struct rc_err *err)
         fail_as_before(t, failure, status);
     if (rc_reader_foreign(t->input.reader, &head) && head != NULL && t->info->foreign != NULL &&
         (remedy = t->info->foreign(head)) != NULL)
-        tool_die(t, EXIT_IMPOSSIBLE, "%s is no grid stream: %s", t->source, remedy);
+        tool_die(t, EXIT_IMPOSSIBLE, "%s is not a grid stream: %s", t->source, remedy);
     if (rc_reader_foreign(t->input.reader, &head) && head != NULL)
         tool_die(t, EXIT_IMPOSSIBLE, "%s",
                  foreign_message(text, sizeof text, t->info->name,

@@ -28,7 +28,7 @@ static const struct opt common[] = {
     {.name = "debug", .type = OPT_FLAG, .at = offsetof(struct tool, debug),
      .help = "the same, and at the end the memory used"},
     {.name = "progress", .type = OPT_CHOICE, .at = offsetof(struct tool, progress), .optional = true,
-     .arg = "line|json", .help = "show progress even when standard error is no terminal; json: for programs"},
+     .arg = "line|json", .help = "show progress even without a terminal; json: for programs"},
     {.name = "help", .type = OPT_FLAG, .help = "print this and exit"},
     {.name = "version", .type = OPT_FLAG, .help = "print the version and exit"},
     {.name = NULL},

@@ -42,7 +42,7 @@ size_t ranks_where_most(const struct tool *tool, double v);
 /* The communication of all processes: see rc_ranks_sent. */
 void ranks_sent(const struct tool *tool, struct rc_sent *sent);
 
-/* A file of which each process reads or writes a part: for rcg.h. */
+/* A file that all processes read or write, each its own part: for rcg.h. */
 const struct rc_share *ranks_read(struct tool *tool, const char *name);
 const struct rc_share *ranks_write(struct tool *tool, const char *name);
 /* Waits until the data of all processes is on the disk; returns at once if share is NULL. All get the same

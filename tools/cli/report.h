@@ -71,8 +71,8 @@ void report_table(struct report *report, const struct rc_figure *table, const vo
  * except `converged`: an inner model may converge where the outer one does not. */
 void report_model(struct report *report, const struct rc_model *m, const struct rc_point *at,
                   unsigned given);
-/* The figures with these names, separated by blanks, in their order, from several tables, the last of which
- * is NULL. Every name must be in one of the tables. */
+/* Figures by their names, which are separated by blanks, in this order. They come from several tables; NULL
+ * ends the list of tables. Every name must be in one of them. */
 struct figures {
     const struct rc_figure *table;
     const void *data;

@@ -181,7 +181,7 @@ index_of(const struct fatigue_residual *r, double depth)
     return k;
 }
 
-/* The mean along the travel of each line; *varies: the largest deviation from it. */
+/* For each line its mean along the travel; *varies: the largest deviation from these means. */
 static double *
 means(struct tool *t, const struct rc_grid *g, char pass, double *varies)
 {

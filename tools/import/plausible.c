@@ -44,7 +44,7 @@ import_judge(struct tool *t, const struct rc_grid *g, const struct rc_wish *wish
 
 /* ---- marks of missing points ---- */
 
-/* A value at one end of the range. It has its number of nodes, and the next value. */
+/* An extreme value, the number of its nodes, and the next value inside the range. */
 struct end {
     double value, next; /* `next`: the nearest other value */
     size_t n;

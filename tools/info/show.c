@@ -84,7 +84,7 @@ enum {
     LINES = 12 /* rings of a spectrum in text output */
 };
 
-/* The first rings after equal steps of log q. */
+/* Shows about a dozen rings: the first ring after each of equal steps of log q. */
 static void
 psd_lines(const struct rc_psd *psd, const char *unit, FILE *out)
 {

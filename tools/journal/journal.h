@@ -36,7 +36,7 @@ void journal_cut(struct journal *j, size_t frames, off_t end);
 /* Reads the frame that begins here. Ends the tool on failure. */
 struct rc_grid *journal_read(const struct journal *j, off_t at);
 /* Adds a frame; *at is its position. On failure returns false with a warning, and adds nothing from then on,
- * because a full disk is no reason to lose the solution. */
+ * because a full disk is not a reason to lose the solution. */
 bool journal_add(struct journal *j, const struct rc_grid *g, off_t *at);
 
 #endif

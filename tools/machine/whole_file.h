@@ -15,8 +15,8 @@ struct whole_file {
     char destination[WHOLE_PATH];
 };
 
-/* The place of the file with that name, whether it exists or not. Follows symbolic links, also those whose
- * targets do not exist. false with errno. */
+/* The place of the file with this name, whether it exists or not. Follows symbolic links, also if their
+ * targets do not exist. On failure returns false with errno. */
 bool whole_file_place(const char *name, char place[WHOLE_PATH]);
 /* Opens a file for writing; a device or a FIFO directly. Follows symbolic links, so that a link stays a link.
  * NULL with errno. At most four files can be half-written at a time. */

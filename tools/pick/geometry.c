@@ -362,7 +362,7 @@ demand_map(struct tool *t, const struct rc_grid *g, const struct geometry *what)
     if (rc_grid_get(g, "section") != NULL)
         tool_refuse(
             t, g,
-            "--%s: a section is no map: its rows are depths: choose the frames that are maps "
+            "--%s: a section is not a map: its rows are depths: choose the frames that are maps "
             "by --channel",
             what->option);
     if (strcmp(g->channel, "psd") == 0 || strcmp(rc_grid_dunit(g), "rad/m") == 0)

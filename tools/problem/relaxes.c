@@ -177,7 +177,7 @@ read_value(const struct table *t, size_t c, const char *word, double *value, str
         return rc_err_set(err, "unit %s: a frequency must be in Hz, and omega in rad/s",
                           t->unit[c]);
     if (*end != '\0')
-        return rc_err_set(err, "'%s' is no number", word);
+        return rc_err_set(err, "'%s' is not a number", word);
     *value = strtod(word, NULL) * (t->kind[c] == FREQUENCY ? hertz : 1);
     return RC_OK;
 }

@@ -43,7 +43,7 @@ check_kinds(struct tool *t, const struct args *a)
         leave_out(t, "--curve draws tables, not maps", of_maps);
     if (a->curve != NULL || args_lines(a)) {
         leave_out(t, "a curve has no colours", of_colours);
-        leave_out(t, "a curve is no part of a map", of_places);
+        leave_out(t, "a curve is not part of a map", of_places);
     }
     if (a->range != NULL && (a->histogram || a->material_ratio))
         tool_usage(t, "--range is for maps and for --cut: leave it out");

@@ -71,7 +71,7 @@ value_of(uint64_t bits)
     return v;
 }
 
-/* Histogram of PART bits of the values: of those whose bits above the lowest `shift + PART` equal `above`. */
+/* Histogram of PART bits, from bit `shift` on, of the values whose higher bits equal `above`. */
 static void
 count_parts(const struct frames_of *f, uint64_t above, int shift, size_t count[PARTS])
 {

@@ -35,7 +35,7 @@ sheet_check_alike(struct tool *t, const struct rc_grid *first, const struct figu
            high = of_first->at.bottom - of_first->at.top;
 
     if ((g->nx == 1) != (g->ny == 1) && rc_grid_get(g, "section") == NULL)
-        tool_refuse(t, g, "a profile is no map: draw several as curves, with --cut y=0");
+        tool_refuse(t, g, "a profile is not a map: draw several as curves, with --cut y=0");
     if (strcmp(first->unit, g->unit) != 0 || strcmp(f->at.down, of_first->at.down) != 0 ||
         strcmp(f->at.across, of_first->at.across) != 0 ||
         fabs(f->at.right - f->at.left - size) > 1e-6 * size ||

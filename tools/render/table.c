@@ -306,7 +306,7 @@ expect(struct reading *r, char c)
     char text[64];
 
     if (peek(r) != c) {
-        snprintf(text, sizeof text, "this is no JSON: '%c' is missing", c);
+        snprintf(text, sizeof text, "this is not JSON: '%c' is missing", c);
         bad(r, text);
     }
     r->at++;
@@ -321,7 +321,7 @@ read_string(struct reading *r, const char **start, size_t *n)
     while (r->at < r->end && *r->at != '"' && *r->at != '\n')
         r->at += *r->at == '\\' && r->at + 1 < r->end ? 2 : 1;
     if (r->at >= r->end || *r->at != '"')
-        bad(r, "this is no JSON: a text does not end");
+        bad(r, "this is not JSON: a text does not end");
     *n = (size_t)(r->at++ - *start);
 }
 
@@ -420,7 +420,7 @@ read_word(struct reading *r, bool element)
         r->at++;
     cell_value(start, (size_t)(r->at - start), &words);
     if (words || r->at == start)
-        bad(r, "this is no JSON: a value is no number, text, true, false or null");
+        bad(r, "this is not JSON: a value is not a number, text, true, false or null");
     take(r, start, (size_t)(r->at - start), false, element);
 }
 
@@ -488,7 +488,7 @@ read_json(struct reading *r)
     r->got = tool_room(r->tool, r->table->columns, sizeof *r->got, "a table");
     while (peek(r) != '\0') {
         if (*r->at != '{')
-            bad(r, "this is no JSON: an object has to begin with '{'");
+            bad(r, "this is not JSON: an object has to begin with '{'");
         read_value(r, false);
         add_rows(r);
     }
@@ -551,7 +551,7 @@ table_read(struct table *table, struct tool *t, const char *file)
     if (size == 0)
         tool_die(t, EXIT_IMPOSSIBLE, "%s is empty: there is no table to draw", table->source);
     if (memchr(text, '\0', size) != NULL)
-        tool_die(t, EXIT_IMPOSSIBLE, "%s is no table: it holds binary data", table->source);
+        tool_die(t, EXIT_IMPOSSIBLE, "%s is not a table: it holds binary data", table->source);
     if (peek(&r) == '{')
         read_json(&r);
     else

@@ -234,7 +234,7 @@ relax_mark(struct run *run, char *value, size_t size)
 
 /* ---- results ---- */
 
-/* Takes the figures of a time. False: the start of a load, which is no case. */
+/* Takes the figures of a time. False: the start of a load, which is not a case. */
 bool
 relax_look(struct run *run, const struct rc_model *m)
 {

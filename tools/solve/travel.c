@@ -69,7 +69,7 @@ travel_read(struct run *run)
     refuse(run, args->window != NULL && args->yield != NULL, "--window and --yield",
            "the plastic strain belongs to the whole map");
     refuse(run, args->window != NULL && args->physics.periodic, "--window and --periodic",
-           "a window is no period");
+           "a window is not a period");
     refuse(run, ranks_of(t) != NULL, "several processes", "take one");
     if (args->window != NULL)
         read_window(run, args->window);

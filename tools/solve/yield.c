@@ -117,7 +117,7 @@ goal(const struct run *run)
     return run->args->tol > 0 ? run->args->tol : deserved;
 }
 
-/* The number of slabs or increments, of which 0 is "auto". */
+/* The number of slabs or increments as text; 0: "auto". */
 static void
 count_text(char *value, size_t n)
 {

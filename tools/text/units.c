@@ -315,7 +315,7 @@ other_scale(const char *suffix, size_t n)
          "and the force"},
         {"HR", "Rockwell's number is a depth, from which no pressure follows"},
         {"HK",
-         "Knoop's number is of a long dent that springs back across, and is no mean pressure"},
+         "Knoop's number is of a long dent that springs back across, and is not a mean pressure"},
         {"HL", "Leeb's number is a speed of rebound, from which no pressure follows"},
     };
 
