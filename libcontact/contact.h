@@ -72,8 +72,8 @@ struct rc_engine_info { /* a way to sum displacements */
     bool mixed;    /* methods may iterate with it in single precision             */
     bool precise;  /* the engine of the row before in double precision throughout */
     int order;     /* its time grows as this power of the number of nodes         */
-    /* Bytes for each node, on free and periodic maps. First: those of a sum beside p and u, in single
-     * precision if the engine is mixed. Then: those of a solver. Measured on 1024 x 1024 nodes; smaller maps
+    /* Bytes for each node, on free and periodic maps. First: a sum, beside p and u, in single
+     * precision if the engine is mixed. Then: a solver. Measured on 1024 x 1024 nodes; smaller maps
      * need a few percent more. */
     double sum_bytes[2], contact_bytes[2];
 };
@@ -124,7 +124,7 @@ struct rc_selfaffine {
     double rolloff;    /* flat spectrum above this wavelength, m; 0: no flat part                */
     double short_cut;  /* shortest wavelength, m, at least two nodes; 0: 2 max(dx, dy)           */
     uint64_t seed;     /* the same seed gives the same waves on every grid of the same size in m */
-    /* length of waves along the lay over that of waves of equal power across it, at least 1; 0: 1 */
+    /* ratio of the wavelengths along and across the lay that have equal power, at least 1; 0: 1 */
     double anisotropy;
     double direction; /* direction of the lay, degrees counterclockwise from x, row 0 at the top */
     /* skewness of a gamma distribution of heights, at most RC_SKEWNESS_MAX in magnitude; 0: Gaussian */
@@ -136,7 +136,7 @@ struct rc_selfaffine {
 #define RC_WEIBULL_MIN 0.75
 #define RC_WEIBULL_MAX 100.0
 /* Gaussian Fourier amplitudes with random phases, drawn once for each wave vector, without waves of exactly
- * two nodes. The mean is 0. The gradient is that of the waves, not of differences between nodes. A
+ * two nodes. The mean is 0. The gradient comes from the waves, not from differences of nodes. A
  * distribution that is not Gaussian replaces the heights by rank; the amplitudes of the waves then stay
  * nearly Gaussian (Perez-Rafols and Almqvist 2019). RC_FAIL when a value is out of range, no wave of the map
  * lies between the cut-offs, or memory is short. Switches off GSL's error handler, which belongs to the
@@ -235,8 +235,8 @@ RC_API enum rc_status rc_hole_width(const struct rc_shape *shape, const double *
 
 /* Computes means of v, which is constant in the cells of `from`, over the cells of `to`. This grid has any
  * other number of nodes on the same area; the spacings are ignored. The integral is preserved. It brings
- * heights to a coarser grid, and pressures back. Where v is partly missing (NaN) the mean is that of the rest
- * of the cell; a cell is missing if less than half of it is measured. v and out do not overlap. */
+ * heights to a coarser grid, and pressures back. If v is partly missing (NaN), the mean is over the rest of
+ * the cell; a cell is missing if less than half of it is measured. v and out do not overlap. */
 RC_API void rc_resample_means(const struct rc_shape *from, const double *v,
                               const struct rc_shape *to, double *out);
 
@@ -427,7 +427,7 @@ struct rc_profile {
 RC_API enum rc_status rc_profile_measure(size_t n, double step, const double *z, size_t sections,
                                          struct rc_profile *profile, struct rc_err *err);
 /* n heights along the line between two positions on a map, both included, by cubics through the nodes; NAN
- * where a needed node is missing. Beyond the map heights are those at its edge. */
+ * where a needed node is missing. Beyond the map the heights of its edge continue. */
 RC_API void rc_profile_along(const struct rc_shape *shape, const double *h, struct rc_place from,
                              struct rc_place to, size_t n, double *z);
 
@@ -704,7 +704,7 @@ RC_API enum rc_status rc_solver_stiffness(struct rc_solver *solver, double *stif
 /* Conductance of heat or electric current from one body to the other, by Barber's analogy (Proc. R. Soc. A
  * 459 (2003) 53). For conductivities k1, k2 of the bodies it is 2 S/(E* (1/k1 + 1/k2)). S is the stiffness if
  * all nodes in contact, also those at the hardness, moved together. It is the flow over the difference of the
- * potentials far away. On a periodic map the difference is that of the mean potentials of the two surfaces.
+ * potentials far away. On a periodic map the potentials are the means over each surface.
  * Only the contact conducts, and it has no film. */
 struct rc_conductance {
     double stiffness; /* N/m: S; equals rc_solver_stiffness if no node is at the hardness */
@@ -791,8 +791,8 @@ struct rc_plastic_figures {
     double max_pressure_mean4;
     double lag; /* the lag that was reached */
     /* Estimated relative L1 error of the pressure, the sum of its parts. The parts are: from the increments
-     * of this load (NAN for fewer than 8); from those of earlier loads (NAN where one had fewer). Then: from
-     * the iteration; from the tolerance of the contacts; from the periodic images of a free map. */
+     * of this load (NAN for fewer than 8); from the increments of earlier loads (NAN where one had fewer).
+     * Then: from the iteration; from the tolerance of the contacts; from the images of a free map. */
     double error, increment_error, inherited_error, iteration_error, contact_error, image_error;
     double strained; /* m^3: the integral of the equivalent strain over the volume */
 };
@@ -866,7 +866,7 @@ struct rc_adhesion_scales {
     double range;           /* m                                              */
     double strength;        /* Pa: sigma(0)                                   */
     double steepest;        /* Pa/m: the largest -sigma'                      */
-    double cohesive_length; /* m: E*, for waves of two nodes, over `steepest` */
+    double cohesive_length; /* m: E* (for waves of two nodes) / `steepest`    */
     /* cohesive_length over the larger of dx, dy: below 1.5 the grid itself causes hysteresis */
     double cohesive_nodes;
 };
@@ -954,7 +954,7 @@ struct rc_leak_figures {
     /* half their difference over the first: estimated relative discretization error; NAN: no flow */
     double error;
     double lower, upper; /* m^3, rigorous bounds of `conductance` on this grid, to rounding */
-    double flow_factor;  /* factor of Patir and Cheng: conductance over that of two flats at
+    double flow_factor;  /* factor of Patir and Cheng: conductance relative to two flats at
                             the mean gap */
     /* factors of Patir and Cheng for sliding along the flow, the rough body at rest: the flow per width
      * without a pressure difference is U/2 (mean_gap + gap_rms shear_flow_factor); NAN: an even gap */
@@ -1005,7 +1005,7 @@ RC_API void rc_leak_free(struct rc_leak *leak); /* NULL is allowed */
 
 /* Coulomb's law at each node, with history. A node sticks while its traction is below mu times its pressure,
  * or slips against the traction at this limit. Given are the pressure and the tangential motion, in
- * increments. Tractions are those on body 1, and the force is their sum. Body 2 pulls body 1 along, and has
+ * increments. Tractions act on body 1, and the force is their sum. Body 2 pulls body 1 along, and has
  * moved over it by the displacement (on a periodic map their mean planes). Slip is the motion of body 1 over
  * body 2, opposite to the traction. */
 struct rc_slip_problem {
@@ -1113,9 +1113,9 @@ RC_API struct rc_leg rc_friction_leg(const struct rc_friction_problem *problem,
  * that is NULL. In addition to the axes of the inner model it takes two forces or two displacements along the
  * surface. h: the undeformed heights, which it copies. NULL: they are unknown, and only the known contact is
  * possible. Where dissimilar bodies are coupled the inner model must allow other heights, and its tolerance
- * should be a quarter of that of friction. Frames: pressure, traction-x, traction-y (Pa), slip-x, slip-y (m,
- * since first touch), state (0: the node carries no load, 1: it sticks, 2: it slips). RC_FAIL on the way when
- * friction cannot carry the force. */
+ * should be a quarter of the tolerance of friction. Frames: pressure, traction-x, traction-y (Pa), slip-x,
+ * slip-y (m, since first touch), state (0: the node carries no load, 1: it sticks, 2: it slips). RC_FAIL
+ * during a path when friction cannot carry the force. */
 RC_API struct rc_model *rc_friction_new(struct rc_model *inner, const double *h,
                                         const struct rc_friction_problem *problem,
                                         struct rc_err *err);
@@ -1170,8 +1170,8 @@ struct rc_rolling_figures {
 /* A model (model.h) of rolling over an inner model of the same bodies, which it owns from here on. NULL
  * if the inner model is NULL. Beside the axes of the inner model it takes RC_CREEP_X and RC_CREEP_Y, or
  * two forces, and RC_SPIN and RC_POSITION. The position may not fall on a path. Frames: pressure,
- * traction-x, traction-y (Pa), slip-x, slip-y (per length rolled), state (as that of friction). RC_FAIL
- * on the way if no node is in contact, or friction cannot carry the force. RC_FAIL too if the contact
+ * traction-x, traction-y (Pa), slip-x, slip-y (per length rolled), state (as for friction). RC_FAIL
+ * during a path if no node is in contact, or friction cannot carry the force. RC_FAIL too if the contact
  * reaches the last column (the leading edge), or a column that comes in. Sources: Kalker 1990, Three-
  * dimensional elastic bodies in rolling contact; Newton's method as in libcontact/slip/steady.c. */
 RC_API struct rc_model *rc_rolling_new(struct rc_model *inner,
@@ -1222,9 +1222,9 @@ struct rc_wear_figures {
  * other heights and a compliance; the model of wear owns it from here on. NULL where the inner model is NULL.
  * In addition to the load it takes the distance. h: the heights at the start, copied. The tolerance of the
  * inner model should be a hundredth of this one. Its frame `height` is the worn height, `wear` the depth that
- * both bodies have lost. Of two bodies that slide over each other the frames are those of the alignment of
- * the start, and only the error of the worn depth decides whether a point has converged. Source: Archard
- * 1953 (J. Appl. Phys. 24, 981); steps as in libcontact/wear. */
+ * both bodies have lost. If two bodies slide over each other, the frames show the alignment of the start, and
+ * only the error of the worn depth decides whether a point has converged. Source: Archard 1953 (J. Appl.
+ * Phys. 24, 981); steps as in libcontact/wear. */
 RC_API struct rc_model *rc_wear_new(struct rc_model *inner, const double *h,
                                     const struct rc_wear_problem *problem, struct rc_err *err);
 /* The figures of this model, after rc_model_look; NULL: it does not wear. */
@@ -1237,10 +1237,10 @@ struct rc_travel_problem {
     struct rc_shape track; /* map of body 1, with the spacings of the inner model */
     const double *h1;
     bool repeats;            /* the map of body 1 is periodic along x             */
-    struct rc_shape counter; /* map of body 2, whose rows are those of body 1     */
+    struct rc_shape counter; /* map of body 2, with the same rows as body 1       */
     const double *h2;        /* NULL: smooth                                      */
     bool counter_repeats;
-    double ratio;  /* travel of the heights of body 2 over that of the contact; 0: it rolls */
+    double ratio;  /* travel of the heights of body 2 per travel of the contact; 0: it rolls */
     double radius; /* m, of the ball that travels; 0: none                                  */
 };
 struct rc_travel_figures {
@@ -1253,8 +1253,8 @@ struct rc_travel_figures {
 };
 /* A model (model.h) of a contact that travels along x over body 1. It owns the inner model from here on,
  * which must allow other heights. NULL if the inner model is NULL. In addition to the load it takes the
- * position. The map of the inner model is that of body 1, or a window with fewer columns or rows, which
- * goes along by whole nodes. In a window each position is a first contact; on the whole map the inner
+ * position. The inner model has the map of body 1, or a window with fewer columns or rows, which moves
+ * with the contact by whole nodes. In a window each position is a first contact; on the whole map the inner
  * model keeps its history. The frame `height` holds the heights of both bodies at the position. The
  * heights of body 2 between nodes are interpolated by cubic polynomials. RC_FAIL when the window leaves
  * the map of a body. */
@@ -1287,10 +1287,10 @@ struct rc_relaxation {
 RC_API struct rc_relaxation *rc_relaxation_new(double relaxed, size_t terms, const double *modulus,
                                                const double *time, struct rc_err *err);
 /* Fits a master curve: storage and loss moduli (Pa, > 0) at n >= 4 different angular frequencies (rad/s,
- * > 0). The relaxation times are even in the logarithm, with `per_decade` times a decade (0: 1.5), from the
- * inverse of the highest frequency to that of the lowest. The moduli, >= 0, give the least sum of squares of
- * the relative errors (Lawson and Hanson 1974). *misfit: the RMS of these errors; above 0.05 the two columns
- * contradict each other. NULL when a number is out of range or memory is short. */
+ * above 0). The relaxation times are even in the logarithm, with `per_decade` times a decade (0: 1.5), from the
+ * inverse of the highest frequency to the inverse of the lowest one. The moduli, >= 0, give the least sum of
+ * squares of the relative errors (Lawson and Hanson 1974). *misfit: the RMS of these errors; above 0.05 the
+ * two columns contradict each other. NULL when a number is out of range or memory is short. */
 RC_API struct rc_relaxation *rc_relaxation_fit(size_t n, const double *omega, const double *storage,
                                                const double *loss, double per_decade,
                                                double *misfit, struct rc_err *err);
@@ -1318,8 +1318,8 @@ struct rc_slide_problem {
 struct rc_slide_figures {
     double speed; /* m/s                                                               */
     /* Coefficient of friction and force (N) against the motion, by the losses in the material: the integral
-     * of -p du/dx. friction_error: its difference to that of -p dh/dx, an error of the grid, and the error of
-     * pressure times the largest slope in contact. */
+     * of -p du/dx. friction_error: its difference to the integral of -p dh/dx, an error of the grid, and the
+     * error of pressure times the largest slope in contact. */
     double friction, friction_force, friction_error;
     double dissipated_power; /* W, the losses of all waves: friction_force |speed|           */
     double tan_delta_max;    /* largest ratio of loss and storage of the waves along the motion */
@@ -1540,8 +1540,8 @@ struct rc_stress_counts {
 /* RC_FAIL, and *err says why, when rc_stress_new would refuse these options, except for short memory. */
 RC_API enum rc_status rc_stress_check(const struct rc_shape *shape,
                                       const struct rc_stress_options *options, struct rc_err *err);
-/* Nodes of the largest coarser grid for the depths, over those of the map; 0: none. Such a grid takes this
- * share of the memory of transforms again. */
+/* Nodes of the largest coarser grid for the depths, over the nodes of the map; 0: none. Such a grid takes
+ * this share of the memory of transforms again. */
 RC_API double rc_stress_coarser(const struct rc_shape *shape,
                                 const struct rc_stress_options *options);
 /* Suitable depths from 0 down for the stresses under this pressure, *n of them in an array that the caller
@@ -1569,7 +1569,7 @@ RC_API size_t rc_stress_values(const struct rc_stress *stress);
  * + 1e-12) selects the material below. RC_FAIL also inside a rigid half-space. */
 RC_API enum rc_status rc_stress_slice(struct rc_stress *stress, double depth,
                                       double *const s[RC_STRESSES], struct rc_err *err);
-/* Other maps of pressure and, where the plan has them, of traction, which the caller keeps as those before.
+/* Other maps of pressure and, if the plan has them, of traction; the caller keeps them, as before.
  * Slices at the last depth then cost no kernels. RC_FAIL for sections and for engines without transforms. */
 RC_API enum rc_status rc_stress_set_loads(struct rc_stress *stress, const double *p,
                                           const double *const traction[2], struct rc_err *err);

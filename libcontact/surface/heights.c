@@ -76,7 +76,7 @@ quantiles_free(struct quantiles *q)
         gsl_interp_accel_free(q->near);
 }
 
-/* For n heights: 1/(2 n) of the distribution lies below the lowest. */
+/* Quantiles for n heights: the lowest one has the probability 1/(2 n). */
 static enum rc_status
 quantiles_new(const struct rc_selfaffine *what, size_t n, struct quantiles *q, struct rc_err *err)
 {

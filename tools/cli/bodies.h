@@ -31,8 +31,8 @@ void layers_free(struct layers *layers);
 enum rc_status layer_read(const char *text, struct rc_layer *layer, double *residual,
                           double relaxes, bool *is, struct rc_err *err);
 
-/* Both bodies: from `layers`, which was read from the same frame, or from E*. RC_FAIL if the keys do not
- * define them. */
+/* Reads both bodies from the keys of the frame: from its `layers`, if it has any, or from E*. RC_FAIL if the
+ * keys do not define them. */
 enum rc_status bodies_read(const struct rc_grid *grid, const struct layers *layers,
                            struct rc_pair *pair, struct rc_err *err);
 /* Sets all these keys and removes those of other bodies; residual: stresses of the layers, Pa, NULL: none. */

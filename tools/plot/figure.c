@@ -429,7 +429,7 @@ draw_missing(struct page *p, double x, double y, size_t w, size_t h)
     canvas_image(p->c, x, y, (double)w, (double)h, pixel, NULL, w, h);
 }
 
-/* n pixels high and a third wider. */
+/* Draws the sample of a legend: n pixels high, 4 n / 3 wide. */
 static void
 draw_swatch(struct page *p, enum swatch swatch, double x, double y, size_t n)
 {

@@ -194,7 +194,7 @@ struct column {
     bool optional;    /* may be absent: then all its values are NaN                        */
     bool label;       /* its cells are kept as words, and v holds their indices            */
     bool either;      /* the same if none of its cells is a number                         */
-    bool found, words, numbers; /* words: some of its cells are text; numbers: some are not */
+    bool found, words, numbers; /* words: some cells are text; numbers: some are numbers */
     char unit[24];              /* from the heading; empty: unknown                         */
     char nearest[NAME_SIZE];    /* the existing names, if it is missing                     */
     double *v;                  /* true is 1, false 0; NaN: unknown                         */
