@@ -310,7 +310,7 @@ read_frames(struct tool *t, size_t *frames)
     return frame;
 }
 
-/* Prints the size of the result if it differs from that of the frame. */
+/* Prints the size of the result if it differs from the size of the frame. */
 static void
 foretell(struct tool *t, const struct rc_grid *g)
 {

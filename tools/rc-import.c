@@ -21,7 +21,7 @@ format_word(size_t k)
     return rc_formats[k] == NULL ? NULL : rc_formats[k]->name;
 }
 
-/* The order is that of enum rc_label. */
+/* In the order of enum rc_label. */
 static const char *const label_words[] = {"auto", "keep", "row", "column", "both", NULL};
 
 static const char *

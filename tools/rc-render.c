@@ -335,7 +335,7 @@ draw_relief(struct tool *t, const struct args *a, const struct rc_grid *g, struc
     finish(t, a, g, &f->paper, relief_draw(f, &view, g, &err), &err);
 }
 
-/* True if the window is that of the contact. */
+/* True if the window is the contact. */
 static bool
 about_contact(const struct args *a)
 {

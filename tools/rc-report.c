@@ -56,7 +56,7 @@ struct run {
     const char *file, *name; /* as it was given; without its folders */
     char *path;              /* its full name                        */
     bool stream;             /* it is a grid stream                  */
-    bool assumed;            /* the bodies are those of the defaults */
+    bool assumed;            /* the bodies are the default ones      */
     size_t loads;
     char last[RC_NUMBER_SIZE], outliers[RC_NUMBER_SIZE], nu[RC_NUMBER_SIZE], memory[RC_NUMBER_SIZE];
     const char *contact[WORDS]; /* options of rc-solve */

@@ -497,7 +497,7 @@ begins(const char *word, const char *text)
     return strncmp(word, text, strlen(text)) == 0;
 }
 
-/* True if the first line, of length n (see read_line), is that of a stream. */
+/* True if the first line, of length n (see read_line), begins a stream. */
 static void
 look_at_first(struct rc_reader *r, const char *line, long n)
 {

@@ -317,7 +317,7 @@ all_positive(const struct bounded *b, size_t columns)
     return -rc_ranks_most(b->s->op.rows.ranks, -low) > 0;
 }
 
-/* Turns the column of the spectrum of a half-space of E* = 1 into that of the inverse. */
+/* Turns the column of the spectrum of a half-space of E* = 1 into the column of its inverse. */
 static void
 invert_column(void *ctx, size_t i, size_t n, double *column)
 {

@@ -684,7 +684,7 @@ find_figures(struct rc_plastic *p)
     f->max_pressure_mean4 = largest_mean(p);
 }
 
-/* Accepts the state, and compares its pressure with that of the last application. */
+/* Accepts the state, and compares its pressure with the pressure of the last application. */
 static enum rc_status
 settle(struct rc_plastic *p, struct rc_err *err)
 {

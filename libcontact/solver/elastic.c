@@ -24,7 +24,7 @@ struct elastic {
     double compliance;   /* m/Pa, own compliance of every node, times its part */
     const double *part;  /* the caller's array; NULL: 1 everywhere */
     double along;        /* 1/Pa, compliance of the rows */
-    double tol;          /* as the maker was given; problem.tol is that of the next contact */
+    double tol;          /* as given to the maker; problem.tol belongs to the next contact  */
     /* m, N: error of the heights; error of the loads that made the dents */
     double height_error, off;
     double first_top, top;    /* m: highest node of the first shape, and of the present one   */

@@ -5,8 +5,8 @@
  * is stationary at the solution, so its relative error is the square of the relative error of t, and single
  * precision is enough.
  *
- * For d load / d approach the set is that of the elastic nodes, because nodes at their upper bounds carry no
- * further load. For the conductance it is that of all nodes in contact. Electrical potential and current
+ * For d load / d approach the set holds the elastic nodes, because nodes at their upper bounds carry no
+ * further load. For the conductance it holds all nodes in contact. Electrical potential and current
  * density at the surface obey the same equation as displacement and pressure (Barber 2003). The potential is
  * uniform in the contact. Any t then gives a lower bound, (sum t)^2 / t'K t <= S, by Schwarz's inequality in
  * the scalar product of K.

@@ -285,7 +285,7 @@ fill(struct rc_model *m, size_t frame, double *to, struct rc_err *err)
     return RC_OK;
 }
 
-/* The shape that body 1 keeps is that of the whole map. In a window every position is a first contact. */
+/* Body 1 keeps the shape of the whole map. In a window every position is a first contact. */
 static enum rc_status
 keep(struct rc_model *m, struct rc_err *err)
 {

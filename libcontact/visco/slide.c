@@ -321,7 +321,7 @@ judge_sliding(struct slide *s, struct rc_err *err)
     return RC_OK;
 }
 
-/* After an elastic contact: RC_OK if its pressure is that of the sliding contact; otherwise poses the next
+/* After an elastic contact: RC_OK if its pressure solves the sliding contact; otherwise poses the next
  * one. */
 static enum rc_status
 advance(struct slide *s, struct rc_err *err)
@@ -412,7 +412,7 @@ step(struct rc_model *m, struct rc_err *err)
     return status == RC_MORE || status == RC_FAIL ? status : advance(s, err);
 }
 
-/* The friction of the slopes of u = K p, and that of the slopes of h; the largest slope of u in contact. */
+/* The friction by the slopes of u = K p, and by the slopes of h; the largest slope of u in contact. */
 static void
 find_friction(struct slide *s, double force[2], double *steep)
 {
@@ -532,7 +532,7 @@ keep(struct rc_model *m, struct rc_err *err)
     return rc_model_keep(m->inner, err);
 }
 
-/* Under way, a state holds G; the pressure is in that of the inner model. */
+/* Under way, a state holds G; the pressure is in the state of the inner model. */
 static void
 state(struct rc_model *m, struct rc_state *x)
 {

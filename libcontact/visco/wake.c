@@ -12,7 +12,7 @@
  * Coefficients up to the length of the map make K p exact on the map. The padded map is three times as long;
  * in the middle third coefficients ahead of the cell change smoothly into those behind it. As p is 0 outside
  * the map, the padded K serves as K in the iteration and in its bounds. Its waves have almost the phases of
- * the material: the largest tan(d/2) was 0.62 where that of the material is 0.52, for the longest waves.
+ * the material: the largest tan(d/2) was 0.62, in the material 0.52, for the longest waves.
  */
 #include "wake.h"
 
@@ -49,7 +49,7 @@ struct own {
     double *size, *turn;       /* V and tan(d/2), by columns                 */
     double *loss;              /* of the losses                              */
     double *p, *g;             /* waves of the pressure and of G             */
-    double *factor;            /* V over that of the elastic half-space      */
+    double *factor;            /* V over V of the elastic half-space         */
     size_t *place, length;
     signed char *mirror;
     struct rc_fft *fft;

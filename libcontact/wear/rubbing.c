@@ -24,7 +24,8 @@
 static const double golden = 0.61803398874989485;
 /* A step over the distance slid, and over the tolerance. */
 static const double fraction = 0.4;
-/* The first step over that of the other model: the mean over the alignments needs many of them at once. */
+/* The first step over the first step of the other model: the mean over the alignments needs many of them at
+ * once. */
 static const double early = 0.3;
 /* Times the difference of the two runs: the finer one has about half the error of the other.
  * Pressures of one alignment may err alike in both runs: their difference was at worst half the error. */

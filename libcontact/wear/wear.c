@@ -34,11 +34,11 @@ static const double usual_tol = 0.1;
  * pressure changes by at most about 0.1/n of itself; n grows with the inverse of the tolerance. */
 static const double last_part = 0.1, per_tolerance = 0.4;
 static const double fewest = 4;
-/* The tolerance of their contacts, over that of the others. Where the last valleys close, a few nodes can
- * carry several times the mean pressure within the usual tolerance. The next contact starts there and keeps
- * it. The largest pressure was wrong by 165 %, and with a tenth of the tolerance by 1.0 %. The tolerance
- * bounds a sum over the map, so that one node of a larger map may be wrong by more: by 85 % of 1024 x 1024.
- * The part therefore decreases with the number of nodes. */
+/* The tolerance of their contacts, over the tolerance of the others. Where the last valleys close, a few
+ * nodes can carry several times the mean pressure within the usual tolerance. The next contact starts there
+ * and keeps it. The largest pressure was wrong by 165 %, and with a tenth of the tolerance by 1.0 %. The
+ * tolerance bounds a sum over the map, so that one node of a larger map may be wrong by more: by 85 % of 1024
+ * x 1024. The part therefore decreases with the number of nodes. */
 static const double accurate = 0.1, nodes_in_part = 750;
 static const double of_tol = 0.8; /* part of the tolerance for the steps; the rest is for the
                                      contacts */
@@ -183,7 +183,7 @@ most_lost(const struct wear *v)
     return v->k + v->row * v->base.shape.dx * (double)v->base.shape.nx;
 }
 
-/* The tolerance of the contact of this stage, over that of the others. */
+/* The tolerance of the contact of this stage, over the tolerance of the others. */
 static double
 accuracy(const struct wear *v)
 {

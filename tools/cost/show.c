@@ -50,7 +50,8 @@ is_setting(const struct cost_column *column)
 
 /* ---- marks ---- */
 
-/* Errors below that of the reference count as equal; the error of the exact stresses counts as rounding. */
+/* Errors below the error of the reference count as equal; the error of the exact stresses counts as
+ * rounding. */
 static double
 error_of(const struct cost_case *c, const struct cost_trial *t)
 {

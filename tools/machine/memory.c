@@ -276,7 +276,7 @@ group_mount(const char *root, const struct version *v, char *part, char *mount)
     return found;
 }
 
-/* True if the path is that of the group, given by its first n bytes, or inside it. */
+/* True if the path leads to the group, given by its first n bytes, or inside it. */
 static bool
 is_inside(const char *path, const char *group, size_t n)
 {

@@ -164,7 +164,7 @@ page_bar_right(const struct page *p)
     return fmax(28 * p->u + p->gutter, 0.5 * p->across.widest + 10 * p->u);
 }
 
-/* Distance from the plot's right edge to that of the page. */
+/* Distance from the right edge of the plot to the right edge of the page. */
 static double
 right_of_plot(const struct page *p)
 {

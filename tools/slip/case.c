@@ -191,7 +191,7 @@ find_state(struct slip_run *run, const struct rc_model *m, struct slip_state *s)
                     (run->increments > 0 && isnan(s->traction_error)));
 }
 
-/* Makes the model of the contact. Its tolerance is that of friction, or less if both are solved alternately.
+/* Makes the model of the contact. It has the tolerance of friction, or less if both are solved alternately.
  * Without heights it is never solved. */
 static struct rc_model *
 new_contact(const struct slip_run *run, double tol, struct rc_err *err)
@@ -241,7 +241,7 @@ add_slip(struct slip_run *run, struct rc_model *m)
     free(now);
 }
 
-/* The heights and the path of slip are those of the tool; NULL: a frame of the model. */
+/* The tool holds the heights and the path of slip; NULL: a frame of the model. */
 const double *
 slip_frame(struct drive *d, struct rc_model *m, struct rc_grid *frame, const char *word)
 {

@@ -93,7 +93,7 @@ set_keys(struct drive *d, const struct rc_model *m, struct rc_grid *g)
 
 /* ---- a case ---- */
 
-/* Takes the position of the contact and that of the map, and checks them against the case before. */
+/* Takes the positions of the contact and of the map, and checks them against the case before. */
 static void
 find_position(struct slip_run *run)
 {

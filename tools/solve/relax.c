@@ -20,7 +20,7 @@ refuse(struct run *run, bool given, const char *what, const char *why)
         tool_usage(&run->d.t, "--relaxation does not work with %s: %s", what, why);
 }
 
-/* Before the checks of the bodies: the material is that of body 1. */
+/* Before the checks of the bodies: body 1 has this material. */
 void
 relax_read(struct run *run, struct solve_args *args)
 {

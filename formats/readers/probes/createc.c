@@ -183,7 +183,7 @@ fill_plane(const struct rc_file *file, const struct rc_map *map, double *v, stru
     return RC_OK;
 }
 
-/* True if the factor agrees with that of the file, which has five decimals. */
+/* True if the factor agrees with the factor in the file, which has five decimals. */
 static bool
 is_given(double exact, double given)
 {

@@ -39,7 +39,7 @@ has_directory(const struct rc_file *file)
     return rc_file_holds(file, 0, "\1", 2) && rc_file_holds(file, START, "Directory", 10);
 }
 
-/* The type of the number of a block. It comes from its type field, or is that of known files. */
+/* The type of the number of a block. It comes from its type field, or from known files. */
 static enum rc_raw
 number_of(const struct block *b, enum rc_raw usual)
 {

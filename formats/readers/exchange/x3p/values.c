@@ -52,7 +52,7 @@ md5_in(const char *text, char md5[RC_MD5_TEXT])
     return true;
 }
 
-/* Compares the checksum in main.xml with that of the bytes. */
+/* Compares the checksum in main.xml with the checksum of the bytes. */
 static enum rc_status
 compare_md5(const char *what, const char *given, const char *md5, struct rc_notes *notes,
             struct rc_err *err)
