@@ -505,7 +505,7 @@ check_contact(struct run *run)
         !tool_given(t, "E2") && !tool_given(t, "nu2")) {
         run->assumed = true;
         assume(t, "estar", "114GPa");
-        tool_warn(t, "no elasticity was given: E* is that of steel on steel, 114 GPa%s",
+        tool_warn(t, "no elasticity was given, so the bodies are steel on steel: E* is 114 GPa%s",
                   tool_given(t, "hardness") ? "" : ", and the hardness is 6 GPa");
         if (!tool_given(t, "hardness"))
             assume(t, "hardness", "6GPa");

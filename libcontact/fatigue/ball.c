@@ -98,7 +98,7 @@ pass_through(const struct problem *b, struct through *t, const struct point *p)
     return true;
 }
 
-/* The ball of the first n points with those of `t` on its boundary. */
+/* The smallest ball that contains the first n points, with the points `t` on its boundary. */
 static void
 recurse(struct problem *b, size_t n, const struct through *t)
 {

@@ -72,8 +72,8 @@ struct rc_plastic *rc_plastic_new(const struct rc_shape *shape, const double *h,
 enum rc_status rc_plastic_set_load(struct rc_plastic *plastic, double load, struct rc_err *err);
 /* Increments of each load, from the next one that is set; 0: 16. */
 void rc_plastic_set_increments(struct rc_plastic *plastic, size_t increments);
-/* The next load acts on these heights, nx ny m, of bodies without plastic strain: for example after one of
- * them has been moved. */
+/* Sets the heights (nx ny, in m, of bodies without plastic strain) for the next load, for example after one
+ * body has moved. */
 void rc_plastic_set_heights(struct rc_plastic *plastic, const double *h);
 /* One application: a contact and two sweeps through the volume. RC_MORE until the load is reached, then
  * RC_OK, or RC_SHORT if a contact or the iteration stopped short; RC_FAIL when memory is short. */

@@ -692,7 +692,7 @@ rc_slide_new(const struct rc_shape *shape, const double *h, const struct rc_prob
     s->problem = *problem;
     s->problem.hurry = NULL;
     if (problem->boundary == RC_FREE)
-        s->problem.engine = "fft"; /* the others know no factor of the displacement */
+        s->problem.engine = "fft"; /* the other engines have no factor of the displacement */
     s->law = *law;
     s->turned = law->along_y ? other : *shape;
     s->n = shape->nx * shape->ny;

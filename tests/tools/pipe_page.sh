@@ -14,7 +14,7 @@ fi
 
 # ---- a page ----
 
-claim "report.sh makes a page from a file" warns 'rc-report: no elasticity was given: E\* is that of steel on steel, 114 GPa, and the hardness is 6 GPa' \
+claim "report.sh makes a page from a file" warns 'rc-report: no elasticity was given, so the bodies are steel on steel: E\* is 114 GPa, and the hardness is 6 GPa' \
     bash -c 'cd page && rc-report -o brass.html ../brass.txt'
 claim "  no other file is left" test "$(ls page) $(ls tmp | wc -l)" = "brass.html 0"
 claim "  it is HTML with all pictures inside" parsed '^6 pictures: brass.txt: brass.txt$' page/brass.html

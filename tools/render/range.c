@@ -35,7 +35,7 @@ struct frames_of {
     size_t n;
 };
 
-/* The frame that determines which values of frame m count: for a pressure those in contact. NULL: all. */
+/* The frame that selects the values of frame m: of a pressure only nodes in contact count. NULL: all. */
 static const double *
 touch_of(const struct frames_of *f, size_t m)
 {
