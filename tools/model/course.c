@@ -101,15 +101,17 @@ course_peak(size_t bytes)
     return tool_memory_with(size_sum(bytes, plans));
 }
 
-/* Seconds of a small contact on this machine over the expected ones, the least of some tries; 1: memory is
- * short. */
+/* Seconds of a small contact on this machine over the expected ones, the least of 3 to 20 tries, which
+ * together take about `work` seconds; 1: memory is short. */
 static double
-slowness(const struct tool *t)
+slowness(const struct tool *t, double work)
 {
     enum {
         SIDE = 256,
+        FEWEST = 3,
         TRIES = 20
     };
+    const double end = tool_now() + work;
     const struct rc_shape shape = {SIDE, SIDE, 1, 1};
     struct rc_problem problem = {
         .boundary = RC_PERIODIC, .pair.estar = 1, .load = 300, .tol = 1e-4, .threads = t->threads};
@@ -121,7 +123,8 @@ slowness(const struct tool *t)
         h[k] = cos(0.4 * (double)(k % SIDE)) * cos(0.1 * (double)(k / SIDE)) / 10;
     if (h != NULL && rc_solver_expect(&shape, &problem, &e, NULL) == RC_OK)
         s = rc_solver_new(&shape, h, &problem, NULL);
-    for (int k = 0; s != NULL && k < TRIES && rc_solver_set_load(s, 300 + k, 0, NULL) == RC_OK;
+    for (int k = 0; s != NULL && k < TRIES && (k < FEWEST || tool_now() < end) &&
+                    rc_solver_set_load(s, 300 + k, 0, NULL) == RC_OK;
          k++) {
         const double start = tool_now();
         while (rc_solver_step(s) == RC_MORE)
@@ -138,12 +141,13 @@ course_seconds(const struct tool *t, const struct rc_grid *g, double seconds, si
 {
     const double start = 0.01, each = 0.003; /* s of a process, and of a point */
     const double node = 45e-9; /* s to read and plan, and for the figures and frames of a point */
+    const double work = seconds + node * (double)rc_grid_nodes(g) * (double)(points + 1);
     static double factor;
 
-    if (factor == 0)
-        factor = slowness(t);
-    return factor * (seconds + node * (double)rc_grid_nodes(g) * (double)(points + 1)) + start +
-           each * (double)points;
+    /* The speed of the machine hardly matters for a shorter work than the start of the process. */
+    if (factor == 0 && work > start / 4)
+        factor = slowness(t, work);
+    return (factor > 0 ? factor : 1) * work + start + each * (double)points;
 }
 
 void
