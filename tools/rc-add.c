@@ -1,11 +1,8 @@
 /* rc-add: the sum of two facing surfaces, as one surface pressed against a flat. */
 #include "tools/cli/cli.h"
 
-#include <math.h>
 #include <stdlib.h>
 #include <string.h>
-
-#include "libcontact/contact.h"
 
 static struct args {
     bool subtract;

@@ -6,7 +6,6 @@
 #include <string.h>
 #include <unistd.h>
 
-#include "tools/cli/cli.h"
 #include "tools/cost/cost.h"
 #include "tools/solve/solve.h"
 

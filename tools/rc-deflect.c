@@ -2,7 +2,6 @@
 #include <math.h>
 #include <string.h>
 
-#include "libcontact/contact.h"
 #include "tools/cli/cli.h"
 
 static struct args {

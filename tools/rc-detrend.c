@@ -5,8 +5,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "libcontact/contact.h"
-
 static struct args {
     struct steps steps;
     bool robust;

@@ -7,7 +7,6 @@
 #include <time.h>
 
 #include "formats/export.h"
-#include "libcontact/contact.h"
 
 enum {
     EVEN_ROWS = 4096 /* largest number of rows made by --even */

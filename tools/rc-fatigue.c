@@ -3,8 +3,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "libcontact/contact.h"
-#include "tools/cli/cli.h"
 #include "tools/fatigue/fatigue.h"
 #include "tools/stress/stress.h"
 

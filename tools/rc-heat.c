@@ -3,8 +3,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "libcontact/contact.h"
-#include "tools/cli/cli.h"
 #include "tools/model/model.h"
 
 static struct args {

@@ -1,5 +1,4 @@
 /* Instrument and exchange files -> a stream of height maps, one case each. */
-#include "tools/cli/cli.h"
 
 #include <math.h>
 #include <stdlib.h>

@@ -1,10 +1,8 @@
-#include "tools/cli/cli.h"
 
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
 
-#include "libcontact/contact.h"
 #include "tools/info/info.h"
 
 static struct args {

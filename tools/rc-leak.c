@@ -2,8 +2,6 @@
 #include <math.h>
 #include <string.h>
 
-#include "libcontact/contact.h"
-#include "tools/cli/cli.h"
 #include "tools/leak/leak.h"
 #include "tools/model/model.h"
 

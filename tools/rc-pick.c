@@ -1,12 +1,9 @@
 /* rc-pick: selects frames of a stream, cuts and resamples their maps, and changes their headers. */
-#include "tools/cli/cli.h"
 
 #include <math.h>
-#include <stdlib.h>
 #include <string.h>
 
 #include "formats/core/core.h"
-#include "libcontact/contact.h"
 #include "tools/pick/pick.h"
 
 static struct args {

@@ -6,8 +6,6 @@
 #include <strings.h>
 
 #include "formats/core/core.h"
-#include "libcontact/contact.h"
-#include "tools/cli/cli.h"
 #include "tools/plot/plot.h"
 #include "tools/render/render.h"
 

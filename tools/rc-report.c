@@ -9,7 +9,6 @@
 #include <unistd.h>
 
 #include "formats/core/core.h"
-#include "tools/cli/cli.h"
 #include "tools/problem/problem.h"
 
 static struct args {

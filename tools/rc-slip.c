@@ -3,8 +3,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "libcontact/contact.h"
-#include "tools/cli/cli.h"
 #include "tools/slip/slip.h"
 
 static struct slip_args args = {

@@ -1,10 +1,8 @@
 /* rc-synth: surfaces made from a formula or from a seed. */
-#include "tools/cli/cli.h"
 
 #include <math.h>
 #include <string.h>
 
-#include "libcontact/contact.h"
 #include "tools/synth/synth.h"
 
 static struct synth_args args = {

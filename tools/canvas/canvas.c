@@ -14,15 +14,13 @@ canvas_new(size_t w, size_t h, struct rc_err *err)
 {
     struct canvas *c;
 
-    if (w == 0 || h == 0 || w > CANVAS_MOST || h > CANVAS_MOST) {
-        rc_err_set(err, "a figure of %zu by %zu pixels: a side is 1 to %d", w, h, CANVAS_MOST);
-        return NULL;
-    }
+    if (w == 0 || h == 0 || w > CANVAS_MOST || h > CANVAS_MOST)
+        return rc_err_null(err, "a figure of %zu by %zu pixels: a side is 1 to %d", w, h,
+                           CANVAS_MOST);
     c = calloc(1, sizeof *c);
     if (c == NULL || (c->lettering = lettering_new()) == NULL) {
         free(c);
-        rc_err_set(err, "out of memory for a figure");
-        return NULL;
+        return rc_err_null(err, "out of memory for a figure");
     }
     c->w = w;
     c->h = h;

@@ -64,10 +64,8 @@ import_read(struct tool *t, const char *name, struct rc_file *file, struct rc_er
     const char *slash = strrchr(name, '/');
     unsigned char *data;
 
-    if (in == NULL) {
-        rc_err_set(err, "%s", strerror(errno));
-        return NULL;
-    }
+    if (in == NULL)
+        return rc_err_null(err, "%s", strerror(errno));
     if (isatty(fileno(in)))
         tool_usage(t, "%s is a terminal: name a file", import_source(name));
     *file = (struct rc_file){.name = slash == NULL ? name : slash + 1};

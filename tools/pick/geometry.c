@@ -5,8 +5,6 @@
 #include <stdint.h>
 #include <string.h>
 
-#include "libcontact/contact.h"
-
 /* An argument: nodes, or lengths in metres. */
 struct request {
     bool lengths;

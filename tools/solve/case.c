@@ -1,7 +1,6 @@
 /* A case of rc-solve: solves its loads one after another, finds their figures and writes their frames. */
 #include "solve.h"
 
-#include <inttypes.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>

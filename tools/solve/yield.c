@@ -5,7 +5,6 @@
  */
 #include "solve.h"
 
-#include <errno.h>
 #include <inttypes.h>
 #include <math.h>
 #include <stdio.h>
