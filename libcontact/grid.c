@@ -1,7 +1,6 @@
 #include "grid.h"
 #include "memory.h"
 
-#include <errno.h>
 #include <locale.h>
 #include <math.h>
 #include <stdarg.h>

@@ -1,7 +1,6 @@
 #include "voxels.h"
 
 #include <stdlib.h>
-#include <string.h>
 
 enum rc_status
 rc_voxels_new(struct rc_voxels *v, size_t slabs, size_t rows)

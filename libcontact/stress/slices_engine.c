@@ -4,7 +4,6 @@
  */
 #include "stress.h"
 
-#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 

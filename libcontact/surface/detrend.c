@@ -18,7 +18,6 @@
 #include <gsl/gsl_vector.h>
 #include <math.h>
 #include <omp.h>
-#include <stdlib.h>
 #include <string.h>
 
 #include "form.h"

@@ -4,7 +4,6 @@
 #include "libcontact/contact.h"
 
 #include <math.h>
-#include <stdlib.h>
 #include <string.h>
 
 enum rc_status

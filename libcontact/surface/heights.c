@@ -13,7 +13,6 @@
 #include <gsl/gsl_cdf.h>
 #include <gsl/gsl_spline.h>
 #include <math.h>
-#include <stdlib.h>
 
 #include "handler.h"
 #include "libcontact/memory.h"

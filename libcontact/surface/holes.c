@@ -13,7 +13,6 @@
 
 #include <math.h>
 #include <stdint.h>
-#include <stdlib.h>
 
 struct parabola {
     double f, apex;

@@ -11,7 +11,6 @@
 #include "areal.h"
 
 #include <stdint.h>
-#include <stdlib.h>
 #include <string.h>
 
 #include "libcontact/memory.h"

@@ -6,7 +6,6 @@
 
 #include <math.h>
 #include <omp.h>
-#include <stdlib.h>
 
 #include "libcontact/memory.h"
 #include "robust.h"

@@ -7,7 +7,6 @@
 #include "libcontact/contact.h"
 
 #include <math.h>
-#include <stdlib.h>
 #include <string.h>
 
 #include "libcontact/memory.h"

@@ -17,7 +17,6 @@
 #include "libcontact/common.h"
 
 #include <math.h>
-#include <omp.h>
 #include <stdlib.h>
 #include <string.h>
 

@@ -12,7 +12,6 @@
  * convolutions, and a start from coarser grids 6; after longer steps the coarser grids are as good.
  */
 #include <math.h>
-#include <stdlib.h>
 #include <string.h>
 
 #include "libcontact/model/row.h"

@@ -20,7 +20,6 @@
  * If the caller gives no number of increments, a leg whose estimate is too large is repeated with more.
  */
 #include <math.h>
-#include <stdlib.h>
 #include <string.h>
 
 #include "libcontact/expected.h"

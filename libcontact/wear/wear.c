@@ -18,7 +18,6 @@
 #include "wear.h"
 
 #include <math.h>
-#include <stdlib.h>
 #include <string.h>
 
 #include "libcontact/expected.h"

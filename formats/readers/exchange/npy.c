@@ -3,7 +3,6 @@
  * dictionary as text: {'descr': '<f8', 'fortran_order': False, 'shape': (2, 3), }. The array is [row,
  * column]; it has neither spacing nor unit. One dimension is a profile. NPZ is a ZIP archive of such files.
  */
-#include <stdlib.h>
 #include <string.h>
 
 #include "formats/containers/containers.h"

@@ -11,7 +11,6 @@
  * Written from Teem's description of the format, and from files of Gwyddion.
  */
 #include <math.h>
-#include <stdlib.h>
 #include <string.h>
 
 #include "formats/containers/containers.h"

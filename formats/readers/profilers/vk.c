@@ -4,7 +4,6 @@
  * VK7 are a picture and a ZIP archive whose member Vk4File is a VK4 file.
  */
 #include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
 
 #include "formats/containers/containers.h"
