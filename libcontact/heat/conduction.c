@@ -102,21 +102,19 @@ transform(struct rc_warming *w, const struct rc_conduction *c, const struct rc_h
     struct rc_shape offsets = {.dx = c->shape.dx, .dy = c->shape.dy};
     RC_OWN(rc_heat_cells, cells) = NULL;
     RC_OWN(rc_spectrum, passing) = NULL;
-    enum rc_status status = RC_FAIL;
 
     rc_fft_quarter(c->fft, &offsets.nx, &offsets.ny);
     if ((cells = rc_heat_cells_new(&offsets, body, err)) == NULL ||
         (passing = rc_spectrum_new(c->fft, err)) == NULL)
-        goto done;
-    status = RC_OK;
-    for (unsigned k = 0; k < RC_HEAT_PARTS && status == RC_OK; k++) {
+        return RC_FAIL;
+    for (unsigned k = 0; k < RC_HEAT_PARTS; k++) {
         const struct rc_heat_part part = {cells, k};
         const struct rc_kernel kernel = rc_heat_kernel(&part);
-        if (w->part[k] != NULL)
-            status = rc_spectrum_set_by(passing, c->fft, &kernel, rc_keep_column, w->part[k], err);
+        if (w->part[k] != NULL &&
+            rc_spectrum_set_by(passing, c->fft, &kernel, rc_keep_column, w->part[k], err) != RC_OK)
+            return RC_FAIL;
     }
-done:
-    return status;
+    return RC_OK;
 }
 
 enum rc_status

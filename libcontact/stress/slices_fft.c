@@ -67,6 +67,7 @@ grid_free(struct grid *g)
     rc_fft_free(g->fft);
     free(g);
 }
+RC_OWNER(grid)
 
 /* Allocates the tables of a depth. */
 static enum rc_status
@@ -93,26 +94,21 @@ make_tables(struct grid *g, struct rc_err *err)
 static struct grid *
 grid_new(const struct rc_stress_task *task, const struct rc_shape *shape, struct rc_err *err)
 {
-    struct grid *g = calloc(1, sizeof *g);
+    RC_OWN(grid, g) = calloc(1, sizeof *g);
     const struct rc_ranks *ranks = task->options.ranks;
 
     if (g == NULL)
         rc_err_set(err, "out of memory for a plan");
     if (rc_ranks_agree(ranks, g == NULL ? RC_FAIL : RC_OK, err) != RC_OK)
-        goto fail;
+        return NULL;
     g->task = task;
     g->shape = *shape;
     g->fft = rc_fft_new(ranks, NULL, shape, task->options.boundary, precision_of(task),
                         task->options.threads, err);
     if (g->fft == NULL)
-        goto fail;
+        return NULL;
     g->threads = rc_fft_threads(g->fft);
-    if (make_tables(g, err) != RC_OK)
-        goto fail;
-    return g;
-fail:
-    grid_free(g);
-    return NULL;
+    return make_tables(g, err) == RC_OK ? rc_give(&g) : NULL;
 }
 
 static enum rc_status
@@ -357,6 +353,7 @@ plan_free(void *at)
     coarse_free(plan);
     free(plan);
 }
+RC_OWNER(plan)
 
 double
 rc_stress_slices_coarser(const struct rc_stress_task *task)
@@ -395,27 +392,21 @@ static void *
 plan_new(const struct rc_stress_task *task, struct rc_err *err)
 {
     const size_t before = rc_memory_held().held;
-    struct plan *plan = calloc(1, sizeof *plan);
+    RC_OWN(plan, plan) = calloc(1, sizeof *plan);
 
     if (plan == NULL)
         rc_err_set(err, "out of memory for a plan");
-    if (rc_ranks_agree(task->options.ranks, plan == NULL ? RC_FAIL : RC_OK, err) != RC_OK) {
-        free(plan);
+    if (rc_ranks_agree(task->options.ranks, plan == NULL ? RC_FAIL : RC_OK, err) != RC_OK)
         return NULL;
-    }
     plan->task = *task;
     plan->fine = grid_new(&plan->task, &task->shape, err);
     for (size_t k = 0; k < task->sources; k++)
-        if (plan->fine == NULL || load(plan->fine, k, task->source[k], err) != RC_OK) {
-            plan_free(plan);
+        if (plan->fine == NULL || load(plan->fine, k, task->source[k], err) != RC_OK)
             return NULL;
-        }
-    if (rc_ranks_agree(task->options.ranks, reserve(task, rc_memory_held().held - before, err),
-                       err) != RC_OK) {
-        plan_free(plan);
-        return NULL;
-    }
-    return plan;
+    return rc_ranks_agree(task->options.ranks, reserve(task, rc_memory_held().held - before, err),
+                          err) == RC_OK
+               ? rc_give(&plan)
+               : NULL;
 }
 
 static enum rc_status
