@@ -81,16 +81,6 @@ apex(const struct synth_args *a)
     return (struct rc_place){a->place.v[0], a->place.v[1]};
 }
 
-static enum rc_status
-make_sphere(const struct synth_args *a, const struct rc_shape *shape, double *h, bool *periodic,
-            struct rc_err *err)
-{
-    (void)err;
-    (void)periodic;
-    rc_synth_paraboloid(shape, apex(a), a->radius.v[0], a->radius.v[0], 0, h);
-    return RC_OK;
-}
-
 /* A parabola across its axis, which is along y by default. */
 static enum rc_status
 make_cylinder(const struct synth_args *a, const struct rc_shape *shape, double *h, bool *periodic,
@@ -103,14 +93,15 @@ make_cylinder(const struct synth_args *a, const struct rc_shape *shape, double *
     return RC_OK;
 }
 
+/* A sphere has one radius. */
 static enum rc_status
 make_paraboloid(const struct synth_args *a, const struct rc_shape *shape, double *h, bool *periodic,
                 struct rc_err *err)
 {
     (void)err;
     (void)periodic;
-    rc_synth_paraboloid(shape, apex(a), a->radius.v[0], a->radius.v[1], or_default(a->direction),
-                        h);
+    rc_synth_paraboloid(shape, apex(a), a->radius.v[0], a->radius.v[a->radius.n - 1],
+                        or_default(a->direction), h);
     return RC_OK;
 }
 
@@ -180,7 +171,7 @@ make_selfaffine(const struct synth_args *a, const struct rc_shape *shape, double
 /* clang-format off */
 const struct synth_shape synth_shapes[] = {
     {.name = "sphere", .needs = {"radius"}, .takes = {"place"}, .check = check_radius,
-     .make = make_sphere},
+     .make = make_paraboloid},
     {.name = "cylinder", .needs = {"radius"}, .takes = {"direction", "place"},
      .check = check_radius, .make = make_cylinder},
     {.name = "paraboloid", .needs = {"radius"}, .takes = {"direction", "place"},
