@@ -8,56 +8,64 @@
 #include "formats/core/core.h"
 
 /* clang-format off */
-static const struct word_unit { /* units without prefixes */
+static const struct { /* units without prefixes */
+    enum unit unit;
     const char *text;
     double size;
-} size_units[] = {
-    {"", 1},
-    {"B", 1},
-    {"k", 1024.0},
-    {"K", 1024.0},
-    {"KiB", 1024.0},
-    {"kB", 1e3},
-    {"M", 1048576.0},
-    {"MiB", 1048576.0},
-    {"MB", 1e6},
-    {"G", 1073741824.0},
-    {"GiB", 1073741824.0},
-    {"GB", 1e9},
-    {"T", 1099511627776.0},
-    {"TiB", 1099511627776.0},
-    {"TB", 1e12},
-    {NULL, 0},
-}, time_units[] = {
-    {"min", 60},
-    {"h", 3600},
-    {NULL, 0},
-}, force_units[] = {
-    {"gf", 9.80665e-3},
-    {"kgf", 9.80665},
-    {NULL, 0},
-}, no_units[] = {
-    {NULL, 0},
+} words[] = {
+    {UNIT_BYTES, "", 1},
+    {UNIT_BYTES, "B", 1},
+    {UNIT_BYTES, "k", 1024.0},
+    {UNIT_BYTES, "K", 1024.0},
+    {UNIT_BYTES, "KiB", 1024.0},
+    {UNIT_BYTES, "kB", 1e3},
+    {UNIT_BYTES, "M", 1048576.0},
+    {UNIT_BYTES, "MiB", 1048576.0},
+    {UNIT_BYTES, "MB", 1e6},
+    {UNIT_BYTES, "G", 1073741824.0},
+    {UNIT_BYTES, "GiB", 1073741824.0},
+    {UNIT_BYTES, "GB", 1e9},
+    {UNIT_BYTES, "T", 1099511627776.0},
+    {UNIT_BYTES, "TiB", 1099511627776.0},
+    {UNIT_BYTES, "TB", 1e12},
+    {UNIT_S, "min", 60},
+    {UNIT_S, "h", 3600},
+    {UNIT_N, "gf", 9.80665e-3},
+    {UNIT_N, "kgf", 9.80665},
+};
+static const struct { /* units that are a power of ten of the SI unit but have another name */
+    enum unit unit;
+    const char *text;
+    int power;
+} decimals[] = {
+    {UNIT_PA, "bar", 5},
+    {UNIT_HARD, "bar", 5},
+    {UNIT_PAS, "P", -1}, /* poise */
+    {UNIT_PAS, "Pa.s", 0},
+    {UNIT_PAS, "Pa s", 0},
+    {UNIT_WORK, "J/m^2", 0},
+    {UNIT_WORK, "N/m", 0},
 };
 /* clang-format on */
 
 static const struct {
     const char *name, *usual;
+    const char *also; /* further units, for messages; NULL: none */
 } names[] = {
-    [UNIT_NONE] = {"", ""},
-    [UNIT_M] = {"m", "nm um mm m"},
-    [UNIT_N] = {"N", "mN N kN"},
-    [UNIT_PA] = {"Pa", "kPa MPa GPa"},
-    [UNIT_S] = {"s", "s min h"},
-    [UNIT_BYTES] = {"bytes", "M G"},
-    [UNIT_HARD] = {"Pa", "HV MPa GPa"},
-    [UNIT_WORK] = {"J/m2", "mJ/m2 J/m2"},
-    [UNIT_PAS] = {"Pas", "mPas Pas"},
-    [UNIT_K] = {"K", "K degC"},
-    [UNIT_SPEED] = {"m/s", "mm/s m/s km/h"},
-    [UNIT_DIFFUSIVITY] = {"m2/s", "mm2/s m2/s"},
-    [UNIT_HEAT] = {"J/m3K", "kJ/m3K MJ/m3K"},
-    [UNIT_HZ] = {"Hz", "Hz kHz"},
+    [UNIT_NONE] = {"", "", NULL},
+    [UNIT_M] = {"m", "nm um mm m", "inch, mil or microinch"},
+    [UNIT_N] = {"N", "mN N kN", "kgf"},
+    [UNIT_PA] = {"Pa", "kPa MPa GPa", "N/mm2 or bar"},
+    [UNIT_S] = {"s", "s min h", "min or h"},
+    [UNIT_BYTES] = {"bytes", "M G", NULL},
+    [UNIT_HARD] = {"Pa", "HV MPa GPa", "N/mm2, bar or HV"},
+    [UNIT_WORK] = {"J/m2", "mJ/m2 J/m2", "N/m"},
+    [UNIT_PAS] = {"Pas", "mPas Pas", "cP"},
+    [UNIT_K] = {"K", "K degC", "degC"},
+    [UNIT_SPEED] = {"m/s", "mm/s m/s km/h", "km/h"},
+    [UNIT_DIFFUSIVITY] = {"m2/s", "mm2/s m2/s", NULL},
+    [UNIT_HEAT] = {"J/m3K", "kJ/m3K MJ/m3K", NULL},
+    [UNIT_HZ] = {"Hz", "Hz kHz", NULL},
 };
 
 const char *
@@ -148,22 +156,15 @@ stress_power(const char *text, size_t n, int *power)
     return true;
 }
 
-/* Units that are a power of ten of the SI unit but have another name: bar, N/mm2, cP. */
 static bool
 decimal_power(const char *text, size_t n, enum unit unit, int *power)
 {
-    if ((unit == UNIT_PA || unit == UNIT_HARD) && stress_power(text, n, power))
-        return true;
-    if ((unit == UNIT_PA || unit == UNIT_HARD) && power_of(text, n, "bar", power)) {
-        *power += 5;
-        return true;
-    }
-    if (unit == UNIT_PAS && power_of(text, n, "P", power)) { /* poise */
-        *power -= 1;
-        return true;
-    }
-    return unit == UNIT_PAS &&
-           (power_of(text, n, "Pa.s", power) || power_of(text, n, "Pa s", power));
+    for (size_t k = 0; k < sizeof decimals / sizeof *decimals; k++)
+        if (decimals[k].unit == unit && power_of(text, n, decimals[k].text, power)) {
+            *power += decimals[k].power;
+            return true;
+        }
+    return (unit == UNIT_PA || unit == UNIT_HARD) && stress_power(text, n, power);
 }
 
 /* Quotients: a power of a unit with its prefix, over other units. "J/(m3 K)", "J/m^3/K" and "J/m3K" are the
@@ -218,28 +219,18 @@ apply_quotient(const char *digits, size_t length, const char *suffix, size_t n, 
     return false;
 }
 
-static const struct word_unit *
-word_units(enum unit unit)
-{
-    return unit == UNIT_S       ? time_units
-           : unit == UNIT_BYTES ? size_units
-           : unit == UNIT_N     ? force_units
-                                : no_units;
-}
-
 /* Applies the unit written as suffix[0..n) after the number digits[0..length); false when there is
  * no such unit. */
 static bool
 apply_unit(const char *digits, size_t length, const char *suffix, size_t n, enum unit unit,
            double *value)
 {
+    double metres;
     int power;
 
-    double metres;
-
-    for (const struct word_unit *w = word_units(unit); w->text != NULL; w++)
-        if (same(w->text, suffix, n)) {
-            *value *= w->size;
+    for (size_t k = 0; k < sizeof words / sizeof *words; k++)
+        if (words[k].unit == unit && same(words[k].text, suffix, n)) {
+            *value *= words[k].size;
             return true;
         }
     if (unit == UNIT_BYTES)
@@ -258,9 +249,6 @@ apply_unit(const char *digits, size_t length, const char *suffix, size_t n, enum
     }
     if (apply_quotient(digits, length, suffix, n, unit, value))
         return true;
-    if (unit == UNIT_WORK &&
-        (power_of(suffix, n, "J/m^2", &power) || power_of(suffix, n, "N/m", &power)))
-        return shift(digits, length, power, value);
     if (unit_power(suffix, n, unit, &power) || decimal_power(suffix, n, unit, &power))
         return shift(digits, length, power, value);
     for (size_t k = 0; k < n; k++)
@@ -325,40 +313,13 @@ other_scale(const char *suffix, size_t n)
     return NULL;
 }
 
-/* Further units of a quantity, for messages. */
-static const char *
-also_units(enum unit unit)
-{
-    switch (unit) {
-    case UNIT_M:
-        return ", or inch, mil or microinch";
-    case UNIT_N:
-        return ", or kgf";
-    case UNIT_PA:
-        return ", or N/mm2 or bar";
-    case UNIT_HARD:
-        return ", or N/mm2, bar or HV";
-    case UNIT_S:
-        return ", or min or h";
-    case UNIT_WORK:
-        return ", or N/m";
-    case UNIT_PAS:
-        return ", or cP";
-    case UNIT_K:
-        return ", or degC";
-    case UNIT_SPEED:
-        return ", or km/h";
-    default:
-        return "";
-    }
-}
-
 /* Says which units are accepted instead of suffix[0..n). */
 static enum rc_status
 unknown_unit(const char *suffix, size_t n, enum unit unit, bool per_metre, struct rc_err *err)
 {
     char list[64];
     const char *scale = unit == UNIT_HARD ? other_scale(suffix, n) : NULL;
+    const char *also = names[unit].also;
 
     if (scale != NULL)
         return rc_err_set(err, "%s: give a pressure, as in 6GPa, or Vickers' number, as in 600HV",
@@ -369,9 +330,10 @@ unknown_unit(const char *suffix, size_t n, enum unit unit, bool per_metre, struc
                           (int)n, suffix);
     return rc_err_set(err,
                       "unknown unit '%.*s': %s%s is expected, with or without one of the prefixes "
-                      "%s%s",
+                      "%s%s%s",
                       (int)n, suffix, unit_name(unit), per_metre ? " or N/m" : "",
-                      prefix_list(list, sizeof list), also_units(unit));
+                      prefix_list(list, sizeof list), also != NULL ? ", or " : "",
+                      also != NULL ? also : "");
 }
 
 /* The number in text[0..n). */
