@@ -199,8 +199,12 @@ report_column(struct report *r, const char *name, const char *unit)
 }
 
 static void
-begin_inside(struct report *r, char bracket)
+begin_inside(struct report *r, const char *name, char bracket)
 {
+    if (r->name == NULL)
+        return;
+    if (!r->separator)
+        (bracket == '}' ? json_object : json_array)(&r->json, name);
     assert(r->depth < REPORT_DEPTH);
     r->bracket[r->depth++] = bracket;
 }
@@ -208,21 +212,13 @@ begin_inside(struct report *r, char bracket)
 void
 report_object(struct report *r, const char *name)
 {
-    if (r->name == NULL)
-        return;
-    if (!r->separator)
-        json_object(&r->json, name);
-    begin_inside(r, '}');
+    begin_inside(r, name, '}');
 }
 
 void
 report_array(struct report *r, const char *name)
 {
-    if (r->name == NULL)
-        return;
-    if (!r->separator)
-        json_array(&r->json, name);
-    begin_inside(r, ']');
+    begin_inside(r, name, ']');
 }
 
 void
