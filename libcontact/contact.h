@@ -569,10 +569,12 @@ struct rc_problem {
     size_t threads;        /* 0: all                                                        */
     bool discretization;   /* estimate the discretization error; also solves a coarser grid */
     const struct rc_ranks *ranks; /* processes that share the map; NULL: none */
-    /* If this is not 0 (a signal handler may set it), the caller cannot wait. A step ends before it changes
-     * the pressure, and rc_solver_result uses gap and displacement of the last step, in single precision if
-     * its convolutions were. NULL: never. Ignored with ranks, and where a contact is part of another
-     * problem. */
+    /* If this is not 0 (a signal handler may set it), the caller cannot wait. A step ends early, also within
+     * a convolution, and rc_solver_result uses gap and displacement of the last step, in single precision if
+     * its convolutions were. If the step has changed the pressure, or none was finished on this grid, the gap
+     * costs a convolution in single precision. Without a hardness it is made only for displacement or gap;
+     * else the figures of the gap are NAN. NULL: never. Ignored with ranks, and where a contact is
+     * part of another problem. */
     const volatile sig_atomic_t *hurry;
 };
 

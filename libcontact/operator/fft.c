@@ -654,6 +654,8 @@ rc_spectrum_add(struct rc_spectrum *k, const struct rc_fft *f, bool inverse, dou
 
 /* ---- use ---- */
 
+_Thread_local const volatile sig_atomic_t *rc_fft_hurry;
+
 static struct rc_factor
 factor_of(const struct rc_spectrum *k)
 {

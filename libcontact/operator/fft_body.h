@@ -223,6 +223,7 @@ static void
 transform_some(struct plan *f, size_t columns, void *ctx, rc_row *make, bool back, bool forward)
 {
     const struct rc_layout *l = &f->l;
+    const volatile sig_atomic_t *hurry = rc_fft_hurry;
 
 #pragma omp parallel for num_threads(l->threads) schedule(static)
     for (size_t j = 0; j < l->rows; j++) {
@@ -230,6 +231,8 @@ transform_some(struct plan *f, size_t columns, void *ctx, rc_row *make, bool bac
         COMPLEX *waves = l->turn == NULL ? f->waves + j * l->wide : (COMPLEX *)row - l->stride;
         bool any;
 
+        if (hurry != NULL && *hurry != 0)
+            continue;
         if (back && l->turn != NULL)
             rc_turn_get(l->turn, j, f->pieces, waves);
         if (back && columns < l->cx)
@@ -509,6 +512,7 @@ static void
 convolve_columns(struct plan *f, const struct rc_factor *factor)
 {
     const struct rc_layout *l = &f->l;
+    const volatile sig_atomic_t *hurry = rc_fft_hurry;
 
 #pragma omp parallel for num_threads(l->threads) schedule(static)
     for (size_t c = 0; c < l->columns; c += LINE) {
@@ -516,6 +520,8 @@ convolve_columns(struct plan *f, const struct rc_factor *factor)
         COMPLEX *y = scratch_of(f), *z = y + LINE * f->column;
         REAL *ratio = (REAL *)(row_of(f, y)) + 2 * whole_lines(l->px / 2 + 1);
 
+        if (hurry != NULL && *hurry != 0)
+            continue;
         gather(f, c, y);
         for (size_t b = 0; b < n; b++) {
             const REAL *s = (const REAL *)factor->spectrum + (c + b) * l->cy;

@@ -283,6 +283,10 @@ fill(struct rc_model *m, size_t frame, double *to, struct rc_err *err)
 
     if (!e->looked)
         return rc_err_set(err, "call rc_model_look before reading a frame");
+    if ((frame == RC_FRAME_GAP || frame == RC_FRAME_DISPLACEMENT) && !e->apart && !s->it.known) {
+        (void)rc_iterate_displace_rows(e->solver);
+        rc_iterate_shift(e->solver);
+    }
     if (frame == SHAPE && !e->apart && !e->deformed)
         return rc_solver_plastic(e->solver, to, err);
     if (frame == SHAPE)

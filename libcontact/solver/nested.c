@@ -475,7 +475,7 @@ rc_nested_end(struct rc_solver *s)
 
     if (c != NULL) {
         rc_nested_end(c);
-        if (s->posed.discretization && c->it.iterations > 0)
+        if (s->posed.discretization && c->it.known)
             compare(s, c);
         rc_tilt_from_coarse(s, c);
         if (!s->nested.sought || rc_load_set(s, c->load.load, NULL) == RC_OK)

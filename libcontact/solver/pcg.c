@@ -147,17 +147,27 @@ settle(struct rc_solver *solver)
     rc_working_set_find(solver, true);
 }
 
+/* True if the caller cannot wait: the last convolution, of v or for it, may be undefined. */
+static bool
+cut_short(struct rc_solver *solver)
+{
+    if (!rc_solver_hurried(solver))
+        return false;
+    rc_iterate_unknown(solver);
+    return true;
+}
+
 /* Computes the first v, in single precision for a rough solution. The error of single precision is relative
  * to the whole displacement, so on large maps v would have to be recomputed during the iteration. */
 static void
 begin(struct rc_solver *solver, struct pcg *s)
 {
     s->drift = 0;
-    if (solver->posed.rough || rc_solver_hurried(solver))
+    if (solver->posed.rough)
         s->drift = solver->op->row_error * rc_iterate_displace_rows(solver);
     else
         rc_iterate_displace(solver);
-    if (rc_solver_hurried(solver))
+    if (cut_short(solver))
         return;
     rc_iterate_shift(solver);
     rc_working_set_find(solver, true);
@@ -170,6 +180,8 @@ renew(struct rc_solver *solver, struct pcg *s)
 {
     if (!solver->it.fresh)
         rc_iterate_displace(solver);
+    if (cut_short(solver))
+        return;
     s->drift = 0;
     rc_iterate_shift(solver);
     rc_working_set_find(solver, false);
@@ -262,6 +274,8 @@ precondition(struct rc_solver *solver, struct pcg *s, double *mean)
     rc_reduce_rows_begin(solver);
     rc_working_set_correct(solver, corrected, &c);
     rc_reduce_rows_end(solver, total);
+    if (rc_solver_hurried(solver)) /* z may be undefined */
+        return s->before;
     share = total[Z] / total[LOAD];
     above = total[ZQ] - share * total[LOAD_Q];
     c.b = s->curvature > 0 && above < 0 ? -above / s->curvature : 0;
@@ -564,6 +578,8 @@ attempt(struct rc_solver *solver, struct pcg *s, double alpha, double mean, bool
     rc_reduce_rows_end(solver, t->total);
     best = -t->total[SLOPE] / (solver->load.length * t->total[CURVATURE]);
     t->best = t->total[CURVATURE] > 0 && best > 0 ? best : 0;
+    if (cut_short(solver)) /* p is admissible: no other step is tried */
+        t->best = 1;
 }
 
 /* Tries shorter and shorter steps until one is good enough; *alpha becomes its length. */
@@ -622,9 +638,9 @@ advance(struct rc_solver *solver, struct pcg *s, double alpha, double mean, bool
         length = alpha;
         make_best(solver, s, &length, mean, false, &t);
     }
-    if (t.best == 0) {
+    if (t.best == 0 || !solver->it.known) {
         s->curvature = 0;
-        return 0;
+        return t.best;
     }
     part = !t.clipped ? fmin(t.best, t.fits) : t.best >= enough ? 1 : t.best;
     s->curvature = t.clipped && t.size > conjugate ? 0 : t.total[CURVATURE];
@@ -669,14 +685,13 @@ gradient_step(struct rc_solver *solver, struct pcg *s, double length)
 /* ---- the iteration ---- */
 
 static struct rc_found
-step(struct rc_solver *solver, void *at)
+iterate(struct rc_solver *solver, struct pcg *s)
 {
-    struct pcg *s = at;
     struct rc_found found = {0};
     double mean = 0, alpha, short_wave = solver->op->unit + solver->op->plus;
     bool still;
 
-    if (!solver->it.known)
+    if (!solver->it.known && !rc_solver_hurried(solver))
         begin(solver, s);
     if (!rc_solver_hurried(solver))
         find_direction(solver, s, &mean);
@@ -702,6 +717,22 @@ step(struct rc_solver *solver, void *at)
         found.change = gradient_step(
             solver, s,
             1 / (still && solver->it.iterations % 2 == 0 ? short_wave : solver->op->norm));
+    return found;
+}
+
+/* If the caller cannot wait, the convolutions end early, and v is unknown where p has changed. */
+static struct rc_found
+step(struct rc_solver *solver, void *at)
+{
+    struct rc_found found;
+
+    rc_fft_hurry = solver->posed.hurry;
+    found = iterate(solver, at);
+    rc_fft_hurry = NULL;
+    if (rc_solver_hurried(solver))
+        rc_working_set_forget(solver); /* the preconditioner may be undefined */
+    if (!solver->it.known)
+        found = (struct rc_found){.estimate = INFINITY, .change = 1};
     return found;
 }
 

@@ -66,6 +66,7 @@ edge_load(const struct rc_solver *s)
 
 struct figures {
     const struct rc_solver *s;
+    const double *v; /* of the solver, if it is known */
     double *displacement, *gap;
     double mean_h, mean_u;
     double worst; /* m: bound of the error of the gap: its largest violation */
@@ -90,6 +91,7 @@ count_block(void *at, size_t first, size_t n, double *sums)
 {
     const struct rc_solver *s = ((struct figures *)at)->s;
     const struct rc_box box = rc_box(s, 0);
+    const double *v = ((struct figures *)at)->v;
     double sum[RC_SUMS] = {0}; /* in registers */
 
     for (size_t k = first; k < first + n; k++) {
@@ -98,7 +100,7 @@ count_block(void *at, size_t first, size_t n, double *sums)
         sum[PLASTIC] += rc_at_high(box, k, p);
         sum[PRESSURE] += p;
         sum[HEIGHT] += s->posed.h[k];
-        sum[V] += s->it.v[k];
+        sum[V] += v[k];
         sum[OWN] += rc_operator_own_motion(s->op, k, p);
         sum[RC_MOST] = p > sum[RC_MOST] ? p : sum[RC_MOST];
     }
@@ -113,11 +115,12 @@ spread_block(void *at, size_t first, size_t n, double *sums)
     const struct rc_solver *s = f->s;
     const struct rc_box box = rc_box(s, 0);
     const double shift = s->it.shift, mean_h = f->mean_h, mean_u = f->mean_u;
+    const bool own = s->op->plus > 0 || s->op->row > 0;
     double sum[RC_SUMS] = {0};
 
     for (size_t k = first; k < first + n; k++) {
         double g = s->it.v[k] - shift, p = s->it.p[k], open = g > 0 ? g : 0;
-        double u = s->it.v[k] + s->posed.h[k] - rc_operator_own_motion(s->op, k, p);
+        double u = s->it.v[k] + s->posed.h[k] - (own ? rc_operator_own_motion(s->op, k, p) : 0);
         double h = s->posed.h[k] - mean_h, around = u - mean_u;
         double worst = (rc_at_low(box, k, p) ? 0 : open) + (rc_at_high(box, k, p) ? 0 : open - g);
 
@@ -221,6 +224,7 @@ rc_solver_result(struct rc_solver *s, double *displacement, double *gap, struct 
     double total[RC_SUMS], n = (double)s->posed.nodes, scale;
     /* no gap is known, and the caller cannot wait for a precise one */
     bool early = s->nested.ahead || (rc_solver_hurried(s) && !s->it.known), stopped, hurried;
+    bool blind; /* the figures of the gap stay unknown, because the gap would cost a convolution */
 
     rc_nested_end(s); /* a nested start that was interrupted: use its pressure */
     *c = (struct rc_contact){.iterations = s->it.iterations};
@@ -228,11 +232,17 @@ rc_solver_result(struct rc_solver *s, double *displacement, double *gap, struct 
     hurried =
         rc_solver_hurried(s) && s->it.checked == s->it.iterations && s->it.error > s->load.tol;
     stopped = !s->it.known || (!s->it.fresh && !early && !hurried);
-    if (stopped && early)
+    blind = stopped && early && rc_solver_hurried(s) && displacement == NULL && gap == NULL &&
+            !rc_bounded(&s->posed.bounds);
+    f.v = blind ? s->posed.h : s->it.v;
+    if (blind)
+        s->it.shift = NAN;
+    else if (stopped && early)
         (void)rc_iterate_displace_rows(s); /* this pressure needs no better gap */
     else if (stopped)
         rc_iterate_displace(s);
-    rc_iterate_shift(s);
+    if (!blind)
+        rc_iterate_shift(s);
     rc_operator_sink(s->op, s->it.p);
     rc_reduce_blocks(s, count_block, &f, total);
     c->contact_nodes = (size_t)total[CONTACT];
@@ -251,7 +261,10 @@ rc_solver_result(struct rc_solver *s, double *displacement, double *gap, struct 
         c->tilt[a] = rc_tilt_slope(s, a);
     f.mean_h = total[HEIGHT] / n;
     f.mean_u = (total[V] + total[HEIGHT] - total[OWN]) / n;
-    rc_reduce_blocks(s, spread_block, &f, total);
+    if (!blind)
+        rc_reduce_blocks(s, spread_block, &f, total);
+    for (size_t q = 0; blind && q < RC_SUMS; q++)
+        total[q] = NAN;
     scale = sqrt(fmax(total[SPREAD_H], total[SPREAD_U]) / n);
     if (total[SPREAD_H] == 0) /* all heights are equal: both figures would be only error */
         scale = s->op->norm * c->mean_pressure;

@@ -6,7 +6,9 @@
 #include <stddef.h>
 #include <stdint.h>
 #include <cmocka.h>
+#include <sys/time.h>
 
+#include "libcontact/operator/operator.h"
 #include "tests/contact_case.h"
 
 enum {
@@ -116,6 +118,149 @@ stops(void **state)
     free(h);
 }
 
+struct rows {
+    size_t in, out, last; /* calls; the flag is set in this one */
+};
+
+static bool
+count_in(void *at, size_t j, void *row)
+{
+    struct rows *r = at;
+
+    memset(row, 0, NX * sizeof(float));
+    ((float *)row)[j] = 1;
+    hurry = r->in++ + r->out == r->last;
+    return true;
+}
+
+static bool
+count_out(void *at, size_t j, void *row)
+{
+    struct rows *r = at;
+
+    (void)j;
+    (void)row;
+    hurry = r->out++ + r->in == r->last;
+    return true;
+}
+
+/* A convolution reads and writes no row after the flag is set. */
+static void
+ends_a_convolution(void **state)
+{
+    const struct rc_pair pair = {.estar = estar};
+    const struct rc_operator_options options = {.pair = &pair, .threads = 1};
+    struct rc_err err;
+    struct rc_operator *op = rc_operator_new(&shape, &options, &err);
+
+    (void)state;
+    assert_non_null(op);
+    for (size_t last = 0; last <= 2 * NY; last++) {
+        struct rows rows = {.last = last};
+        hurry = 0;
+        rc_fft_hurry = &hurry;
+        rc_operator_apply_rows(op, count_in, count_out, &rows);
+        rc_fft_hurry = NULL;
+        assert_int_equal(rows.in + rows.out, last < 2 * NY ? last + 1 : 2 * NY);
+    }
+    rc_operator_free(op);
+}
+
+static void
+set_flag(int number)
+{
+    (void)number;
+    hurry = 1;
+}
+
+static double
+now(void)
+{
+    struct timeval t;
+
+    gettimeofday(&t, NULL);
+    return (double)t.tv_sec + 1e-6 * (double)t.tv_usec;
+}
+
+/* Solves until a timer sets the flag. */
+static enum rc_status
+solve_until(struct rc_solver *solver, double seconds)
+{
+    const struct itimerval timer = {.it_value.tv_usec = 1 + (suseconds_t)(1e6 * seconds)},
+                           none = {0};
+    enum rc_status status = RC_MORE;
+
+    hurry = 0;
+    signal(SIGALRM, set_flag);
+    setitimer(ITIMER_REAL, &timer, NULL);
+    while (status == RC_MORE && hurry == 0)
+        status = rc_solver_step(solver);
+    setitimer(ITIMER_REAL, &none, NULL);
+    return status;
+}
+
+/* Stops anywhere within steps. The pressure carries the load, no estimate is below the true error, and the gap
+ * costs no convolution unless it is asked for. A solver whose flag is cleared continues to the solution. */
+static void
+stops_within_steps(void **state)
+{
+    enum {
+        TIMES = 40
+    };
+    double *h = malloc(N * sizeof *h), *u = malloc(N * sizeof *u), start, all;
+    struct rc_problem problem = rough(RC_PERIODIC, h);
+    struct solved right;
+    size_t stopped = 0, unknown = 0;
+
+    (void)state;
+    hurry = 0;
+    start = now();
+    right = solve(shape, h, problem);
+    all = now() - start;
+    problem.hurry = &hurry;
+    problem.threads = 1;
+    for (size_t k = 0; k < TIMES; k++) {
+        struct rc_err err;
+        struct rc_solver *solver = rc_solver_new(&shape, h, &problem, &err);
+        enum rc_status status = solve_until(solver, all * (double)(k + 1) / TIMES);
+        double before = rc_solver_convolutions(solver), sum = 0, error = 0, total = 0;
+        const double *p = rc_solver_pressure(solver);
+        struct rc_contact c;
+
+        hurry = 1;
+        rc_solver_result(solver, k % 2 == 0 ? u : NULL, NULL, &c);
+        for (size_t i = 0; i < N; i++) {
+            sum += p[i];
+            error += fabs(p[i] - right.p[i]);
+            total += right.p[i];
+        }
+        assert_true(fabs(sum * shape.dx * shape.dy - problem.load) <= 1e-9 * problem.load);
+        assert_true(c.converged == (status == RC_OK));
+        assert_true(isnan(c.pressure_error) || c.pressure_error >= (1 - 1e-3) * error / total);
+        assert_true(c.converged || k % 2 == 0 || rc_solver_convolutions(solver) <= before);
+        if (k % 2 == 0)
+            assert_true(displaced(status == RC_OK ? 1e-12 : 3e-6, RC_PERIODIC, p, u));
+        if (k % 2 == 0)
+            assert_true(c.mean_gap >= 0);
+        assert_int_equal(isnan(c.mean_gap) ? 1 : 0, isnan(c.elastic_energy) ? 1 : 0);
+        stopped += status == RC_MORE ? 1 : 0;
+        unknown += isnan(c.mean_gap) ? 1 : 0;
+        if (status == RC_MORE && k % 2 == 1) {
+            hurry = 0;
+            while ((status = rc_solver_step(solver)) == RC_MORE)
+                continue;
+            assert_int_equal(status, RC_OK);
+        }
+        rc_solver_free(solver);
+    }
+    assert_true(stopped > 0);
+    if (getenv("RC_SHOW") != NULL)
+        printf("%zu of %d stopped, %zu without a gap\n", stopped, TIMES, unknown);
+    solved_free(&right);
+    free(h);
+    free(u);
+}
+
 /* A flag that stays 0 has no effect. */
 static void
 waits(void **state)
@@ -139,7 +284,9 @@ waits(void **state)
 int
 main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(stops), cmocka_unit_test(waits)};
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(stops), cmocka_unit_test(ends_a_convolution),
+        cmocka_unit_test(stops_within_steps), cmocka_unit_test(waits)};
 
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

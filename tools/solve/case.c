@@ -274,7 +274,8 @@ judge_load(struct drive *d, struct rc_model *m)
     if (run->apart && run->conductance)
         s->conductance = (struct rc_conductance){NAN, 0, 0};
     if (run->solver != NULL && !run->apart) {
-        find_stiffness(run, g, run->solver, s);
+        if (tool_interrupted() == 0)
+            find_stiffness(run, g, run->solver, s);
         if (!run->relaxing.wanted && !run->sliding.wanted)
             s->contact.convolutions = rc_solver_convolutions(run->solver);
     }
