@@ -514,6 +514,8 @@ own_error(const struct rc_adhesion *a)
     const struct rc_gap_told *t = &a->gap.told;
     double mu = a->judged > 0 ? softest(a) : a->mu[a->control], worst, measured;
 
+    if (a->judged > 0 && isinf(a->hidden))
+        return INFINITY;
     mu = mu == 0 ? 1 : fmin(fmax(mu, single), 1);
     worst = fmax(safe / sqrt(mu), safe_soft / fmax(mu, soft)) * t->error;
     measured = safe * (fmax(fmax(t->ratios[0], t->ratios[1]), least_ratio) * t->calm +
@@ -616,8 +618,7 @@ move(struct rc_adhesion *a)
     bool before = a->unstable;
 
     rc_gap_move(&a->gap);
-    if (a->gap.told.error <= loosest)
-        a->way = fmin(a->way, a->gap.way.stiffness);
+    a->way = a->gap.told.error <= loosest ? fmin(a->way, a->gap.way.stiffness) : INFINITY;
     a->unstable = a->gap.negative;
     a->jumps += a->past.begun && a->unstable && !before;
 }
@@ -636,8 +637,8 @@ down(struct rc_adhesion *a)
         a->way = fmin(a->way, g->way.stiffness);
     }
     a->below = ends(a) ? a->below + 1 : 0;
-    /* the iteration leaves this stationary point */
-    if (a->judged > 0 && g->told.error > 10 * a->judged) {
+    /* the iteration leaves this stationary point, or a node without a place in the mode is free */
+    if (a->judged > 0 && (g->told.error > 10 * a->judged || g->mode.grown)) {
         a->judged = 0;
         a->way = INFINITY;
     }

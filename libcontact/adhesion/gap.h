@@ -69,6 +69,8 @@ struct rc_gap_mode {
     bool known, watched;     /* e[1] holds the mode; e[0] the mode of the previous state with this
                                 control */
     bool tracked;            /* e[1] holds a first vector, from the corrections of the descent */
+    double bare;             /* stiffness of the mode without attraction; 0: not yet found */
+    bool grown;              /* a node that was held when the mode was found is free */
     size_t steps, slow;      /* slow: successive steps with nearly the same mu */
 };
 
@@ -183,7 +185,8 @@ void rc_gap_track(struct rc_gap *g, double mean);
  * the smallest eigenvalue of (A - D) x = mu (K_FF)^-1 x. F are the nodes not in contact. */
 void rc_gap_eigen_begin(struct rc_gap *g);
 void rc_gap_eigen_step(struct rc_gap *g);
-/* The error of the pressure along the softest mode, times mu. */
+/* The error of the pressure along the softest mode, times mu; INFINITY: no stationary point is near. Finds mu
+ * of the present gap. */
 double rc_gap_soft_error(struct rc_gap *g);
 /* Turns the next step along the softest mode. */
 void rc_gap_turn(struct rc_gap *g);

@@ -25,6 +25,7 @@ enum {
 static const double dependent = 1e-5; /* squared part of a unit vector outside the space of the
                                          others */
 static const double steady = 0.98;    /* mu over the last one */
+static const double margin = 0.5; /* part of the slope that must be left at twice the linear step */
 
 /* ---- K r and (A - D) x, of one vector ---- */
 
@@ -244,27 +245,21 @@ best(const double *sums, double *c)
 
 /* ---- the iteration ---- */
 
-/* Removes held nodes from x. If all nodes of the map are held, nothing softens. */
-static void
-mask_row(void *ctx, size_t j, double *sums)
-{
-    struct rc_gap *g = ctx;
-    size_t m = rc_gap_on_map(g, j);
-
-    for (size_t i = 0; i < g->px; i++) {
-        size_t at = j * g->px + i;
-        g->off[at] = i < m && g->x[at] == 0;
-        sums[0] += i < m && !g->off[at];
-    }
-}
-
 struct first {
     struct rc_gap *g;
-    bool given;
+    bool given, again; /* again: of the same state */
     double noise;
 };
 
-/* Sums of W x and of the free nodes. If no first vector is given, W x is the softening by the traction. */
+/* True for a free node of the map that was held when W x was found. */
+static bool
+released(const struct rc_gap *g, size_t at)
+{
+    return !g->off[at] && g->mode.e[X + 1][at] == 0;
+}
+
+/* Sums of W x and of the free nodes. If no first vector is given, W x is the softening by the traction. A
+ * released node may have softer modes than the given one, and the first vector contains its motion. */
 static void
 first_row(void *ctx, size_t j, double *sums)
 {
@@ -286,6 +281,8 @@ first_row(void *ctx, size_t j, double *sums)
         double noise = (double)(hash >> 40) / 0x1p24 - 0.5;
         if (!c->given && i >= m)
             w[i] = 0;
+        if (c->again && i < m && released(g, j * g->px + i))
+            w[i] = 1;
         if (i < m)
             w[i] = (float)((double)w[i] * (1 + noise / 4) + c->noise * noise);
         if (g->off[j * g->px + i])
@@ -376,18 +373,18 @@ void
 rc_gap_eigen_begin(struct rc_gap *g)
 {
     double sums[RC_GAP_SUMS];
-    struct first first = {g, g->mode.known || g->mode.tracked, 0};
+    struct first first = {g, g->mode.known || g->mode.tracked, g->mode.steps > 0, 0};
 
-    rc_sums_rows(&g->sums, mask_row, g, sums);
     g->mode.mu = 1;
-    g->mode.error = 0;
+    g->mode.error = g->mode.bare = 0;
     g->mode.steps = g->mode.slow = 0;
-    if (sums[0] == 0)
+    if (g->free ==
+        (g->px * g->py) - (g->nx * g->ny)) /* all nodes of the map are held: nothing softens */
         return;
     first.noise = first.given ? 0 : 0.05;
     rc_sums_rows(&g->sums, first_row, &first, sums);
     if (!(sums[2] > 0)) { /* the given vector has no free node */
-        first = (struct first){g, false, 0.05};
+        first = (struct first){g, .noise = 0.05};
         rc_sums_rows(&g->sums, first_row, &first, sums);
     }
     if (g->control == RC_GAP_MEAN)
@@ -448,7 +445,14 @@ rc_gap_eigen_step(struct rc_gap *g)
     g->mode.known = true;
 }
 
-/* Sums of x'r, x'W x, and |A x| on open nodes, from (A - D) x. */
+/* ---- along the mode ---- */
+
+struct push {
+    struct rc_gap *g;
+    double a;
+};
+
+/* Sums of x'r, x'W x, and |A x| on open nodes, from (A - D) x; x'D x, and the released nodes. */
 static void
 soft_row(void *ctx, size_t j, double *sums)
 {
@@ -464,28 +468,64 @@ soft_row(void *ctx, size_t j, double *sums)
             double x = (double)g->mode.e[X][at + k];
             sums[0] += x * g->r[at + k];
             sums[1] += x * (double)g->mode.e[X + 1][at + k];
-            if (i + k < m && !g->off[at + k])
+            if (i + k < m && !g->off[at + k]) {
                 sums[2] += fabs((double)g->mode.e[X + 2][at + k] + d[k] * x);
+                sums[3] += d[k] * x * x;
+                sums[4] += released(g, at + k);
+            }
         }
     }
 }
 
+/* The slope of V along the mode after a step, minus the linear part: the sum of x (sigma - sigma(0) + a D x). */
+static void
+bent_row(void *ctx, size_t j, double *sums)
+{
+    const struct push *c = ctx;
+    const struct rc_gap *g = c->g;
+    size_t m = rc_gap_on_map(g, j);
+
+    for (size_t i = 0; i < m; i += RC_GAP_LINE) {
+        size_t n = m - i < RC_GAP_LINE ? m - i : RC_GAP_LINE, at = j * g->px + i;
+        double to[RC_GAP_LINE], v[RC_GAP_LINE], s[2][RC_GAP_LINE], d[RC_GAP_LINE];
+        for (size_t k = 0; k < n; k++)
+            to[k] = g->x[at + k] + c->a * (double)g->mode.e[X][at + k];
+        rc_gap_law(g, j, i, n, to, v, s[1], d);
+        rc_gap_law(g, j, i, n, g->x + at, v, s[0], d);
+        for (size_t k = 0; k < n; k++) {
+            double x = (double)g->mode.e[X][at + k];
+            sums[0] += g->off[at + k] ? 0 : x * (s[1][k] - s[0][k] + c->a * d[k] * x);
+        }
+    }
+}
+
+/* Along the mode the slope of Phi is -b + mu a + T a^2/2 after a step a. Here b = x'r, and T is the sum of the
+ * third derivatives of V times x^3. If the slope at twice the linear step, 2 b/mu, is positive, a stationary
+ * point is near, at a = 2 b/(mu + sqrt(mu^2 + 2 b T)). Close to a jump the slope has a minimum near 0. The
+ * margin is half of b, because b and mu have errors. */
 double
 rc_gap_soft_error(struct rc_gap *g)
 {
-    double sums[RC_GAP_SUMS];
+    double sums[RC_GAP_SUMS], bent[RC_GAP_SUMS], left;
 
     rc_sums_rows(&g->sums, soft_row, g, sums);
+    if (!(sums[1] > 0))
+        return 0;
+    if (g->mode.bare == 0)
+        g->mode.bare = g->mode.mu + sums[3] / sums[1];
+    g->mode.mu = g->mode.bare - sums[3] / sums[1];
+    g->mode.grown = sums[4] > 0;
+    if (sums[0] == 0)
+        return 0;
+    if (g->mode.mu <= 0)
+        return INFINITY;
+    rc_sums_rows(&g->sums, bent_row, &(struct push){g, 2 * sums[0] / (sums[1] * g->mode.mu)}, bent);
+    left = fmin(1 + bent[0] / sums[0], 1);
+    if (left < margin)
+        return INFINITY;
     /* the sum of A x vanishes, so that nodes in contact have about as much as open ones */
-    return sums[1] > 0 ? 2 * fabs(sums[0]) / sums[1] * sums[2] / g->told.size : 0;
+    return 4 / (1 + sqrt(left)) * fabs(sums[0]) / sums[1] * sums[2] / g->told.size;
 }
-
-/* ---- along the mode ---- */
-
-struct push {
-    struct rc_gap *g;
-    double a;
-};
 
 /* d = a times the mode. */
 static void

@@ -179,6 +179,88 @@ soft_modes_are_seen(void **state)
     assert_true(told[0] >= adhesion_distance(18, p, exact));
 }
 
+/* States 1e-5 of the range behind their jumps. In the first, a node in contact is released after the smallest
+ * eigenvalue was found; the new one is negative. In the second, the slope of the energy along the softest mode
+ * has a minimum near 0. The jumps are large, and the estimates must not be below the distance from the states
+ * where tight descents from the same pressures end. */
+static void
+jumps_are_seen(void **state)
+{
+    static const struct rc_layer coat = {1.2753742321691237, 1.969697389118118, 0.3};
+    static const struct {
+        struct rc_shape shape;
+        struct rc_selfaffine rough;
+        struct rc_adhesion_problem problem;
+        double from, step, before, at; /* approaches: of a path, before the jump and behind it */
+        size_t steps;
+    } cases[] = {
+        {.shape = {33, 27, 1, 1},
+         .rough = {.hurst = 0.8,
+                   .rms_slope = 0.011461779774826888,
+                   .short_cut = 2,
+                   .rolloff = 8.25,
+                   .seed = 4097224909429806218u},
+         .problem =
+             {.contact = {.boundary = RC_PERIODIC,
+                          .pair = {.one = {.e = 0.91, .nu = 0.3, .layers = 1, .layer = &coat},
+                                   .two = {.e = INFINITY}},
+                          .tol = 0.00086167094100627576},
+              .work = 0.0029781294457598174,
+              .law = "exponential",
+              .range = 0.10521594815694495},
+         .from = 0.00072975965605213522,
+         .step = -0.00563199029137656682,
+         .before = -0.0049022306353244316,
+         .at = -0.0053188549171328068,
+         .steps = 2},
+        {.shape = {19, 15, 1, 1},
+         .rough = {.hurst = 0.8,
+                   .rms_slope = 0.025840845869045004,
+                   .short_cut = 4,
+                   .rolloff = 4.75,
+                   .seed = 8937521431649186072u},
+         .problem = {.contact = {.boundary = RC_PERIODIC,
+                                 .pair.estar = 1,
+                                 .tol = 0.00031048965645607673},
+                     .work = 0.018215472684533822,
+                     .law = "dugdale",
+                     .range = 0.22124268137489786},
+         .from = 0.037509766508522849,
+         .step = -0.00890498181,
+         .before = -0.038397811588432001,
+         .at = -0.038399985656256637,
+         .steps = 9},
+    };
+
+    (void)state;
+    for (size_t k = 0; k < sizeof cases / sizeof *cases; k++) {
+        const double tols[] = {1e-5, cases[k].problem.contact.tol, 1e-8};
+        double told[3], start = 0;
+        for (int stage = 0; stage < 3; stage++) {
+            struct rc_adhesion_problem problem = cases[k].problem;
+            const struct rc_adhesion_figures *f;
+            struct rc_adhesion *a;
+            if (stage == 0)
+                assert_int_equal(
+                    rc_synth_selfaffine(&cases[k].shape, &cases[k].rough, h, &adhesion_err), RC_OK);
+            problem.contact.tol = tols[stage];
+            a = adhesion_new(cases[k].shape, h, problem);
+            for (size_t s = 0; stage == 0 && s < cases[k].steps; s++)
+                (void)adhesion_to_approach(a, cases[k].from + (double)s * cases[k].step);
+            if (stage > 0)
+                assert_int_equal(rc_adhesion_start(a, p, start, &adhesion_err), RC_OK);
+            start = stage == 0 ? cases[k].before : cases[k].at;
+            f = adhesion_to_approach(a, start);
+            told[stage] = f->pressure_error;
+            rc_adhesion_pressure(a, stage == 2 ? exact : p);
+            rc_adhesion_free(a);
+        }
+        print_message("behind a jump: error %.1e, told %.1e\n",
+                      adhesion_distance(cases[k].shape.nx * cases[k].shape.ny, p, exact), told[1]);
+        assert_true(told[1] >= adhesion_distance(cases[k].shape.nx * cases[k].shape.ny, p, exact));
+    }
+}
+
 static void
 complete_contact_has_rounding(void **state)
 {
@@ -752,6 +834,7 @@ main(void)
         cmocka_unit_test(errors_of_dents_are_known),
         cmocka_unit_test(complete_contact_has_rounding),
         cmocka_unit_test(soft_modes_are_seen),
+        cmocka_unit_test(jumps_are_seen),
     };
 
     return cmocka_run_group_tests(tests, NULL, NULL);
