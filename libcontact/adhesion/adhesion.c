@@ -540,7 +540,7 @@ estimate(const struct rc_adhesion *a)
 static bool
 ends(const struct rc_adhesion *a)
 {
-    return own_error(a) <= (a->gap.yields ? yielding_part : 1) * a->tol;
+    return a->gap.told.vanishes || own_error(a) <= (a->gap.yields ? yielding_part : 1) * a->tol;
 }
 
 static enum rc_status
@@ -644,7 +644,7 @@ down(struct rc_adhesion *a)
     }
     if (a->below >= BELOW || g->stuck) {
         if (a->judged > 0)
-            return finish(a, estimate(a) <= a->tol);
+            return finish(a, a->gap.told.vanishes || estimate(a) <= a->tol);
         rc_gap_eigen_begin(g);
         a->stage = STAGE_EIGEN;
         return RC_MORE;
@@ -686,7 +686,7 @@ eigen(struct rc_adhesion *a)
     if (negative)
         return finish(a, false);
     if (ends(a) || g->stuck)
-        return finish(a, estimate(a) <= a->tol);
+        return finish(a, a->gap.told.vanishes || estimate(a) <= a->tol);
     if (a->hidden > softest(a) * g->told.error) /* most of the error is along the softest mode */
         rc_gap_turn(g);
     move(a);

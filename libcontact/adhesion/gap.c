@@ -415,7 +415,8 @@ find_error(struct rc_gap *g)
 {
     double off = g->told.change + g->told.drift;
 
-    if (off <= vanishing * g->law.strength * (double)(g->nx * g->ny))
+    g->told.vanishes = off <= vanishing * g->law.strength * (double)(g->nx * g->ny);
+    if (off == 0)
         g->told.error = rounding;
     else
         g->told.error = g->told.size > 0 ? off / g->told.size + rounding : INFINITY;
@@ -426,6 +427,7 @@ forget_error(struct rc_gap *g)
 {
     g->told.error = g->told.last = g->told.calm = g->told.ratios[0] = g->told.ratios[1] = INFINITY;
     g->told.mark = 0;
+    g->told.vanishes = false;
 }
 
 /* Returns d'A d, and finds the error. */

@@ -52,6 +52,7 @@ struct rc_gap_told {
     double drift; /* error of A u since then, because steps add to it in single precision */
     double size,
         change;     /* |p|, |A z|                                                                 */
+    bool vanishes;  /* |A z| and drift are rounding beside the largest traction */
     double moves;   /* |A d| of a step */
     float *at_mark; /* the marked pressure */
     double mark, ratios[2]; /* |A z| with drift at the marked pressure, 0: none; error over |A z| at

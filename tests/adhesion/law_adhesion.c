@@ -179,10 +179,10 @@ soft_modes_are_seen(void **state)
     assert_true(told[0] >= adhesion_distance(18, p, exact));
 }
 
-/* States 1e-5 of the range behind their jumps. In the first, a node in contact is released after the smallest
- * eigenvalue was found; the new one is negative. In the second, the slope of the energy along the softest mode
- * has a minimum near 0. The jumps are large, and the estimates must not be below the distance from the states
- * where tight descents from the same pressures end. */
+/* States behind jumps. In the first case the nodes in contact change after the softest eigenvalue was found;
+ * the new one is negative. In the second, the slope of the energy along the softest mode has a minimum near 0.
+ * The jumps are large. In the third the bodies separate, and almost no traction is left. The estimates must
+ * not be below the distance from the states where tight descents from the same pressures end. */
 static void
 jumps_are_seen(void **state)
 {
@@ -230,6 +230,23 @@ jumps_are_seen(void **state)
          .before = -0.038397811588432001,
          .at = -0.038399985656256637,
          .steps = 9},
+        {.shape = {20, 17, 1, 1},
+         .rough = {.hurst = 0.8,
+                   .rms_slope = 0.068426167579589928,
+                   .short_cut = 8,
+                   .rolloff = 8,
+                   .seed = 14916615444463632018u},
+         .problem = {.contact = {.boundary = RC_FREE,
+                                 .pair.estar = 1,
+                                 .tol = 0.00016051394205064801},
+                     .work = 0.00054879306855461977,
+                     .law = "exponential",
+                     .range = 0.046830766676310746},
+         .from = 0.049272147081388412,
+         .step = -0.048520435897704356,
+         .before = -0.82409569907729008,
+         .at = -0.8635185532441747,
+         .steps = 18},
     };
 
     (void)state;
