@@ -143,7 +143,7 @@ lie slabs 1e300 begun.rcg
 refuses 1 'case 1 cannot be continued \(.*a size is out of range' "one without slabs" \
     "$solve $history --checkpoint lies.rcg --resume -o x.rcg rough.rcg"
 lie slabs 2 begun.rcg
-refuses 1 'case 1 cannot be continued \(.*no state' "one with fewer" \
+refuses 1 'case 1 cannot be continued \(.*not a state' "one with fewer" \
     "$solve $history --checkpoint lies.rcg --resume -o x.rcg rough.rcg"
 (head -c 500000 kept.rcg && printf X && tail -c +500002 kept.rcg) >spoilt.rcg
 refuses 1 'frame [0-9]* cannot be read .*checksum' "a file with a damaged frame" "$solve $history --checkpoint spoilt.rcg --resume -o x.rcg rough.rcg"
