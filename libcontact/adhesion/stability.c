@@ -502,8 +502,8 @@ bent_row(void *ctx, size_t j, double *sums)
 
 /* Along the mode the slope of Phi is -b + mu a + T a^2/2 after a step a. Here b = x'r, and T is the sum of
  * the third derivatives of V times x^3. If the slope at twice the linear step, 2 b/mu, is positive, a
- * stationary point is near, at a = 2 b/(mu + sqrt(mu^2 + 2 b T)). Close to a jump the slope has a minimum near
- * 0. The margin is half of b, because b and mu have errors. */
+ * stationary point is near, at a = 2 b/(mu + sqrt(mu^2 + 2 b T)). Close to a jump the slope has a minimum
+ * near 0. The margin is half of b, because b and mu have errors. */
 double
 rc_gap_soft_error(struct rc_gap *g)
 {
