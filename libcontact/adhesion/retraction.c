@@ -11,29 +11,37 @@
  * halved until it cannot hide a relevant load.
  *
  * Vertex, if the path is smooth near the lowest load: the minimum of the parabola through it and its
- * neighbours. This is repeated until the load does not change.
+ * neighbours. This is repeated until the load does not change. If the load jumps behind the lowest state, the
+ * step with the jump is halved instead.
  */
 #include "retraction.h"
 
 #include <math.h>
+#include <string.h>
 
 #include "libcontact/common.h"
 
 enum {
     STATES = 600, /* at most          */
     FINE = 3,     /* most fine stages */
-    VERTICES = 5  /* at most          */
+    VERTICES = 5, /* at most          */
+    HALVINGS = 8  /* most of the step with the last jump */
 };
-static const double load_step = 0.3;   /* part of the attraction by which a step lowers the load */
-static const double growth = 1.5;      /* growth of a step over the last one while the load falls */
-static const double growth_after = 2;  /* the same while the load rises */
-static const double fine_step = 0.05;  /* fraction of the lowest load: a fine step may hide so
+static const double load_step = 0.3;  /* part of the attraction by which a step lowers the load */
+static const double growth = 1.5;     /* growth of a step over the last one while the load falls */
+static const double growth_after = 2; /* the same while the load rises */
+static const double fine_step = 0.05; /* fraction of the lowest load: a fine step may hide so
                                           much */
-static const double settled = 1e-3;    /* fraction of the lowest load: smaller differences do not
+static const double settled = 1e-3;   /* fraction of the lowest load: smaller differences do not
                                           count */
-static const double unsteady = 1.5;    /* change of the rate of attraction that counts as a jump */
-static const double convex = 1.1;      /* a larger growth of the slope means a jump */
+static const double unsteady = 1.5;   /* change of the rate of attraction that counts as a jump */
+static const double convex = 1.1;     /* a larger growth of the slope means a jump */
+static const double noise =
+    2e-4; /* error of the difference of two loads, relative to the lowest load */
 static const double least_step = 1e-6; /* relative to the range */
+/* If one neighbour of the lowest state is so many times as far as the other, the next state is in the longer
+ * part, because parabolas with a far state approach their minimum from one side only. */
+static const double lopsided = 4, golden = 0.382;
 
 void
 rc_retraction_begin(struct rc_retraction *r, double work, double range, double parted)
@@ -170,7 +178,7 @@ note_vertex(struct rc_retraction *r, struct rc_retraction_state here)
 {
     bool early = here.c > r->lowest.c;
 
-    r->missed = fabs(here.load - r->estimate);
+    r->missed = isnan(r->estimate) ? 0 : fabs(here.load - r->estimate);
     r->keep = RC_RETRACTION_HERE;
     r->is_lowest = here.load < r->lowest.load;
     if (r->is_lowest) {
@@ -267,6 +275,7 @@ begin_fine(struct rc_retraction *r, struct rc_retraction_state from, double step
         r->known_at = r->lowest.c;
     }
     r->hidden = r->beside = INFINITY;
+    r->steps_n = 0;
     r->last = r->base = from;
     r->has_base = true;
     r->has_prior = r->has_after = r->has_before = false;
@@ -281,7 +290,10 @@ end(struct rc_retraction *r, double load, double at, double spread)
 {
     r->load = load;
     r->at = at;
-    r->spread = fmax(spread, 0);
+    /* The fine stage does not search for smaller jumps than `settled`. Later loads are not below minus the
+     * attraction. */
+    spread = fmax(spread, r->fine > 0 ? settled * fabs(load) : 0);
+    r->spread = fmax(spread, r->short_of ? load + r->last.attraction : 0);
     return false;
 }
 
@@ -380,12 +392,32 @@ note_check(struct rc_retraction *r, struct rc_retraction_state here)
     r->lowest = here;
 }
 
+/* The lowest load that steps before the lowest state may hide. Between jumps the slope of the load over the
+ * approach only falls. If a later step is steeper, the load has jumped up within the earlier one. Before that
+ * jump it has fallen at most with the later slope. */
+static double
+hidden_before(const struct rc_retraction *r)
+{
+    double steepest = 0, least = INFINITY;
+
+    for (size_t k = r->steps_n; k-- > 0;) {
+        const struct rc_retraction_step *s = &r->steps[k];
+        if (s->end < r->lowest.c)
+            continue;
+        if (steepest > convex * fmax(s->slope, 0))
+            least = fmin(least, s->load - fmin(steepest, s->stiffness) * s->way);
+        steepest = fmax(steepest, s->slope - noise * fabs(r->lowest.load) / s->way);
+    }
+    return fmax(least, -r->base.attraction);
+}
+
 /* Ends the search with the lowest state and this spread, or checks it first. */
 static bool
 end_or_check(struct rc_retraction *r, double spread)
 {
     const struct rc_retraction_state *m = &r->lowest;
 
+    spread = fmax(spread, m->load - hidden_before(r));
     return r->around > 0 ? begin_check(r, m->load, m->c, r->around, spread)
                          : end(r, m->load, m->c, spread);
 }
@@ -419,8 +451,17 @@ settle(struct rc_retraction *r)
         r->to = right->c;
         return begin_fine(r, *l, fine_way(r, l));
     }
-    if (jumped) /* smaller jumps than `settled` were not searched for */
-        return end_or_check(r, fmax(m->load - least, settled * fabs(m->load)));
+    if (jumped) {
+        double hides = m->load - stiffness(r, m) * (m->c - right->c);
+        if (r->around > 0) /* the check measures the teeth */
+            hides = m->load;
+        if (!counts(r, hides) || r->halvings == HALVINGS)
+            return end_or_check(r, fmax(m->load - fmin(least, hides), settled * fabs(m->load)));
+        r->stage = RC_RETRACTION_VERTEX;
+        r->halvings++;
+        r->estimate = NAN;
+        return go(r, m, (m->c + right->c) / 2);
+    }
     r->estimate = estimate;
     r->at_estimate = at;
     off = fmax(fabs(estimate - last), r->vertices > 0 ? r->missed : INFINITY);
@@ -432,10 +473,16 @@ settle(struct rc_retraction *r)
             r->around = bend;
             r->late = right->c;
         }
-        return begin_check(r, estimate, at, bend, 0);
+        return begin_check(r, estimate, at, bend, m->load - hidden_before(r));
     }
     r->stage = RC_RETRACTION_VERTEX;
     r->vertices++;
+    if (l->c - m->c > lopsided * (m->c - right->c))
+        at = m->c + golden * (l->c - m->c);
+    else if (m->c - right->c > lopsided * (l->c - m->c))
+        at = m->c - golden * (m->c - right->c);
+    r->estimate += bend * (at - r->at_estimate) * (at - r->at_estimate);
+    r->at_estimate = at;
     return go(r, at > m->c ? l : m, at);
 }
 
@@ -489,6 +536,12 @@ rc_retraction_next(struct rc_retraction *r, struct rc_retraction_state here)
     else if (here.slope > 0)
         r->stiffness = here.slope;
     r->stiffest = fmax(r->stiffest, here.slope);
+    if (r->stage == RC_RETRACTION_FINE && !jumped) {
+        if (r->steps_n == RC_RETRACTION_STEPS)
+            memmove(r->steps, r->steps + 1, --r->steps_n * sizeof *r->steps);
+        r->steps[r->steps_n++] = (struct rc_retraction_step){r->last.load, here.c, way, here.slope,
+                                                             stiffness(r, &r->last)};
+    }
     note(r, here, hides);
     return is_over(r, &here) ? settle(r) : go_on(r);
 }

@@ -11,6 +11,7 @@
 enum {
     RC_RETRACTION_KEPT = 4,   /* most kept states */
     RC_RETRACTION_CHECKS = 8, /* most states beside the lowest one */
+    RC_RETRACTION_STEPS = 16, /* most steps of the fine stage whose loads are kept */
     RC_RETRACTION_HERE = -1   /* the latest state */
 };
 
@@ -31,6 +32,12 @@ enum rc_retraction_stage {
     RC_RETRACTION_FINE,   /* repeated in steps that cannot hide a lower load */
     RC_RETRACTION_VERTEX, /* at the minimum of the parabola through the lowest state */
     RC_RETRACTION_CHECK   /* check of the parabola beside its vertex */
+};
+
+/* A step of the fine stage: the load before it, its end, length, the slope of the load, and its upper bound
+ * without jumps. */
+struct rc_retraction_step {
+    double load, end, way, slope, stiffness;
 };
 
 struct rc_retraction {
@@ -56,7 +63,9 @@ struct rc_retraction {
     /* The lowest point and the points beside it: distance and load. */
     double beside_way[RC_RETRACTION_CHECKS + 1], beside_load[RC_RETRACTION_CHECKS + 1];
     size_t beside_n;
-    size_t states, fine, vertices, checks;
+    struct rc_retraction_step steps[RC_RETRACTION_STEPS]; /* the last ones of the fine stage */
+    size_t steps_n;
+    size_t states, fine, vertices, checks, halvings;
     /* the next step: keep the state as `keep`, unless that is below 0; start from state `from`, which has
      * from_c, and go to c. is_lowest: the state has the lowest load so far */
     int keep, from;

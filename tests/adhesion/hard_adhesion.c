@@ -320,6 +320,78 @@ pull_off_of_rough(void **state)
     }
 }
 
+/* The load over the approach is far from a parabola (first map), has jumps of single nodes (second), or is
+ * like a saw (third). The lowest load of 400 steps is below the found one by at most the spread. */
+static void
+pull_off_has_spread(void **state)
+{
+    static const struct {
+        size_t n;
+        struct rc_selfaffine rough;
+        const char *law;
+        double work, range, from; /* from: part of the highest node above the mean */
+        enum rc_boundary boundary;
+    } cases[] = {
+        {63,
+         {.hurst = 0.8, .rms_slope = 0.0792876, .short_cut = 2, .rolloff = 15.75, .seed = 627803},
+         "exponential",
+         0.0146205,
+         0.3255228,
+         0.98,
+         RC_PERIODIC},
+        {39,
+         {.hurst = 0.8, .rms_slope = 0.0814774, .short_cut = 4, .rolloff = 9.75, .seed = 604370},
+         "exponential",
+         9.59238e-4,
+         0.0361906,
+         0.82,
+         RC_PERIODIC},
+        {42,
+         {.hurst = 0.8, .rms_slope = 0.0338718, .short_cut = 4, .rolloff = 10.5, .seed = 184910},
+         "compact",
+         5.7623e-4,
+         0.0869521,
+         0.97,
+         RC_FREE}};
+
+    (void)state;
+    for (size_t k = 0; k < sizeof cases / sizeof *cases; k++) {
+        const struct rc_shape shape = {cases[k].n, cases[k].n, 1, 1};
+        const struct rc_adhesion_problem problem = {
+            .contact = {.boundary = cases[k].boundary, .pair.estar = 1, .tol = 1e-4},
+            .work = cases[k].work,
+            .law = cases[k].law,
+            .range = cases[k].range};
+        const size_t n = shape.nx * shape.ny;
+        const struct rc_adhesion_figures *f;
+        struct rc_adhesion *a;
+        double first = -INFINITY, last, lowest = 0, is, spread;
+
+        assert_int_equal(rc_synth_selfaffine(&shape, &cases[k].rough, h, &adhesion_err), RC_OK);
+        for (size_t i = 0; i < n; i++)
+            first = fmax(first, h[i]);
+        first = cases[k].from * (first - rc_sum(h, n) / (double)n);
+        a = adhesion_new(shape, h, problem);
+        (void)adhesion_to_approach(a, first);
+        f = adhesion_pull(a);
+        is = f->pull_off_load;
+        spread = f->pull_off_spread;
+        last = f->pull_off_approach - 0.1 * (first - f->pull_off_approach);
+        assert_true(f->converged);
+        rc_adhesion_free(a);
+        a = adhesion_new(shape, h, problem);
+        for (int i = 0; i <= 400; i++) {
+            f = adhesion_to_approach(a, first - i * (first - last) / 400);
+            lowest = fmin(lowest, f->load);
+        }
+        rc_adhesion_free(a);
+        print_message("pull-off at %.5f, spread %.1e of it, in small steps %.5f\n", is,
+                      spread / -is, lowest);
+        assert_true(is <= lowest + spread);
+        assert_true(spread <= 0.05 * -is);
+    }
+}
+
 /* A retraction that starts where the load already rises has its lowest load in the first state. */
 static void
 pull_off_at_start(void **state)
@@ -589,6 +661,7 @@ main(void)
         cmocka_unit_test(pull_off_by_hand),
         cmocka_unit_test(pull_off_of_periodic),
         cmocka_unit_test(pull_off_of_rough),
+        cmocka_unit_test(pull_off_has_spread),
         cmocka_unit_test(pull_off_at_start),
         cmocka_unit_test(maps),
         cmocka_unit_test(hardness),
