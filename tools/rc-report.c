@@ -377,7 +377,7 @@ add_preparation(const struct run *run, struct command *c)
     add(c, run->stream ? run->path : "measured.rcg", NULL);
 }
 
-/* Adds a word of a part, or the words for which it stands. */
+/* Adds a word of a command. ORIGINAL, PREPARED and the like are replaced by files and options. */
 static void
 expand(const struct run *run, struct command *c, const char *word)
 {

@@ -44,7 +44,7 @@ struct term {
 struct own {
     struct rc_wake wake;
     struct rc_store store;     /* the arrays below, without place and mirror */
-    struct rc_shape map, grid; /* of the transform: half of the padded map */
+    struct rc_shape map, grid; /* grid: half of the padded map, as the transform has it */
     size_t px, py, cx, cy;     /* the padded map, and a quarter of its waves */
     double *size, *turn;       /* V and tan(d/2), by columns                 */
     double *loss;              /* of the losses                              */

@@ -1,12 +1,11 @@
 /*
  * MATLAB and Octave, MAT version 5 (save -v6, and -v7, which packs each variable with zlib): 128 bytes of
- * header, then variables. Each is an element: 8 bytes of type and size, and the content. An array is four
- * elements: class and flags, dimensions, name, numbers, which run down the columns.
+ * header, then variables. Each is an element: 8 bytes of type and size, and the content. An array has four
+ * elements: class and flags, dimensions, name and numbers. The numbers run down the columns.
  *
- * Real arrays of two dimensions are channels, vectors where there is no such array. Their spacing comes
- * from scalars dx and dy, or from x and y: vectors, or arrays of the map's size as meshgrid makes them.
- * Texts dunit and unit name the units of these and of the values, as rc-export writes them; without
- * them the user has to.
+ * Real arrays of two dimensions are channels. If there is none, vectors are. Their spacing comes from scalars
+ * dx and dy, or from x and y: vectors, or arrays of the map's size as meshgrid makes them. Texts dunit and
+ * unit name the units of these and of the values, as rc-export writes them; without them the user has to.
  *
  * Written from the description of the format that The MathWorks publishes.
  */
