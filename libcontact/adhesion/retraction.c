@@ -405,7 +405,7 @@ hidden_before(const struct rc_retraction *r)
         if (s->end < r->lowest.c)
             continue;
         if (steepest > convex * fmax(s->slope, 0))
-            least = fmin(least, s->load - fmin(steepest, s->stiffness) * s->way);
+            least = fmin(least, s->load - steepest * s->way);
         steepest = fmax(steepest, s->slope - noise * fabs(r->lowest.load) / s->way);
     }
     return fmax(least, -r->base.attraction);
@@ -539,8 +539,7 @@ rc_retraction_next(struct rc_retraction *r, struct rc_retraction_state here)
     if (r->stage == RC_RETRACTION_FINE && !jumped) {
         if (r->steps_n == RC_RETRACTION_STEPS)
             memmove(r->steps, r->steps + 1, --r->steps_n * sizeof *r->steps);
-        r->steps[r->steps_n++] = (struct rc_retraction_step){r->last.load, here.c, way, here.slope,
-                                                             stiffness(r, &r->last)};
+        r->steps[r->steps_n++] = (struct rc_retraction_step){r->last.load, here.c, way, here.slope};
     }
     note(r, here, hides);
     return is_over(r, &here) ? settle(r) : go_on(r);

@@ -34,10 +34,9 @@ enum rc_retraction_stage {
     RC_RETRACTION_CHECK   /* check of the parabola beside its vertex */
 };
 
-/* A step of the fine stage: the load before it, its end, length, the slope of the load, and its upper bound
- * without jumps. */
+/* A step of the fine stage: the load before it, its end, length, and the slope of the load. */
 struct rc_retraction_step {
-    double load, end, way, slope, stiffness;
+    double load, end, way, slope;
 };
 
 struct rc_retraction {
