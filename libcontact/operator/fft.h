@@ -123,8 +123,8 @@ typedef bool rc_row(void *ctx, size_t j, void *row);
  * reads the last field. There are n <= RC_CHAIN kernels, n + 1 functions, and no map between them. */
 void rc_fft_chain(struct rc_fft *fft, size_t n, const struct rc_spectrum *const *kernels,
                   rc_row *const *rows, void *ctx);
-/* If this is not NULL, and its value not 0, convolutions that the same thread begins skip their rows and lines
- * of columns. Their results are then undefined. */
+/* If this is not NULL, and its value not 0, convolutions that the same thread begins skip their rows and
+ * lines of columns. Their results are then undefined. */
 extern _Thread_local const volatile sig_atomic_t *rc_fft_hurry;
 /* Keeps the whole transform of p as one of RC_SOURCES; then u = K p for any number of kernels. */
 enum {
