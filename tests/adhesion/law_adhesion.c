@@ -181,8 +181,8 @@ soft_modes_are_seen(void **state)
 
 /* States behind jumps. In the first case the nodes in contact change after the softest eigenvalue was found;
  * the new one is negative. In the second, the slope of the energy along the softest mode has a minimum near
- * 0. The jumps are large. In the third the bodies separate, and almost no traction is left. No estimate may be
- * below the distance from the state where a tight descent from the same pressure ends. */
+ * 0. The jumps are large. In the third the bodies separate, and almost no traction is left. No estimate may
+ * be below the distance from the state where a tight descent from the same pressure ends. */
 static void
 jumps_are_seen(void **state)
 {

@@ -199,8 +199,9 @@ solve_until(struct rc_solver *solver, double seconds)
     return status;
 }
 
-/* Stops anywhere within steps. The pressure carries the load, and no estimate is below the true error. The gap
- * costs no convolution unless it is asked for. A solver whose flag is cleared continues to the solution. */
+/* Stops anywhere within steps. The pressure carries the load, and no estimate is below the true error. The
+ * gap costs no convolution unless it is asked for. A solver whose flag is cleared continues to the
+ * solution. */
 static void
 stops_within_steps(void **state)
 {
