@@ -76,7 +76,7 @@ demand_end(struct tool *t, struct second *b, size_t first)
 
     if (g != NULL)
         tool_die(
-            t, EXIT_IMPOSSIBLE,
+            t,
             "%s has more surfaces than the %zu of %s: put the stream with several surfaces first",
             t->operand[1], first, t->operand[0]);
 }

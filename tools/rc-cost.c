@@ -198,10 +198,10 @@ write_plot(struct costs *run, const struct cost_case *c)
     if (args.plot == NULL)
         return;
     if ((picture = cost_plot(c, ending_of(args.plot), &bytes, &run->t.err)) == NULL)
-        tool_die(&run->t, EXIT_IMPOSSIBLE, "--plot %s: %s", args.plot, run->t.err.text);
+        tool_die(&run->t, "--plot %s: %s", args.plot, run->t.err.text);
     if ((file = whole_file_open(&whole, args.plot)) == NULL ||
         fwrite(picture, 1, bytes, file) != bytes || !whole_file_put(&whole, file))
-        tool_die(&run->t, EXIT_IMPOSSIBLE, "--plot %s: %s", args.plot, strerror(errno));
+        tool_die(&run->t, "--plot %s: %s", args.plot, strerror(errno));
     free(picture);
 }
 
@@ -284,7 +284,7 @@ do_case(struct costs *run, struct rc_grid *g, const struct rc_grid *hardness)
     c.solution = cost_file(&run->t);
     c.output = cost_file(&run->t);
     if ((c.nowhere = open("/dev/null", O_WRONLY | O_CLOEXEC)) < 0)
-        tool_die(&run->t, EXIT_IMPOSSIBLE, "/dev/null: %s", strerror(errno));
+        tool_die(&run->t, "/dev/null: %s", strerror(errno));
     plan(run, &c);
     if (!args.dry_run && tool_interrupted() == 0) {
         cost_solve_reference(&c);

@@ -302,7 +302,7 @@ read_frames(struct tool *t, size_t *frames)
             g = even_rows(t, g);
         tool_sign(t, g);
         if ((more = realloc(frame, (*frames + 1) * sizeof(struct rc_grid *))) == NULL)
-            tool_die(t, EXIT_IMPOSSIBLE, "out of memory for %zu frames", *frames + 1);
+            tool_die(t, "out of memory for %zu frames", *frames + 1);
         frame = more;
         frame[(*frames)++] = g;
     }

@@ -510,7 +510,7 @@ import_file(struct tool *t, const char *name, const struct rc_wish *wish, size_t
                 write_heights(t, &s, wish, number, &t->err) == RC_OK;
 
     if (!good && !args.keep_going)
-        tool_die(t, EXIT_IMPOSSIBLE, "%s: %s", t->source, t->err.text);
+        tool_die(t, "%s: %s", t->source, t->err.text);
     if (!good)
         tool_fail(t, "%s: %s", t->source, t->err.text);
     source_close(&s);
@@ -540,6 +540,6 @@ main(int argc, char **argv)
         else
             good += import_file(&t, t.operand[k], &wish, k + 1);
     if (!args.list && good == 0)
-        tool_die(&t, EXIT_IMPOSSIBLE, "none of the %zu files can be read", t.operands);
+        tool_die(&t, "none of the %zu files can be read", t.operands);
     return tool_finish(&t);
 }

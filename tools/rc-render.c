@@ -189,7 +189,7 @@ write_picture(struct tool *t, const struct rc_grid *g, const struct paper *paper
              ? canvas_write(c, canvas_format(ending_of(t->out_name)), text, texts, t->out, &t->err)
              : picture_write(t->out, g->nx, g->ny, paper->dpi, text, texts, next_row, &d,
                              &t->err)) != RC_OK)
-        tool_die(t, EXIT_IMPOSSIBLE, "%s", t->err.text);
+        tool_die(t, "%s", t->err.text);
     free(made);
 }
 
@@ -464,8 +464,7 @@ render_sheet(struct tool *t, struct args *a, const struct frames *frames)
     sheet_size(t, a->sheet == NULL ? "auto" : a->sheet, &columns, &rows);
     if (columns > 0 && frames->n > columns * rows)
         tool_die(
-            t, EXIT_IMPOSSIBLE,
-            "%zu frames match, but --sheet %s has room for %zu: choose with --case and --depth",
+            t, "%zu frames match, but --sheet %s has room for %zu: choose with --case and --depth",
             frames->n, a->sheet, columns * rows);
     for (size_t k = 0; k < frames->n; k++)
         means_take(t, frames->grid[k], &means);

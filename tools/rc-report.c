@@ -94,8 +94,7 @@ make_folder(struct tool *t)
     snprintf(folder, sizeof folder, "%s/rc-report-XXXXXX",
              place == NULL || *place == '\0' ? "/tmp" : place);
     if (mkdtemp(folder) == NULL)
-        tool_die(t, EXIT_IMPOSSIBLE, "a temporary folder %s cannot be made: %s", folder,
-                 strerror(errno));
+        tool_die(t, "a temporary folder %s cannot be made: %s", folder, strerror(errno));
     atexit(remove_folder);
 }
 
@@ -107,7 +106,7 @@ open_part(struct run *run, const char *name)
 
     snprintf(path, sizeof path, "%s/%s", folder, name);
     if ((in = fopen(path, "rb")) == NULL)
-        tool_die(&run->t, EXIT_IMPOSSIBLE, "%s: %s", path, strerror(errno));
+        tool_die(&run->t, "%s: %s", path, strerror(errno));
     return in;
 }
 
@@ -432,7 +431,7 @@ take_messages(struct run *run, const char *name, enum process_end end, struct pr
     if (end == PROCESS_INTERRUPTED)
         remove_folder(); /* the signal ends this tool, which then does nothing else */
     if (end == PROCESS_INTERRUPTED || end == PROCESS_DIED)
-        tool_die(t, EXIT_IMPOSSIBLE, "%s was ended by a signal", name);
+        tool_die(t, "%s was ended by a signal", name);
     if (p->said != NULL && (end == PROCESS_FAILED || !t->quiet))
         fputs(p->said, stderr);
     if (end == PROCESS_FAILED) {
@@ -460,7 +459,7 @@ run_part(struct run *run, const struct part *part)
     char *words = strdup(part->command), *rest = words;
 
     if (words == NULL)
-        tool_die(&run->t, EXIT_IMPOSSIBLE, "out of memory");
+        tool_die(&run->t, "out of memory");
     for (const char *word; (word = strtok_r(rest, " ", &rest)) != NULL;)
         expand(run, &c, word);
     add(&c, "-o", part->file);
@@ -540,7 +539,7 @@ check_file(struct run *run)
         tool_usage(t,
                    "-: the page names its file: write standard input to a file and give its name");
     if ((run->path = realpath(run->file, NULL)) == NULL || (in = fopen(run->path, "rb")) == NULL)
-        tool_die(t, EXIT_IMPOSSIBLE, "%s: %s", run->file, strerror(errno));
+        tool_die(t, "%s: %s", run->file, strerror(errno));
     run->stream = fread(head, 1, 4, in) == 4 && memcmp(head, "RCG1", 4) == 0;
     fclose(in);
     run->name = strrchr(run->file, '/') == NULL ? run->file : strrchr(run->file, '/') + 1;
@@ -572,7 +571,7 @@ demand_one_map(struct run *run)
     for (; reader != NULL && rc_reader_next(reader, &g, &err) == RC_MORE; maps++)
         rc_grid_free(g);
     if (maps != 1)
-        tool_die(&run->t, EXIT_IMPOSSIBLE,
+        tool_die(&run->t,
                  "%s: it holds %zu maps, and a page is about one: choose one with rc-import and "
                  "rc-pick, "
                  "and give the new file",
@@ -620,14 +619,14 @@ static void
 open_text(struct run *run, struct text *text)
 {
     if ((text->file = open_memstream(&text->text, &text->size)) == NULL)
-        tool_die(&run->t, EXIT_IMPOSSIBLE, "out of memory");
+        tool_die(&run->t, "out of memory");
 }
 
 static void
 close_text(struct run *run, struct text *text)
 {
     if (ferror(text->file) || fclose(text->file) != 0)
-        tool_die(&run->t, EXIT_IMPOSSIBLE, "out of memory");
+        tool_die(&run->t, "out of memory");
 }
 
 int
@@ -639,7 +638,7 @@ main(int argc, char **argv)
     tool_start(t, &info, argc, argv, &args);
     check_arguments(&run);
     if ((run.nothing = open("/dev/null", O_RDWR | O_CLOEXEC)) < 0)
-        tool_die(t, EXIT_IMPOSSIBLE, "/dev/null: %s", strerror(errno));
+        tool_die(t, "/dev/null: %s", strerror(errno));
     open_text(&run, &run.commands);
     open_text(&run, &run.said);
     open_text(&run, &run.page);

@@ -105,8 +105,7 @@ read_conductivity(struct run *run)
         return;
     if (unit_conductivities(args.conductivity, run->k, &run->conductance_unit, &run->d.t.err) !=
         RC_OK)
-        tool_die(&run->d.t, EXIT_USAGE, "--conductivity %s: %s", args.conductivity,
-                 run->d.t.err.text);
+        tool_usage(&run->d.t, "--conductivity %s: %s", args.conductivity, run->d.t.err.text);
     run->conductance = args.physics.pair.one.layers == 0;
     if (!run->conductance)
         tool_warn(&run->d.t, "--conductivity does not work with --layer, because the analogy of "
@@ -121,16 +120,15 @@ check_tilt(struct run *run)
 
     run->tilt = args.tilt != NULL && strcmp(args.tilt, "free") == 0;
     if (args.at.n > 0 && !run->tilt)
-        tool_die(&run->d.t, EXIT_USAGE, "--at has no effect without --tilt free");
+        tool_usage(&run->d.t, "--at has no effect without --tilt free");
     if (args.at.n > 0 && args.at.n != 2)
-        tool_die(&run->d.t, EXIT_USAGE,
-                 "--at: it must be X,Y, from the middle of the map, as in 0.1mm,0");
+        tool_usage(&run->d.t, "--at: it must be X,Y, from the middle of the map, as in 0.1mm,0");
     if (run->tilt && a->periodic)
-        tool_die(&run->d.t, EXIT_USAGE,
-                 "--tilt free does not work on a periodic surface, because it has no centre of "
-                 "tilt: leave out --periodic");
+        tool_usage(&run->d.t,
+                   "--tilt free does not work on a periodic surface, because it has no centre of "
+                   "tilt: leave out --periodic");
     if (run->tilt && tool_given(&run->d.t, "history"))
-        tool_die(&run->d.t, EXIT_USAGE, "--tilt free does not work with --history yet");
+        tool_usage(&run->d.t, "--tilt free does not work with --history yet");
 }
 
 static void

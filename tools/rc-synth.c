@@ -150,8 +150,7 @@ place_highest(struct tool *t, const struct rc_grid *g)
         if (isfinite(g->v[k]) && (top == n || g->v[k] > g->v[top]))
             top = k;
     if (top == n)
-        tool_die(t, EXIT_IMPOSSIBLE,
-                 "--like %s: no height was measured: --place highest is nowhere", args.like);
+        tool_die(t, "--like %s: no height was measured: --place highest is nowhere", args.like);
     args.place.n = 2;
     args.place.v = tool_room(t, 2, sizeof *args.place.v, "a place");
     i = top % g->nx;
@@ -248,7 +247,7 @@ main(int argc, char **argv)
     tool_must(&t, NULL, tool_ask_memory(&t, &shape, bytes, &t.err));
     g = rc_grid_new(&shape, "height", "m", &t.err);
     if (g == NULL || row->make(&args, &shape, g->v, &periodic, &t.err) != RC_OK)
-        tool_die(&t, EXIT_IMPOSSIBLE, "%s", t.err.text);
+        tool_die(&t, "%s", t.err.text);
     add_keys(&t, row, g, periodic);
     tool_write(&t, g);
     rc_grid_free(g);

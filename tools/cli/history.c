@@ -29,7 +29,7 @@ add(struct line *line, const char *a, const char *b)
         size_t size = 2 * (line->n + more + 1);
         char *text = realloc(line->text, size);
         if (text == NULL)
-            tool_die(line->tool, EXIT_IMPOSSIBLE, "out of memory for %zu bytes of history", size);
+            tool_die(line->tool, "out of memory for %zu bytes of history", size);
         line->text = text;
         line->size = size;
     }

@@ -68,7 +68,7 @@ open_next(struct tool *t)
     } else {
         t->source = name;
         if ((t->input.file = fopen(name, "rb")) == NULL)
-            tool_die(t, EXIT_IMPOSSIBLE, "%s: %s%s%s", name, strerror(errno),
+            tool_die(t, "%s: %s%s%s", name, strerror(errno),
                      is_unit(name) ? ": a unit follows its number without a blank, as in 60" : "",
                      is_unit(name) ? name : "");
     }
@@ -129,18 +129,17 @@ cannot_read(struct tool *t, const struct rc_err *err)
         fail_as_before(t, failure, status);
     if (rc_reader_foreign(t->input.reader, &head) && head != NULL && t->info->foreign != NULL &&
         (remedy = t->info->foreign(head)) != NULL)
-        tool_die(t, EXIT_IMPOSSIBLE, "%s is not a grid stream: %s", t->source, remedy);
+        tool_die(t, "%s is not a grid stream: %s", t->source, remedy);
     if (rc_reader_foreign(t->input.reader, &head) && head != NULL)
-        tool_die(t, EXIT_IMPOSSIBLE, "%s",
+        tool_die(t, "%s",
                  foreign_message(text, sizeof text, t->info->name,
                                  t->input.file == stdin ? "-" : t->source, head));
     if (rc_reader_foreign(t->input.reader, &head))
-        tool_die(t, EXIT_IMPOSSIBLE, "%s is empty, the stream stops before it begins: %s",
-                 t->source,
+        tool_die(t, "%s is empty, the stream stops before it begins: %s", t->source,
                  pipe_is(fileno(t->input.file))
                      ? "the program before this one in the pipe wrote no output"
                      : "make it again");
-    tool_die(t, EXIT_IMPOSSIBLE, "%s, frame %zu: %s", t->source, t->frame + 1, err->text);
+    tool_die(t, "%s, frame %zu: %s", t->source, t->frame + 1, err->text);
 }
 
 struct not_finite
@@ -227,8 +226,8 @@ static void
 end_case(struct tool *t, const char *channel)
 {
     if (t->current.number != 0 && t->current.found == 0)
-        tool_die(t, EXIT_IMPOSSIBLE, "%s, case %zu: no frame with the channel %s, only %s%s",
-                 t->current.source, t->current.number, channel, t->current.names,
+        tool_die(t, "%s, case %zu: no frame with the channel %s, only %s%s", t->current.source,
+                 t->current.number, channel, t->current.names,
                  strcmp(channel, "pressure") == 0 && strstr(t->current.names, "height") != NULL
                      ? ": rc-solve finds the pressure of heights under a load"
                      : "");
@@ -289,7 +288,7 @@ tool_channel_with(struct tool *t, const char *channel, tool_take *take, void *ct
     struct rc_grid *g, *kept = NULL;
 
     if ((g = tool_read(t)) == NULL && t->current.number == 0)
-        tool_die(t, EXIT_IMPOSSIBLE, "%s: the stream has no frame", t->source);
+        tool_die(t, "%s: the stream has no frame", t->source);
     if (g == NULL)
         return NULL;
     begin_case(t, rc_grid_case(g));
@@ -376,7 +375,7 @@ tool_channel(struct tool *t, const char *channel, bool pass)
     }
     end_case(t, channel);
     if (t->current.number == 0)
-        tool_die(t, EXIT_IMPOSSIBLE, "%s: the stream has no frame", t->source);
+        tool_die(t, "%s: the stream has no frame", t->source);
     return NULL;
 }
 
@@ -390,21 +389,21 @@ tool_frame_of_file(struct tool *t, const char *option, const char *name, const c
     enum rc_status status;
 
     if (file == NULL)
-        tool_die(t, EXIT_IMPOSSIBLE, "--%s %s: %s", option, name, strerror(errno));
+        tool_die(t, "--%s %s: %s", option, name, strerror(errno));
     if ((reader = rc_reader_new(file, 0, t->memory, &t->err)) == NULL)
-        tool_die(t, EXIT_IMPOSSIBLE, "--%s %s: %s", option, name, t->err.text);
+        tool_die(t, "--%s %s: %s", option, name, t->err.text);
     do {
         rc_grid_free(g);
         status = rc_reader_next(reader, &g, &t->err);
     } while (status == RC_MORE && channel != NULL && strcmp(g->channel, channel) != 0);
     if (status == RC_FAIL)
-        tool_die(t, EXIT_IMPOSSIBLE, "--%s %s: %s", option, name, t->err.text);
+        tool_die(t, "--%s %s: %s", option, name, t->err.text);
     if (g == NULL)
-        tool_die(t, EXIT_IMPOSSIBLE, "--%s %s: no %s%sframe is in it", option, name,
-                 channel == NULL ? "" : channel, channel == NULL ? "" : " ");
+        tool_die(t, "--%s %s: no %s%sframe is in it", option, name, channel == NULL ? "" : channel,
+                 channel == NULL ? "" : " ");
     if (strcmp(rc_grid_dunit(g), "m") != 0)
-        tool_die(t, EXIT_IMPOSSIBLE, "--%s %s: its dx and dy are in %s (key dunit), not in m",
-                 option, name, rc_grid_dunit(g));
+        tool_die(t, "--%s %s: its dx and dy are in %s (key dunit), not in m", option, name,
+                 rc_grid_dunit(g));
     rc_reader_free(reader);
     if (!standard)
         fclose(file);

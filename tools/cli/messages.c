@@ -137,26 +137,6 @@ fail_as_before(struct tool *t, const char *message, int status)
     exit(status);
 }
 
-void
-tool_die(struct tool *t, int status, const char *format, ...)
-{
-    char text[1024];
-
-    WRITE(text, format);
-    tool_add_refusal(t, NULL, text, sizeof text);
-    die(t, status, text);
-}
-
-void
-tool_usage(struct tool *t, const char *format, ...)
-{
-    char text[1024];
-
-    WRITE(text, format);
-    tool_add_refusal(t, NULL, text, sizeof text);
-    die(t, EXIT_USAGE, text);
-}
-
 const char *
 tool_where_to(const struct tool *t, const struct rc_grid *g, char text[WHERE])
 {
@@ -172,42 +152,23 @@ tool_where_to(const struct tool *t, const struct rc_grid *g, char text[WHERE])
     return rc_text_harmless(text, '?');
 }
 
-static _Noreturn void
-die_at(struct tool *t, const struct rc_grid *g, int status, char text[1024])
-{
-    char whole[1400];
-
-    tool_add_refusal(t, g, text, 1024);
-    snprintf(whole, sizeof whole, "%s: %s", tool_where(t, g), text);
-    die(t, status, whole);
-}
-
 void
 tool_die_at(struct tool *t, const struct rc_grid *g, int status, const char *format, ...)
 {
-    char text[1024];
+    char text[1024], whole[1400];
 
     WRITE(text, format);
-    die_at(t, g, status, text);
-}
-
-void
-tool_refuse(struct tool *t, const struct rc_grid *g, const char *format, ...)
-{
-    char text[1024];
-
-    WRITE(text, format);
-    die_at(t, g, EXIT_IMPOSSIBLE, text);
+    tool_add_refusal(t, g, text, sizeof text);
+    snprintf(whole, sizeof whole, "%s%s%s", g == NULL ? "" : tool_where(t, g),
+             g == NULL ? "" : ": ", text);
+    die(t, status, whole);
 }
 
 void
 tool_must(struct tool *t, const struct rc_grid *g, enum rc_status status)
 {
-    if (status == RC_OK)
-        return;
-    if (g == NULL)
-        tool_die(t, EXIT_IMPOSSIBLE, "%s", t->err.text);
-    tool_refuse(t, g, "%s", t->err.text);
+    if (status != RC_OK)
+        tool_refuse(t, g, "%s", t->err.text);
 }
 
 void *
@@ -270,7 +231,7 @@ static void *
 demand(struct tool *t, void *v, const char *what)
 {
     if (v == NULL)
-        tool_die(t, EXIT_IMPOSSIBLE, "out of memory for %s", what);
+        tool_die(t, "out of memory for %s", what);
     return v;
 }
 

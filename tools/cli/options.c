@@ -294,8 +294,8 @@ set_list(struct tool *t, const struct opt *o, struct numbers *list, const char *
     t->option.list[o - t->option.row] = text;
     if ((o->per_metre ? unit_forces(text, list, &t->err)
                       : unit_numbers(text, o->unit, list, &t->err)) != RC_OK)
-        tool_die(t, list->no_memory ? EXIT_IMPOSSIBLE : EXIT_USAGE, "--%s %s: %s", o->name, text,
-                 t->err.text);
+        tool_die_at(t, NULL, list->no_memory ? EXIT_IMPOSSIBLE : EXIT_USAGE, "--%s %s: %s", o->name,
+                    text, t->err.text);
     for (size_t k = 0; k < list->n; k++) {
         check_bounds(t, o, list->v[k], list->per_metre);
         if (o->whole && list->v[k] != floor(list->v[k]))
@@ -558,7 +558,7 @@ options_read(struct tool *t, int argc, char **argv)
     if (argc == 3 && strcmp(argv[1], "--completions") == 0 && completions_print(t, argv[2]))
         exit(fflush(stdout) == 0 ? 0 : EXIT_IMPOSSIBLE);
     if ((table = getopt_table(t)) == NULL)
-        tool_die(t, EXIT_IMPOSSIBLE, "out of memory");
+        tool_die(t, "out of memory");
     opterr = 0;
     look_for_output(t, argc, argv, table);
     while ((what = getopt_long(argc, argv, letters, table, NULL)) != -1) {

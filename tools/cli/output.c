@@ -114,7 +114,7 @@ demand_shared_file(struct tool *t)
             t,
             "several processes write a file, each its part of it: give -o FILE instead of a pipe");
     if (stat(t->out_name, &st) == 0 && !S_ISREG(st.st_mode))
-        tool_die(t, EXIT_IMPOSSIBLE,
+        tool_die(t,
                  "-o %s: several processes write a file, each its part of it: give a regular file",
                  t->out_name);
     tool_demand_writable(t, "-o", t->out_name);
@@ -129,7 +129,7 @@ open_shared(struct tool *t)
     if (ranks_speak(t)) {
         FILE *file = whole_file_open(&output, t->out_name);
         if (file == NULL || fclose(file) != 0)
-            tool_die(t, EXIT_IMPOSSIBLE, "-o %s: %s", t->out_name, strerror(errno));
+            tool_die(t, "-o %s: %s", t->out_name, strerror(errno));
         snprintf(name, sizeof name, "%s", whole_file_name(&output));
     }
     ranks_share(t, 0, name, sizeof name);
@@ -156,23 +156,23 @@ output_open(struct tool *t)
     }
     if (t->out_name == NULL) {
         if (binary && isatty(STDOUT_FILENO))
-            tool_die(t, EXIT_IMPOSSIBLE,
+            tool_die(t,
                      "standard output is a terminal: pipe it into the next tool or give -o FILE");
         t->out = stdout;
     } else {
         if (stat(t->out_name, &st) == 0 && S_ISDIR(st.st_mode))
-            tool_die(t, EXIT_IMPOSSIBLE, "-o %s: this is a folder", t->out_name);
+            tool_die(t, "-o %s: this is a folder", t->out_name);
         if ((t->out = whole_file_open(&output, t->out_name)) == NULL)
-            tool_die(t, EXIT_IMPOSSIBLE, "-o %s: %s", t->out_name, strerror(errno));
+            tool_die(t, "-o %s: %s", t->out_name, strerror(errno));
         if (binary && isatty(fileno(t->out)))
-            tool_die(t, EXIT_IMPOSSIBLE, "-o %s: this is a terminal", t->out_name);
+            tool_die(t, "-o %s: this is a terminal", t->out_name);
     }
     if (binary)
         setvbuf(t->out, NULL, _IOFBF, TOOL_BUFFER);
     if (binary)
         pipe_widen(fileno(t->out));
     if (t->writes == WRITES_STREAM && (t->output.writer = rc_writer_new(t->out, &t->err)) == NULL)
-        tool_die(t, EXIT_IMPOSSIBLE, "%s", t->err.text);
+        tool_die(t, "%s", t->err.text);
 }
 
 /* Values near the limits of a double can overflow in the computation: then there is no output. */
@@ -223,18 +223,18 @@ output_end(struct tool *t)
     if (t->ranks != NULL && t->writes == WRITES_STREAM && t->output.writer == NULL)
         open_shared(t); /* the file holds no frame */
     if (t->output.writer != NULL && rc_writer_end(t->output.writer, &t->err) != RC_OK)
-        tool_die(t, EXIT_IMPOSSIBLE, "%s: %s", name, t->err.text);
+        tool_die(t, "%s: %s", name, t->err.text);
     t->output.ended = true; /* an end line was written: nothing may follow it */
     rc_writer_free(t->output.writer);
     t->output.writer = NULL;
     if (ranks_settle(t->output.share, &t->err) != RC_OK)
-        tool_die(t, EXIT_IMPOSSIBLE, "%s: %s", name, t->err.text);
+        tool_die(t, "%s: %s", name, t->err.text);
     ranks_close(t, t->output.share);
     t->output.share = NULL;
     if (!ranks_speak(t))
         whole_file_share(&output, ""); /* the first process renames it */
     if (!whole_file_put(&output, t->out))
-        tool_die(t, EXIT_IMPOSSIBLE, "%s: writing failed (%s)", name, strerror(errno));
+        tool_die(t, "%s: writing failed (%s)", name, strerror(errno));
 }
 
 void

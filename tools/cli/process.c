@@ -69,7 +69,7 @@ static void
 make_pipe(struct tool *t, int end[2])
 {
     if (pipe(end) != 0)
-        tool_die(t, EXIT_IMPOSSIBLE, "no pipe can be made: %s", strerror(errno));
+        tool_die(t, "no pipe can be made: %s", strerror(errno));
     fcntl(end[0], F_SETFD, FD_CLOEXEC);
     fcntl(end[1], F_SETFD, FD_CLOEXEC);
 }
@@ -149,6 +149,6 @@ process_start(struct tool *t, const char *const word[], int in, FILE **out)
     child = start(word, in, from[1], STDERR_FILENO, NULL);
     close(from[1]);
     if (child < 0 || (*out = fdopen(from[0], "rb")) == NULL)
-        tool_die(t, EXIT_IMPOSSIBLE, "%s cannot be run: %s", word[0], strerror(errno));
+        tool_die(t, "%s cannot be run: %s", word[0], strerror(errno));
     return child;
 }

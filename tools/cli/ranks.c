@@ -84,7 +84,7 @@ ranks_start(struct tool *t)
     if (!launched())
         return;
     if (MPI_Init_thread(NULL, NULL, MPI_THREAD_FUNNELED, &given) != MPI_SUCCESS)
-        tool_die(t, EXIT_IMPOSSIBLE, "MPI cannot be started");
+        tool_die(t, "MPI cannot be started");
     MPI_Comm_dup(MPI_COMM_WORLD, &r.comm);
     MPI_Comm_dup(MPI_COMM_WORLD, &r.last);
     MPI_Comm_size(r.comm, &r.count);
@@ -99,9 +99,9 @@ ranks_start(struct tool *t)
     t->ranks = &r;
     atexit(finalize); /* also after --help */
     if (r.own > 0 && freopen("/dev/null", "w", stdout) == NULL)
-        tool_die(t, EXIT_IMPOSSIBLE, "/dev/null: %s", strerror(errno));
+        tool_die(t, "/dev/null: %s", strerror(errno));
     if ((r.parts = malloc((size_t)r.count * sizeof *r.parts)) == NULL)
-        tool_die(t, EXIT_IMPOSSIBLE, "out of memory for %d processes", r.count);
+        tool_die(t, "out of memory for %d processes", r.count);
     r.library = tool_made(t, NULL, rc_ranks_new(r.comm, &t->err));
 }
 
@@ -354,7 +354,7 @@ open_file(struct tool *t, const char *name, int mode)
     int result, length;
 
     if (f == NULL)
-        tool_die(t, EXIT_IMPOSSIBLE, "out of memory");
+        tool_die(t, "out of memory");
     *f = (struct file){.share = {.ctx = f,
                                  .first = t->ranks->own == 0,
                                  .rows = share_rows,
@@ -366,7 +366,7 @@ open_file(struct tool *t, const char *name, int mode)
     result = MPI_File_open(t->ranks->comm, name, mode, MPI_INFO_NULL, &f->file);
     if (result != MPI_SUCCESS) {
         MPI_Error_string(result, text, &length);
-        tool_die(t, EXIT_IMPOSSIBLE, "%s: %s", name, text);
+        tool_die(t, "%s: %s", name, text);
     }
     return &f->share;
 }
@@ -403,7 +403,7 @@ ranks_close(struct tool *t, const struct rc_share *share)
         return;
     f = share->ctx;
     if (MPI_File_close(&f->file) != MPI_SUCCESS)
-        tool_die(t, EXIT_IMPOSSIBLE, "a file cannot be closed");
+        tool_die(t, "a file cannot be closed");
     free(f);
 }
 

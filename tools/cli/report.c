@@ -41,8 +41,7 @@ report_wanted(const struct report *r)
 static _Noreturn void
 failed(struct report *r)
 {
-    tool_die(r->tool, EXIT_IMPOSSIBLE, "--report %s: writing failed (%s)", r->name,
-             strerror(errno));
+    tool_die(r->tool, "--report %s: writing failed (%s)", r->name, strerror(errno));
 }
 
 void
@@ -64,7 +63,7 @@ put_cell(struct report *r, const char *name, const char *unit, char *text)
     size_t k = 0;
 
     if (text == NULL)
-        tool_die(r->tool, EXIT_IMPOSSIBLE, "--report %s: out of memory", r->name);
+        tool_die(r->tool, "--report %s: out of memory", r->name);
     if (r->depth > 0) {
         free(text);
         return;
@@ -147,7 +146,7 @@ report_begin(struct report *r)
                       ? stdout
                       : fopen(ranks_speak(r->tool) ? r->name : "/dev/null", "w");
     if (r->file == NULL)
-        tool_die(r->tool, EXIT_IMPOSSIBLE, "--report %s: %s", r->name, strerror(errno));
+        tool_die(r->tool, "--report %s: %s", r->name, strerror(errno));
     if (!r->separator)
         json_open(&r->json, r->file);
 }

@@ -48,7 +48,7 @@ refuse(struct tool *t, const struct rc_grid *g)
            rc_grid_case(next) == rc_grid_case(g))
         if (computed(next->channel))
             add_name(t->results.names, sizeof t->results.names, next->channel);
-    tool_die(t, EXIT_IMPOSSIBLE,
+    tool_die(t,
              "%s: the case contains a height and results computed from it (%s), which the changed "
              "height would contradict: take the height alone with rc-pick --channel height",
              where, t->results.names);

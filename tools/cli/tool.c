@@ -117,16 +117,16 @@ tool_demand_writable(struct tool *t, const char *option, const char *name)
     if (name == NULL)
         return;
     if (stat(name, &st) == 0 && S_ISDIR(st.st_mode))
-        tool_die(t, EXIT_IMPOSSIBLE, "%s %s: this is a folder", option, name);
+        tool_die(t, "%s %s: this is a folder", option, name);
     if (access(name, F_OK) != 0) { /* it does not exist yet: its folder must be writable */
         if (!whole_file_place(name, place))
-            tool_die(t, EXIT_IMPOSSIBLE, "%s %s: %s", option, name, strerror(errno));
+            tool_die(t, "%s %s: %s", option, name, strerror(errno));
         if ((slash = strrchr(place, '/')) != NULL)
             slash[1] = '\0';
         where = slash == NULL ? "." : place;
     }
     if (access(where, W_OK) != 0)
-        tool_die(t, EXIT_IMPOSSIBLE, "%s %s: %s", option, name, strerror(errno));
+        tool_die(t, "%s %s: %s", option, name, strerror(errno));
 }
 
 /* ---- time and memory of the run ---- */

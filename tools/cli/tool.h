@@ -252,17 +252,14 @@ int tool_finish(struct tool *tool);
 void tool_fails_with(struct tool *tool, int status);
 
 /* Prints "rc-solve: message" on standard error, and removes half-written files. It writes RCGFAIL into a
- * stream that has begun and into a pipe that waits for one. */
-_Noreturn void tool_die(struct tool *tool, int status, const char *format, ...)
-    __attribute__((format(printf, 3, 4)));
-/* The same, with source, case and channel of the faulty frame in the message. */
+ * stream that has begun and into a pipe that waits for one. With a faulty frame the message names its source,
+ * case and channel. */
 _Noreturn void tool_die_at(struct tool *tool, const struct rc_grid *grid, int status,
                            const char *format, ...) __attribute__((format(printf, 4, 5)));
-/* The same with the usual exit status: for the command line, and for a faulty frame. */
-_Noreturn void tool_usage(struct tool *tool, const char *format, ...)
-    __attribute__((format(printf, 2, 3)));
-_Noreturn void tool_refuse(struct tool *tool, const struct rc_grid *grid, const char *format, ...)
-    __attribute__((format(printf, 3, 4)));
+/* The same for impossible requests, for the command line, and for a faulty frame. */
+#define tool_die(tool, ...) tool_die_at(tool, NULL, EXIT_IMPOSSIBLE, __VA_ARGS__)
+#define tool_usage(tool, ...) tool_die_at(tool, NULL, EXIT_USAGE, __VA_ARGS__)
+#define tool_refuse(tool, grid, ...) tool_die_at(tool, grid, EXIT_IMPOSSIBLE, __VA_ARGS__)
 /* Ends the tool with the message of a failure, tool->err, at a frame or, with NULL, without a place. */
 void tool_must(struct tool *tool, const struct rc_grid *grid, enum rc_status status);
 /* Returns what a maker returned; ends the tool with tool->err if that is NULL. */

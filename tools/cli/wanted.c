@@ -339,8 +339,8 @@ no_channel(const struct wanted *w, struct tool *t, const char *name, size_t n)
 
     snprintf(asked, sizeof asked, "%.*s", (int)n, name);
     seen_channels(&w->list, &l);
-    tool_die(t, EXIT_IMPOSSIBLE, "%s: no frame with the channel %.*s, only %s", t->source, (int)n,
-             name, name_list_end(&l));
+    tool_die(t, "%s: no frame with the channel %.*s, only %s", t->source, (int)n, name,
+             name_list_end(&l));
 }
 
 static _Noreturn void
@@ -349,7 +349,7 @@ no_case(const struct wanted *w, struct tool *t, double number)
     struct name_list l = {.n = 0};
 
     seen_cases(&w->list, right_channel, w, &l);
-    tool_die(t, EXIT_IMPOSSIBLE, "%s: no case %.0f%s%s: there are cases %s", t->source, number,
+    tool_die(t, "%s: no case %.0f%s%s: there are cases %s", t->source, number,
              w->channel == NULL ? "" : " with ", w->channel == NULL ? "" : w->channel,
              name_list_end(&l));
 }
@@ -360,7 +360,7 @@ no_depth(const struct wanted *w, struct tool *t, double depth)
     struct name_list l = {.n = 0};
 
     seen_depths(&w->list, only_depth, w, &l);
-    tool_die(t, EXIT_IMPOSSIBLE, "%s: no frame at depth %s m: %s%s%s", t->source, rc_number(depth),
+    tool_die(t, "%s: no frame at depth %s m: %s%s%s", t->source, rc_number(depth),
              l.n == 0 ? "no frame has a depth" : "there are ", name_list_end(&l),
              l.n == 0 ? "" : " m");
 }
@@ -377,8 +377,7 @@ demand_channels(const struct wanted *w, struct tool *t, bool wanted)
             if (is_name(&w->list.seen[i], name, n) && (!wanted || w->list.seen[i].taken))
                 break;
         if (i == w->list.n && wanted)
-            tool_die(t, EXIT_IMPOSSIBLE,
-                     "%s: no frame with the channel %.*s among the requested cases and depths",
+            tool_die(t, "%s: no frame with the channel %.*s among the requested cases and depths",
                      t->source, (int)n, name);
         if (i == w->list.n)
             no_channel(w, t, name, n);
@@ -413,7 +412,7 @@ static void
 settle(struct wanted *w, struct tool *t)
 {
     if (w->list.n == 0)
-        tool_die(t, EXIT_IMPOSSIBLE, "%s: the stream has no frame", t->source);
+        tool_die(t, "%s: the stream has no frame", t->source);
     demand_channels(w, t, false);
     demand_cases(w, t);
     demand_depths(w, t);

@@ -106,7 +106,7 @@ cost_plan(struct cost_case *c, struct cost_trial *m)
     put(&l, "--dry-run", m->reference ? NULL : "--quiet");
     end = cost_run(c, l.word, grid_of(c, m), -1, INFINITY, "a plan", &status);
     if (end == PROCESS_FAILED && m->reference && status == EXIT_USAGE)
-        tool_die(c->tool, status, "%s", cost_message(c->said));
+        tool_usage(c->tool, "%s", cost_message(c->said));
     if (end == PROCESS_FAILED && m->reference)
         tool_refuse(c->tool, c->heights, "%s", cost_message(c->said));
     if (end == PROCESS_FAILED)

@@ -20,8 +20,7 @@ cost_file(struct tool *t)
     snprintf(name, sizeof name, "%s/rc-cost-XXXXXX",
              folder == NULL || *folder == '\0' ? "/tmp" : folder);
     if ((fd = mkstemp(name)) < 0)
-        tool_die(t, EXIT_IMPOSSIBLE, "a temporary file %s cannot be made: %s", name,
-                 strerror(errno));
+        tool_die(t, "a temporary file %s cannot be made: %s", name, strerror(errno));
     unlink(name);
     fcntl(fd, F_SETFD, FD_CLOEXEC);
     return fd;
@@ -34,7 +33,7 @@ cost_file_read(struct tool *t, int file)
     FILE *stream;
 
     if (fd < 0 || lseek(fd, 0, SEEK_SET) < 0 || (stream = fdopen(fd, "rb")) == NULL)
-        tool_die(t, EXIT_IMPOSSIBLE, "a temporary file cannot be read: %s", strerror(errno));
+        tool_die(t, "a temporary file cannot be read: %s", strerror(errno));
     return stream;
 }
 
@@ -47,8 +46,7 @@ cost_run(struct cost_case *c, const char *const word[], int in, int out, double 
 
     free(c->said);
     if (out >= 0 && (ftruncate(out, 0) != 0 || lseek(out, 0, SEEK_SET) < 0) && errno != EINVAL)
-        tool_die(c->tool, EXIT_IMPOSSIBLE, "a temporary file cannot be written: %s",
-                 strerror(errno));
+        tool_die(c->tool, "a temporary file cannot be written: %s", strerror(errno));
     end = process_run(c->tool, word, &p);
     c->said = p.said;
     *status = p.status;

@@ -430,11 +430,10 @@ cost_command(const struct cost_case *c, FILE *out)
                   cost_name(name, best), best->is.seconds, 100 * best->is.error, own);
         put_command(c, best, out);
     } else if (nearest != NULL) {
-        tool_die(c->tool, EXIT_IMPOSSIBLE,
-                 "no trial was %s: the best was %s, %.3g s, error %.1e; raise %s",
+        tool_die(c->tool, "no trial was %s: the best was %s, %.3g s, error %.1e; raise %s",
                  timed ? "fast enough" : "accurate enough", cost_name(name, nearest),
                  nearest->is.seconds, nearest->is.error, timed ? "--budget" : "--error or --limit");
     } else {
-        tool_die(c->tool, EXIT_IMPOSSIBLE, "no trial was run: raise --limit");
+        tool_die(c->tool, "no trial was run: raise --limit");
     }
 }

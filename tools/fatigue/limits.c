@@ -49,7 +49,7 @@ read_table(struct tool *t, struct fatigue_limits *l)
     char line[512];
 
     if (file == NULL)
-        tool_die(t, EXIT_IMPOSSIBLE, "--limits %s: %s", l->asked->table, strerror(errno));
+        tool_die(t, "--limits %s: %s", l->asked->table, strerror(errno));
     while (fgets(line, sizeof line, file) != NULL) {
         number++;
         line[strcspn(line, "#\r\n")] = '\0';
@@ -57,7 +57,7 @@ read_table(struct tool *t, struct fatigue_limits *l)
             add_line(t, l, &room, number, line);
     }
     if (ferror(file))
-        tool_die(t, EXIT_IMPOSSIBLE, "--limits %s: %s", l->asked->table, strerror(errno));
+        tool_die(t, "--limits %s: %s", l->asked->table, strerror(errno));
     fclose(file);
     if (l->n == 0)
         tool_usage(t, "--limits %s: it holds no limits", l->asked->table);
@@ -248,25 +248,25 @@ fatigue_residual_read(struct tool *t, const char *name, char pass, struct fatigu
 
     r->name = name;
     if (file == NULL)
-        tool_die(t, EXIT_IMPOSSIBLE, "--residual %s: %s", name, strerror(errno));
+        tool_die(t, "--residual %s: %s", name, strerror(errno));
     if ((reader = rc_reader_new(file, 0, t->memory, &t->err)) == NULL)
-        tool_die(t, EXIT_IMPOSSIBLE, "--residual %s: %s", name, t->err.text);
+        tool_die(t, "--residual %s: %s", name, t->err.text);
     while ((status = rc_reader_next(reader, &g, &t->err)) == RC_MORE) {
         keep_residual(t, r, g, pass, largest);
         rc_grid_free(g);
     }
     if (status == RC_FAIL)
-        tool_die(t, EXIT_IMPOSSIBLE, "--residual %s: %s", name, t->err.text);
+        tool_die(t, "--residual %s: %s", name, t->err.text);
     rc_reader_free(reader);
     fclose(file);
     if (r->n == 0)
-        tool_die(t, EXIT_IMPOSSIBLE,
+        tool_die(t,
                  "--residual %s: it holds no stresses: see rc-stress --residual --components "
                  "sxx,syy,szz,sxy,sxz,syz",
                  name);
     if (largest[0] > uniform * largest[1])
         tool_die(
-            t, EXIT_IMPOSSIBLE,
+            t,
             "--residual %s: it varies along the travel by %.2g %% of its largest value: more "
             "than 10 %% cannot stay in a body over which the contact travels; cut out the part "
             "that is uniform with rc-pick --crop",
@@ -282,11 +282,10 @@ fatigue_residual_at(struct tool *t, const struct fatigue_residual *r, size_t lin
     if (r->name == NULL)
         return NULL;
     if (lines != r->lines)
-        tool_die(t, EXIT_IMPOSSIBLE,
-                 "--residual %s: it has %zu lines along the travel, and the pressure has %zu",
+        tool_die(t, "--residual %s: it has %zu lines along the travel, and the pressure has %zu",
                  r->name, r->lines, lines);
     if ((k = index_of(r, depth)) == r->n)
-        tool_die(t, EXIT_IMPOSSIBLE,
+        tool_die(t,
                  "--residual %s: it has no stresses at the depth %g m: give both commands the same "
                  "--depths",
                  r->name, depth);

@@ -37,14 +37,13 @@ info_end(struct info_wanted *w, struct tool *t)
 {
     report_close(&w->out);
     if ((w->areal || w->psd || w->profile != NULL) && !w->height)
-        tool_die(t, EXIT_IMPOSSIBLE, "%s is of heights, and no frame is a height; there is: %s",
+        tool_die(t, "%s is of heights, and no frame is a height; there is: %s",
                  w->areal ? "--areal"
                  : w->psd ? "--psd"
                           : "--profile",
                  name_list_end(&w->present));
     if (w->patches && !w->pressure)
-        tool_die(t, EXIT_IMPOSSIBLE,
-                 "--patches is of pressures, and no frame is a pressure; there is: %s",
+        tool_die(t, "--patches is of pressures, and no frame is a pressure; there is: %s",
                  name_list_end(&w->present));
     if (w->file != NULL)
         info_file_end(w->file);

@@ -16,7 +16,7 @@ struct info_file {
 static _Noreturn void
 failed(struct info_file *f)
 {
-    tool_die(f->tool, EXIT_IMPOSSIBLE, "%s %s: %s", f->option, f->name, strerror(errno));
+    tool_die(f->tool, "%s %s: %s", f->option, f->name, strerror(errno));
 }
 
 struct info_file *
@@ -51,7 +51,7 @@ void
 info_file_end(struct info_file *f)
 {
     if (rc_writer_end(f->writer, &f->tool->err) != RC_OK)
-        tool_die(f->tool, EXIT_IMPOSSIBLE, "%s %s: %s", f->option, f->name, f->tool->err.text);
+        tool_die(f->tool, "%s %s: %s", f->option, f->name, f->tool->err.text);
     rc_writer_free(f->writer);
     if (!whole_file_put(&f->whole, f->file))
         failed(f);

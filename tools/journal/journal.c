@@ -48,8 +48,7 @@ lock(const struct journal *j)
         taken = fcntl(fileno(j->file), set, &behind) != 0 && (errno == EACCES || errno == EAGAIN);
     ranks_share(j->t, 0, &taken, sizeof taken);
     if (taken)
-        tool_die(j->t, EXIT_IMPOSSIBLE,
-                 "--checkpoint %s: another run is writing to it: wait for its end, or end it",
+        tool_die(j->t, "--checkpoint %s: another run is writing to it: wait for its end, or end it",
                  j->name);
 }
 
@@ -66,9 +65,9 @@ journal_open(struct journal *j, struct tool *t, const char *name, bool resume, b
         return;
     }
     if (resume && errno != ENOENT)
-        tool_die(t, EXIT_IMPOSSIBLE, "--checkpoint %s: %s", name, strerror(errno));
+        tool_die(t, "--checkpoint %s: %s", name, strerror(errno));
     if ((j->file = open_file(j, "w+bx")) == NULL)
-        tool_die(t, EXIT_IMPOSSIBLE, "--checkpoint %s: %s", name,
+        tool_die(t, "--checkpoint %s: %s", name,
                  errno == EEXIST ? "the file exists: continue from it with --resume, or remove it"
                                  : strerror(errno));
     lock(j);
@@ -111,7 +110,7 @@ journal_cut(struct journal *j, size_t frames, off_t end)
         end -= (off_t)strlen(end_line);
     if (ftruncate(fileno(j->file), end) != 0 || fseeko(j->file, end, SEEK_SET) != 0 ||
         (frames > 0 && fputs(end_line, j->file) == EOF) || fflush(j->file) != 0)
-        tool_die(j->t, EXIT_IMPOSSIBLE, "--checkpoint %s: %s", j->name, strerror(errno));
+        tool_die(j->t, "--checkpoint %s: %s", j->name, strerror(errno));
 }
 
 struct rc_grid *
@@ -122,13 +121,13 @@ journal_read(const struct journal *j, off_t at)
     struct rc_grid *g = NULL;
 
     if (fseeko(j->file, at, SEEK_SET) != 0)
-        tool_die(j->t, EXIT_IMPOSSIBLE, "--checkpoint %s: %s", j->name, strerror(errno));
+        tool_die(j->t, "--checkpoint %s: %s", j->name, strerror(errno));
     reader = rc_reader_new(j->file, 0, 0, &j->t->err);
     share = ranks_read(j->t, j->name);
     if (reader != NULL)
         rc_reader_share(reader, share);
     if (reader == NULL || rc_reader_next(reader, &g, &j->t->err) != RC_MORE)
-        tool_die(j->t, EXIT_IMPOSSIBLE, "--checkpoint %s: %s", j->name, j->t->err.text);
+        tool_die(j->t, "--checkpoint %s: %s", j->name, j->t->err.text);
     rc_reader_free(reader);
     ranks_close(j->t, share);
     return g;

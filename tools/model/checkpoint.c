@@ -42,15 +42,13 @@ note(struct checkpoint *c, const struct rc_grid *g, off_t at)
     double number, map;
 
     if (more == NULL)
-        tool_die(c->t, EXIT_IMPOSSIBLE, "out of memory for the cases of --checkpoint");
+        tool_die(c->t, "out of memory for the cases of --checkpoint");
     c->saved = more;
     if (!rc_grid_number(g, "checkpoint.case", &number))
-        tool_die(c->t, EXIT_IMPOSSIBLE,
-                 "--checkpoint %s: a grid stream, but no checkpoint: name another file",
+        tool_die(c->t, "--checkpoint %s: a grid stream, but no checkpoint: name another file",
                  c->journal.name);
     if (!rc_grid_number(g, "checkpoint.map", &map))
-        tool_die(c->t, EXIT_IMPOSSIBLE,
-                 "--checkpoint %s: another version wrote it: remove the file to start again",
+        tool_die(c->t, "--checkpoint %s: another version wrote it: remove the file to start again",
                  c->journal.name);
     c->saved[c->count++] = (struct saved){(size_t)number, (size_t)map,
                                           rc_grid_get(g, "checkpoint.numbers") != NULL, at};
@@ -87,7 +85,7 @@ look_through(struct checkpoint *c)
     off_t end = 0;
 
     if (reader == NULL)
-        tool_die(t, EXIT_IMPOSSIBLE, "%s", t->err.text);
+        tool_die(t, "%s", t->err.text);
     rc_reader_share(reader, share);
     while ((status = rc_reader_next(reader, &g, &t->err)) == RC_MORE) {
         note(c, g, end);
@@ -101,11 +99,11 @@ look_through(struct checkpoint *c)
         return;
     if (status != RC_OK && c->count == 0 && !is_checkpoint(c))
         tool_die(
-            t, EXIT_IMPOSSIBLE,
+            t,
             "--checkpoint %s: no pressure can be read from it (%s): remove the file to start again",
             c->journal.name, t->err.text);
     if (status != RC_OK && !journal_is_cut_off(&c->journal, end))
-        tool_die(t, EXIT_IMPOSSIBLE,
+        tool_die(t,
                  "--checkpoint %s: frame %zu cannot be read (%s): remove the file to start again",
                  c->journal.name, c->count + 1, t->err.text);
     ranks_wait(t);         /* all ranks have read the file */
@@ -130,7 +128,7 @@ checkpoint_open(struct tool *t, const char *name, bool resume, double interval)
     if (name == NULL)
         return NULL;
     if ((c = calloc(1, sizeof *c)) == NULL)
-        tool_die(t, EXIT_IMPOSSIBLE, "out of memory");
+        tool_die(t, "out of memory");
     c->t = t;
     c->wait = interval;
     journal_open(&c->journal, t, name, resume, &found);

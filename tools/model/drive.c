@@ -49,7 +49,7 @@ make_points(struct drive *d)
             longest = a;
     d->points = longest->list->n;
     if ((d->point = calloc(d->points + 1, sizeof *d->point)) == NULL)
-        tool_die(&d->t, EXIT_IMPOSSIBLE, "out of memory for %zu points", d->points);
+        tool_die(&d->t, "out of memory for %zu points", d->points);
     for (const struct drive_axis *a = d->axes; a->list != NULL; a++) {
         if (a->list->n > 1 && a->list->n < d->points)
             tool_usage(

@@ -377,7 +377,7 @@ physics_counter(struct tool *t, const char *name)
 
     if (strcmp(g->unit, "m") != 0)
         tool_die(
-            t, EXIT_IMPOSSIBLE,
+            t,
             "--counter %s: its unit is '%s': heights are in metres; import the file again with "
             "--z-unit",
             name, g->unit);

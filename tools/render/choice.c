@@ -157,8 +157,8 @@ no_channel(struct choice *c, struct tool *t)
     struct name_list l = {.asked = c->wish->channel};
 
     seen_channels(&c->list, &l);
-    tool_die(t, EXIT_IMPOSSIBLE, "%s: there is no channel %s: there are %s", t->source,
-             c->wish->channel, name_list_end(&l));
+    tool_die(t, "%s: there is no channel %s: there are %s", t->source, c->wish->channel,
+             name_list_end(&l));
 }
 
 static const char *
@@ -173,8 +173,8 @@ no_case(struct choice *c, struct tool *t)
     struct name_list l = {.n = 0};
 
     seen_cases(&c->list, right_channel, c->wish, &l);
-    tool_die(t, EXIT_IMPOSSIBLE, "%s: case %zu has no %s: there are cases %s", t->source,
-             c->wish->number, wished(c), name_list_end(&l));
+    tool_die(t, "%s: case %zu has no %s: there are cases %s", t->source, c->wish->number, wished(c),
+             name_list_end(&l));
 }
 
 static _Noreturn void
@@ -183,7 +183,7 @@ no_depth(struct choice *c, struct tool *t)
     struct name_list l = {.n = 0};
 
     seen_depths(&c->list, right_frame, c->wish, &l);
-    tool_die(t, EXIT_IMPOSSIBLE, "%s: there is no %s at depth %s m: %s%s%s", t->source, wished(c),
+    tool_die(t, "%s: there is no %s at depth %s m: %s%s%s", t->source, wished(c),
              rc_number(c->wish->depth), l.n == 0 ? "no frame has a depth" : "there are ",
              name_list_end(&l), l.n == 0 ? "" : " m");
 }
@@ -201,14 +201,13 @@ fail(struct choice *c, struct tool *t)
         section = section || (right_frame(c->wish, s) && right_section(c->wish, s));
     }
     if (c->list.n == 0)
-        tool_die(t, EXIT_IMPOSSIBLE, "%s: the stream has no frame to draw", t->source);
+        tool_die(t, "%s: the stream has no frame to draw", t->source);
     if (!channel)
         no_channel(c, t);
     if (!number)
         no_case(c, t);
     if (!section)
-        tool_die(t, EXIT_IMPOSSIBLE,
-                 "%s: there is no section across %s, such as rc-stress --section %s=0 makes",
+        tool_die(t, "%s: there is no section across %s, such as rc-stress --section %s=0 makes",
                  t->source, c->wish->section, c->wish->section);
     no_depth(c, t);
 }

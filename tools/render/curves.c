@@ -285,7 +285,7 @@ check_units(struct curves *c)
             size_t first = k == 0 ? 0 : 1;
 
             if (strcmp(here, unit_of(c->table, first)) != 0)
-                tool_die(c->tool, EXIT_IMPOSSIBLE,
+                tool_die(c->tool,
                          "%s: %s is in %s, %s in %s: an axis has one unit: draw two pictures",
                          c->table[f].source, c->column[k], here, c->column[first],
                          unit_of(c->table, first));
@@ -436,10 +436,9 @@ take_words(struct curves *c)
         struct column *x = &c->table[f].column[0];
 
         if (x->numbers != c->table[0].column[0].numbers)
-            tool_die(c->tool, EXIT_IMPOSSIBLE,
-                     "%s: column %s holds %s, that of %s %s: draw two pictures", c->table[f].source,
-                     x->name, x->numbers ? "numbers" : "words", c->table[0].source,
-                     x->numbers ? "words" : "numbers");
+            tool_die(c->tool, "%s: column %s holds %s, that of %s %s: draw two pictures",
+                     c->table[f].source, x->name, x->numbers ? "numbers" : "words",
+                     c->table[0].source, x->numbers ? "words" : "numbers");
         if (x->numbers)
             continue;
         if (curve_log(c->style, 'x'))
@@ -451,7 +450,7 @@ take_words(struct curves *c)
             size_t number = word_number(c, 0, x->word[w]);
 
             if (number >= WORDS)
-                tool_die(c->tool, EXIT_IMPOSSIBLE,
+                tool_die(c->tool,
                          "column %s holds more than %d different words, too many for an axis",
                          x->name, WORDS);
             c->word[number] = x->word[w];
@@ -469,7 +468,7 @@ static struct graph_series *
 new_series(struct curves *c)
 {
     if (c->n == SERIES)
-        tool_die(c->tool, EXIT_IMPOSSIBLE,
+        tool_die(c->tool,
                  "more than %d curves in one picture: name fewer columns "
                  "or files, or a --by of fewer values",
                  SERIES - 1);
@@ -727,7 +726,7 @@ given_in_tables(struct curves *c, enum helper which, double option)
             if (isnan(v))
                 continue;
             if (!isnan(value) && fabs(v - value) > 1e-6 * fabs(value))
-                tool_die(c->tool, EXIT_IMPOSSIBLE,
+                tool_die(c->tool,
                          "%s: %s is not the same in all rows, but a law needs one value: draw "
                          "separate pictures",
                          c->table[f].source, helper_name[which]);
@@ -749,7 +748,7 @@ area_in_tables(struct curves *c)
 
             if (!isnan(area) && fabs(a - area) > 1e-6 * area)
                 tool_die(
-                    c->tool, EXIT_IMPOSSIBLE,
+                    c->tool,
                     "%s: the maps differ in size, but a law needs one size: draw separate pictures",
                     t->source);
             area = isnan(a) ? area : a;
@@ -786,7 +785,7 @@ add_law(struct curves *c)
                    law_quantities(law), c->columns > 2 ? ", one at a time" : "");
     settle_given(c);
     if (law_needs_area(law, &c->given, x, y) && isnan(c->given.area))
-        tool_die(c->tool, EXIT_IMPOSSIBLE,
+        tool_die(c->tool,
                  "--law %s: for %s over %s it needs the area of the map, the columns nx, ny, dx "
                  "and dy",
                  law, y, x);

@@ -85,12 +85,11 @@ frames_read(struct frames *f, struct tool *t)
         }
     }
     if (f->n == 0)
-        tool_die(t, EXIT_IMPOSSIBLE, "%s: there is no frame%s%s to draw", t->source,
+        tool_die(t, "%s: there is no frame%s%s to draw", t->source,
                  f->wish.section == NULL ? "" : " of a section across ",
                  f->wish.section == NULL ? "" : f->wish.section);
     if (f->left > 0)
-        tool_die(t, EXIT_IMPOSSIBLE,
-                 "%zu frames match, a picture shows at most %d: choose with --depth and --case",
+        tool_die(t, "%zu frames match, a picture shows at most %d: choose with --depth and --case",
                  f->n + f->left, FRAMES);
     if (f->wish.channel == NULL)
         tool_note(t, "drawing %s: choose another channel with --channel", f->grid[0]->channel);

@@ -48,7 +48,7 @@ table_remedy(const char *head)
 static _Noreturn void
 bad(struct reading *r, const char *what)
 {
-    tool_die(r->tool, EXIT_IMPOSSIBLE, "%s, line %zu: %s", r->table->source, r->line, what);
+    tool_die(r->tool, "%s, line %zu: %s", r->table->source, r->line, what);
 }
 
 /* ---- the file ---- */
@@ -63,12 +63,11 @@ read_file(struct tool *t, const char *source, FILE *file, size_t *size)
     while ((got = fread(text + n, 1, capacity - n - 1, file)) > 0) {
         n += got;
         if (n > most)
-            tool_die(t, EXIT_IMPOSSIBLE, "%s: a table of more than %zu bytes is not read", source,
-                     most);
+            tool_die(t, "%s: a table of more than %zu bytes is not read", source, most);
         text = tool_grown(t, text, n + 1, &capacity, 1, "a table");
     }
     if (ferror(file))
-        tool_die(t, EXIT_IMPOSSIBLE, "%s: %s", source, strerror(errno));
+        tool_die(t, "%s: %s", source, strerror(errno));
     text[n] = '\0';
     *size = n;
     return text;
@@ -512,15 +511,13 @@ check_columns(struct reading *r)
         if (column->optional)
             continue;
         if (!column->found)
-            tool_die(r->tool, EXIT_IMPOSSIBLE, "%s: there is no column %s: there are %s%s",
-                     table->source, column->name, name_list_end(&r->there),
-                     name_meant(column->nearest, meant));
+            tool_die(r->tool, "%s: there is no column %s: there are %s%s", table->source,
+                     column->name, name_list_end(&r->there), name_meant(column->nearest, meant));
         for (size_t k = 0; k < table->rows; k++)
             any = any || isfinite(column->v[k]);
         if (!any)
-            tool_die(r->tool, EXIT_IMPOSSIBLE, "%s: column %s holds no %s%s", table->source,
-                     column->name, column->label ? "value" : "number",
-                     column->words ? ", but words" : "");
+            tool_die(r->tool, "%s: column %s holds no %s%s", table->source, column->name,
+                     column->label ? "value" : "number", column->words ? ", but words" : "");
     }
 }
 
@@ -535,7 +532,7 @@ table_read(struct table *table, struct tool *t, const char *file)
 
     table->source = standard ? "standard input" : file;
     if (in == NULL)
-        tool_die(t, EXIT_IMPOSSIBLE, "%s: %s", file, strerror(errno));
+        tool_die(t, "%s: %s", file, strerror(errno));
     if (isatty(fileno(in)))
         tool_usage(t, "%s is a terminal: pipe a table in or name a file", table->source);
     text = read_file(t, table->source, in, &size);
@@ -544,21 +541,21 @@ table_read(struct table *table, struct tool *t, const char *file)
     r.at = text;
     r.end = text + size;
     if (strncmp(text, "RCG", 3) == 0)
-        tool_die(t, EXIT_IMPOSSIBLE,
+        tool_die(t,
                  "%s is a grid stream: --curve draws tables, such as rc-solve --report FILE.tsv "
                  "writes; of a map draw a line with --cut, or leave out --curve",
                  table->source);
     if (size == 0)
-        tool_die(t, EXIT_IMPOSSIBLE, "%s is empty: there is no table to draw", table->source);
+        tool_die(t, "%s is empty: there is no table to draw", table->source);
     if (memchr(text, '\0', size) != NULL)
-        tool_die(t, EXIT_IMPOSSIBLE, "%s is not a table: it holds binary data", table->source);
+        tool_die(t, "%s is not a table: it holds binary data", table->source);
     if (peek(&r) == '{')
         read_json(&r);
     else
         read_lines(&r);
     free(text);
     if (table->rows == 0)
-        tool_die(t, EXIT_IMPOSSIBLE, "%s: the table has a heading and no row", table->source);
+        tool_die(t, "%s: the table has a heading and no row", table->source);
     check_columns(&r);
 }
 

@@ -300,7 +300,7 @@ follow(struct slip_run *run)
     d->row = slip_report;
     d->points = run->corners;
     if ((d->point = malloc(run->corners * sizeof *d->point)) == NULL)
-        tool_die(&d->t, EXIT_IMPOSSIBLE, "out of memory for a path");
+        tool_die(&d->t, "out of memory for a path");
     for (size_t k = 0; k < run->corners; k++)
         d->point[k] = slip_point(&run->corner[k]);
     drive_points(d, run->p, new_model(run));

@@ -45,7 +45,7 @@ add_corner(struct slip_run *run, const struct slip_corner *c)
     struct slip_corner *more = realloc(run->given, (run->givens + 1) * sizeof *more);
 
     if (more == NULL)
-        tool_die(&run->d.t, EXIT_IMPOSSIBLE, "out of memory for a path");
+        tool_die(&run->d.t, "out of memory for a path");
     run->given = more;
     run->given[run->givens++] = *c;
 }
@@ -119,7 +119,7 @@ set_history(struct slip_run *run, struct slip_args *args)
     char *text = malloc(most), number[3][RC_NUMBER_SIZE];
 
     if (text == NULL)
-        tool_die(&run->d.t, EXIT_IMPOSSIBLE, "out of memory for a path");
+        tool_die(&run->d.t, "out of memory for a path");
     for (size_t k = 0; k < run->givens; k++) {
         const struct slip_corner *c = &run->given[k];
         n += (size_t)snprintf(
@@ -241,7 +241,7 @@ slip_plan_path(struct slip_run *run)
     run->corners = 0;
     run->corner = malloc((run->givens + 2) * sizeof *run->corner);
     if (run->corner == NULL)
-        tool_die(&run->d.t, EXIT_IMPOSSIBLE, "out of memory for a path");
+        tool_die(&run->d.t, "out of memory for a path");
     if (run->given == NULL)
         press_and_move(run);
     for (size_t k = 0; k < run->givens; k++) {

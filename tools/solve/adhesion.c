@@ -20,7 +20,7 @@ static void
 refuse(struct run *run, bool given, const char *what, const char *why)
 {
     if (given)
-        tool_die(&run->d.t, EXIT_USAGE, "--adhesion does not work with %s: %s", what, why);
+        tool_usage(&run->d.t, "--adhesion does not work with %s: %s", what, why);
 }
 
 void
@@ -31,14 +31,14 @@ adhesion_read(struct run *run)
 
     a->wanted = args->adhesion != NULL;
     if (!a->wanted && args->pull_off)
-        tool_die(&run->d.t, EXIT_USAGE,
-                 "--pull-off needs --adhesion: without attraction the pull-off load is 0");
+        tool_usage(&run->d.t,
+                   "--pull-off needs --adhesion: without attraction the pull-off load is 0");
     if (!a->wanted && solve_wanted(args, SOLVE_ADHESION))
-        tool_die(&run->d.t, EXIT_USAGE, "--output adhesion needs --adhesion");
+        tool_usage(&run->d.t, "--output adhesion needs --adhesion");
     if (!a->wanted)
         return;
     if (attraction_read(&a->law, args->adhesion, &run->d.t.err) != RC_OK)
-        tool_die(&run->d.t, EXIT_USAGE, "--adhesion %s: %s", args->adhesion, run->d.t.err.text);
+        tool_usage(&run->d.t, "--adhesion %s: %s", args->adhesion, run->d.t.err.text);
     refuse(run, args->yield != NULL, "--yield",
            "plasticity in the volume supports pressures only, no attraction");
     refuse(run, run->tilt, "--tilt free", "with adhesion the bodies move along their normal only");
@@ -76,7 +76,7 @@ adhesion_model(struct run *run, const struct rc_grid *g, const struct rc_problem
     if (rc_adhesion_check(&shape, &problem, &run->adhering.scales, &run->d.t.err) == RC_OK)
         m = rc_adhesive_new(&shape, g->v, &problem, &run->d.t.err);
     if (m == NULL)
-        tool_die_at(&run->d.t, g, EXIT_IMPOSSIBLE, "%s", run->d.t.err.text);
+        tool_refuse(&run->d.t, g, "%s", run->d.t.err.text);
     return m;
 }
 

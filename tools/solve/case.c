@@ -383,7 +383,7 @@ make_points(struct run *run)
                 : run->sliding.wanted  ? slide_points(run)
                                        : run->steps->n + run->args->pull_off;
     if ((d->point = calloc(d->points, sizeof *d->point)) == NULL)
-        tool_die(&d->t, EXIT_IMPOSSIBLE, "out of memory for %zu loads", d->points);
+        tool_die(&d->t, "out of memory for %zu loads", d->points);
     for (size_t k = 0; k < d->points; k++) {
         const size_t step = run->relaxing.wanted  ? relax_step(run, k)
                             : run->sliding.wanted ? slide_step(run, k)
