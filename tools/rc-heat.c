@@ -14,25 +14,11 @@ static struct args {
 } args = {
     .moving = "2", .partition = "matched", .mu = NAN, .tol = 1e-3, .time_steps = 1, .output = 31};
 
-static const char *
-frame_word(size_t k)
-{
-    static const char *const words[] = {"temperature-1", "temperature-2", "heat-1",
-                                        "heat-2",        CONTACT_CHANNEL, NULL};
+static const char *const frames[] = {"temperature-1", "temperature-2", "heat-1",
+                                     "heat-2",        CONTACT_CHANNEL, NULL};
 
-    return words[k];
-}
-
-static const char *
-partition_word(size_t k)
-{
-    static const char *const words[] = {[RC_HEAT_MATCHED] = "matched",
-                                        [RC_HEAT_BLOK] = "blok",
-                                        [RC_HEAT_CHARRON] = "charron",
-                                        NULL};
-
-    return words[k];
-}
+static const char *const partitions[] = {
+    [RC_HEAT_MATCHED] = "matched", [RC_HEAT_BLOK] = "blok", [RC_HEAT_CHARRON] = "charron", NULL};
 
 #define AT(field) .at = offsetof(struct args, field)
 #define ABOVE_0 .min = 0, .max = INFINITY, .above = true, .result = true
@@ -59,14 +45,14 @@ static const struct opt opts[] = {
      .help = "time since heating began (default: steady state); a periodic map needs it"},
     {.name = "time-steps", .type = OPT_COUNT, AT(time_steps), .min = 1, .max = 1000, .result = true,
      .arg = "N", .help = "steps of --time in which the shares of the bodies are found anew (default 1)"},
-    {.name = "partition", .type = OPT_TEXT, AT(partition), .words = partition_word, .result = true,
+    {.name = "partition", .type = OPT_TEXT, AT(partition), .list = partitions, .result = true,
      .arg = "matched|blok|charron|SHARE",
      .help = "heat of each body: equal temperatures at every node (default), or one number for all"},
     {.name = "depths", .type = OPT_NUMBERS, .unit = UNIT_M, AT(depths), .min = 0, .max = INFINITY,
      .result = true, .arg = "LIST", .help = "depths of the temperatures (default 0)"},
     {.name = "tol", .type = OPT_NUMBER, AT(tol), .min = 0, .max = 0.5, .above = true, .result = true,
      .arg = "ERROR", .help = "bound of the mismatch of the temperatures (default 1e-3)"},
-    {.name = "output", .type = OPT_WORDS, AT(output), .words = frame_word, .arg = "LIST",
+    {.name = "output", .type = OPT_WORDS, AT(output), .list = frames, .arg = "LIST",
      .help = "frames to write, of %s (default: all)"},
     {.name = "report", .type = OPT_REPORT, AT(report), .arg = "FILE",
      .help = "write one JSON object per case, or a row of FILE.tsv or .csv: temperatures, shares"},
@@ -164,7 +150,7 @@ read_partition(struct run *run)
     struct rc_err err;
     size_t k = 0;
 
-    while (partition_word(k) != NULL && strcmp(args.partition, partition_word(k)) != 0)
+    while (partitions[k] != NULL && strcmp(args.partition, partitions[k]) != 0)
         k++;
     p->partition = (enum rc_heat_partition)k;
     if (p->partition == RC_HEAT_SHARE &&
@@ -296,7 +282,7 @@ write_frame(struct run *run, const struct rc_grid *like, struct rc_heat *h, size
     static const char *const units[] = {"K", "K", "W/m2", "W/m2", "1"};
     const int body = (int)(kind % 2);
     const bool heat = kind >= 2;
-    RC_OWN(rc_grid, g) = tool_frame_like(&run->t, like, NULL, frame_word(kind), units[kind]);
+    RC_OWN(rc_grid, g) = tool_frame_like(&run->t, like, NULL, frames[kind], units[kind]);
 
     tool_set_number(&run->t, g, "max_temperature", f->max_temperature);
     if (!heat)

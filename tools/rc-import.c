@@ -23,12 +23,6 @@ format_word(size_t k)
 /* In the order of enum rc_label. */
 static const char *const label_words[] = {"auto", "keep", "row", "column", "both", NULL};
 
-static const char *
-label_word(size_t k)
-{
-    return label_words[k];
-}
-
 /* clang-format off */
 static const struct opt opts[] = {
     {.name = "format", .type = OPT_TEXT, .at = offsetof(struct args, format), .result = true,
@@ -53,7 +47,7 @@ static const struct opt opts[] = {
     {.name = "xy-unit", .type = OPT_TEXT, .at = offsetof(struct args, xy_unit), .result = true,
      .arg = "UNIT", .help = "unit of positions or steps if the file does not give it"},
     {.name = "labels", .type = OPT_CHOICE, .at = offsetof(struct args, labels), .result = true,
-     .words = label_word, .arg = "WHICH",
+     .list = label_words, .arg = "WHICH",
      .help = "labels in a matrix of text: keep (none), row, column, both (default auto)"},
     {.name = "skip", .type = OPT_COUNT, .at = offsetof(struct args, skip), .max = 1e9,
      .result = true, .arg = "N", .help = "skip the first N lines of a text file"},

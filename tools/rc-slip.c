@@ -19,14 +19,6 @@ static struct slip_args args = {
     .drive.interval = 60,
 };
 
-static const char *
-coupling_word(size_t k)
-{
-    static const char *const words[] = {"full", "goodman", "none", NULL};
-
-    return words[k];
-}
-
 #define AT(field) .at = offsetof(struct slip_args, field)
 #define ABOVE_0 .min = 0, .max = INFINITY, .above = true
 /* clang-format off */
@@ -55,7 +47,8 @@ static const struct opt opts[] = {
      .help = "steady rolling: tractions do not change while the contact rolls"},
     {.name = "increments", .type = OPT_TEXT, AT(increments), .result = true, .arg = "N|auto",
      .help = "increments between corners of a path (default auto: an error of about 1 %)"},
-    {.name = "coupling", .type = OPT_CHOICE, AT(coupling), .words = coupling_word, .result = true,
+    {.name = "coupling", .type = OPT_CHOICE, AT(coupling), .result = true,
+     .list = (const char *const[]){"full", "goodman", "none", NULL},
      .help = "how pressure and tractions of dissimilar bodies influence each other (default full)"},
     {.name = "nu", .type = OPT_NUMBER, AT(nu), .min = -1, .max = 0.5, .above = true,
      .result = true, .arg = "RATIO",
@@ -73,7 +66,7 @@ static const struct opt opts[] = {
     {.name = "tol", .type = OPT_NUMBER, AT(tol), .min = 0, .max = 1, .above = true,
      .result = true, .arg = "ERROR",
      .help = "relative L1 error of the tractions (default 1e-4 of the iteration, 0.1 in all)"},
-    {.name = "output", .type = OPT_WORDS, AT(output), .words = slip_frame_word, .arg = "LIST",
+    {.name = "output", .type = OPT_WORDS, AT(output), .list = slip_frames, .arg = "LIST",
      .help = "frames to write, of %s (default: the first five)"},
     {.group = drive_options, AT(drive)},
     {.name = NULL},
@@ -134,7 +127,7 @@ int
 main(int argc, char **argv)
 {
     static struct slip_run run = {
-        .d = {.args = &args.drive, .output = &args.output, .word = slip_frame_word}};
+        .d = {.args = &args.drive, .output = &args.output, .list = slip_frames}};
     struct tool_frame beside[] = {
         {"gap", &run.gap}, {"height", &run.height}, {CONTACT_CHANNEL, &run.contact}, {NULL, NULL}};
 

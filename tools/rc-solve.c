@@ -43,9 +43,8 @@ static const struct opt opts[] = {
      .max = INFINITY, .result = true, .arg = "LIST",
      .help = "with --relaxation, body 2 slides steadily over body 1: m/s along +x, each a case"},
     {.name = "along", .type = OPT_CHOICE, AT(along), .result = true, .arg = "x|y",
-     .words = slide_direction_word, .help = "direction in which it slides (default x)"},
+     .help = "direction in which it slides (default x)"},
     {.name = "track", .type = OPT_CHOICE, AT(track), .result = true, .arg = "fresh|repeated",
-     .words = slide_track_word,
      .help = "whether it meets its own grooves again after a period (default fresh)"},
     {.name = "pull-off", .type = OPT_FLAG, AT(pull_off), .result = true,
      .help = "after the last state separate the bodies, and find the pull-off load"},
@@ -70,7 +69,7 @@ static const struct opt opts[] = {
      .result = true, .arg = "ERROR",
      .help = "relative L1 error of the pressure (default N^(-3/4), N nodes, at most 1e-3)"},
     {.name = "output", .type = OPT_WORDS, AT(output),
-     .words = solve_frame_word, .arg = "LIST",
+     .list = solve_frames, .arg = "LIST",
      .help = "frames to write, of %s (default: pressure, gap, displacement, height; with --yield residual, "
              "with --adhesion contact too)"},
     {.name = "stiffness", .type = OPT_FLAG, AT(stiffness),
@@ -162,7 +161,7 @@ int
 main(int argc, char **argv)
 {
     static struct run run = {
-        .d = {.args = &args.drive, .output = &args.output, .word = solve_frame_word}};
+        .d = {.args = &args.drive, .output = &args.output, .list = solve_frames}};
     struct rc_grid *hardness;
 
     tool_start(&run.d.t, &info, argc, argv, &args);

@@ -15,14 +15,8 @@ static struct args {
     struct drive_args drive;
 } args = {.hardness = NAN, .mu = NAN, .tol = 0.1, .output = 15, .drive.interval = 60};
 
-static const char *
-frame_word(size_t k)
-{
-    static const char *const words[] = {"pressure", "gap",          "height",  "wear", "wear-1",
-                                        "wear-2",   "displacement", "contact", NULL};
-
-    return words[k];
-}
+static const char *const frames[] = {"pressure", "gap",          "height",  "wear", "wear-1",
+                                     "wear-2",   "displacement", "contact", NULL};
 
 #define AT(field) .at = offsetof(struct args, field)
 #define ABOVE_0 .min = 0, .max = INFINITY, .above = true
@@ -51,7 +45,7 @@ static const struct opt opts[] = {
      .help = "end earlier at area=FRACTION in contact, depth=LENGTH or uniform=SPREAD of the pressure"},
     {.name = "tol", .type = OPT_NUMBER, AT(tol), .min = 0, .max = 0.5, .above = true, .result = true,
      .arg = "ERROR", .help = "bound of the estimated relative errors of wear and pressure (default 0.1)"},
-    {.name = "output", .type = OPT_WORDS, AT(output), .words = frame_word, .arg = "LIST",
+    {.name = "output", .type = OPT_WORDS, AT(output), .list = frames, .arg = "LIST",
      .help = "frames to write, of %s (default: the first four, and wear-1 and wear-2 if both wear)"},
     {.name = "steps", .type = OPT_REPORT, AT(steps), .arg = "FILE",
      .help = "write the figures of every step, the running-in curve, as --report does"},
@@ -676,7 +670,7 @@ main(int argc, char **argv)
                                         NULL};
     static struct run run = {.d = {.args = &args.drive,
                                    .output = &args.output,
-                                   .word = frame_word,
+                                   .list = frames,
                                    .tells = tells,
                                    .keys = set_keys,
                                    .course.stepped = put_step}};

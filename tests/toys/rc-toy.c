@@ -12,13 +12,7 @@ static struct args {
     struct drive_args drive;
 } args = {.tol = 1e-2, .output = 3, .drive.interval = 60};
 
-static const char *
-frame_word(size_t k)
-{
-    static const char *const words[] = {"pressure", "settlement", "height", NULL};
-
-    return words[k];
-}
+static const char *const frames[] = {"pressure", "settlement", "height", NULL};
 
 #define AT(field) .at = offsetof(struct args, field)
 #define ABOVE_0 .min = 0, .max = INFINITY, .above = true, .result = true
@@ -36,7 +30,7 @@ static const struct opt opts[] = {
     {.name = "time", .type = OPT_NUMBERS, .unit = UNIT_S, AT(time), ABOVE_0, .arg = "LIST",
      .help = "time"},
     {.name = "periodic", .type = OPT_FLAG, AT(periodic), .result = true, .help = "the map repeats"},
-    {.name = "output", .type = OPT_WORDS, AT(output), .words = frame_word, .arg = "LIST",
+    {.name = "output", .type = OPT_WORDS, AT(output), .list = frames, .arg = "LIST",
      .help = "frames to write, of %s"},
     {.group = drive_options, AT(drive)},
     {.name = NULL},
@@ -55,7 +49,7 @@ static const struct tool_info info = {
 int
 main(int argc, char **argv)
 {
-    static struct drive d = {.args = &args.drive, .output = &args.output, .word = frame_word};
+    static struct drive d = {.args = &args.drive, .output = &args.output, .list = frames};
     static const struct drive_axis axes[] = {
         {RC_LOAD, &args.load}, {RC_TIME, &args.time}, {0, NULL}};
     struct drive_advice advice[] = {{"edge_load_fraction", "take a larger map"}, {NULL, NULL}};

@@ -30,13 +30,14 @@ are_words(const char *text)
 static bool
 has_words(const struct opt *o)
 {
-    return o->words != NULL || o->type == OPT_CHOICE || (o->arg != NULL && are_words(o->arg));
+    return o->words != NULL || o->list != NULL || o->type == OPT_CHOICE ||
+           (o->arg != NULL && are_words(o->arg));
 }
 
 static enum argument
 argument_of(const struct tool_info *info, const struct opt *o)
 {
-    if (o->arg == NULL && o->words == NULL)
+    if (o->arg == NULL && o->words == NULL && o->list == NULL)
         return NOTHING;
     if (o->type == OPT_WORDS)
         return LIST;

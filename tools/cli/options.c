@@ -80,9 +80,9 @@ option_common(const struct tool_info *info, size_t k)
 const char *
 option_word(const struct opt *o, size_t k, size_t *n)
 {
-    const char *word = o->words == NULL ? o->arg : o->words(k);
+    const char *word = o->list != NULL ? o->list[k] : o->words != NULL ? o->words(k) : o->arg;
 
-    if (o->words == NULL) {
+    if (o->words == NULL && o->list == NULL) {
         for (; k > 0 && *word != '\0'; k--)
             word += strcspn(word, "|") + (word[strcspn(word, "|")] == '|');
         *n = strcspn(word, "|");
@@ -246,7 +246,7 @@ choice(struct tool *t, const struct opt *o, const char *text)
     if (k < 0)
         tool_usage(t, "--%s %s: it must be one of %s%s", o->name, text, word_list(list, o, "|"),
                    word_meant(meant, o, text, strlen(text)));
-    return o->words == NULL ? text : o->words((size_t)k);
+    return o->list != NULL ? o->list[k] : o->words != NULL ? o->words((size_t)k) : text;
 }
 
 static size_t
@@ -381,7 +381,7 @@ argument_kind(const struct opt *o)
 {
     if (o->optional)
         return optional_argument;
-    return o->arg == NULL && o->words == NULL ? no_argument : required_argument;
+    return o->arg == NULL && o->words == NULL && o->list == NULL ? no_argument : required_argument;
 }
 
 /* Rows for getopt: an alias has a separate row with the value of the option. They exist as long as the tool,

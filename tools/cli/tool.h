@@ -68,6 +68,7 @@ struct opt {
                         OPT_CHOICE gets "" */
     const char *(*words)(size_t k); /* word k; NULL past the last: see words.h; for OPT_TEXT they
                                        are completions, and other texts are allowed */
+    const char *const *list;        /* the same words as a list, which ends with NULL */
     const char *word; /* a word in place of OPT_NUMBERS; for OPT_NUMBER it means INFINITY */
     bool whole;       /* OPT_NUMBERS: whole numbers, whose commas cannot be decimal marks */
     bool per_metre;   /* OPT_NUMBERS of forces that may be in N/m             */

@@ -219,10 +219,10 @@ put_frames(struct drive *d, struct rc_model *m, const struct rc_point *at)
 {
     const struct rc_grid *g = d->course.g;
     RC_OWN(rc_grid, as) = tool_frame_like(&d->t, g, NULL, g->channel, g->unit);
-    const char *word;
 
     set_keys(d, m, as, at);
-    for (size_t k = 0; (word = d->word(k)) != NULL; k++) {
+    for (size_t k = 0; d->list[k] != NULL; k++) {
+        const char *word = d->list[k];
         const struct rc_frame_kind *kind = kind_of(m, word);
         struct rc_grid frame;
         const double *v =

@@ -11,7 +11,7 @@
  *     static const struct opt opts[] = {
  *         ..., {.group = drive_options, .at = offsetof(struct args, drive)}, {.name = NULL}};
  *
- *     static struct drive d = {.args = &args.drive, .word = frame_word, .output = &args.output};
+ *     static struct drive d = {.args = &args.drive, .list = frames, .output = &args.output};
  *     const struct drive_axis axes[] = {{RC_LOAD, &args.load}, {RC_TIME, &args.time}, {0, NULL}};
  *     tool_start(&d.t, &info, argc, argv, &args);
  *     drive_open(&d, axes);                         (the lists become the points of the history)
@@ -120,8 +120,8 @@ struct drive_advice {
 struct drive {
     struct tool t;
     const struct drive_args *args;
-    const size_t *output;          /* bits of --output                               */
-    const char *(*word)(size_t k); /* its words: names of frames of the model, or "height" */
+    const size_t *output;    /* bits of --output                               */
+    const char *const *list; /* its words: names of frames of the model, or "height" */
     /* functions of the tool; each may be NULL */
     const struct drive_advice *advice;
     const char *const *tells; /* names of figures that --verbose prints; the last is NULL */

@@ -7,18 +7,12 @@
 
 #include "formats/core/core.h"
 
-const char *
-slip_frame_word(size_t k)
-{
-    static const char *const words[] = {
-        [SLIP_PRESSURE] = "pressure",       [SLIP_TRACTION_X] = "traction-x",
-        [SLIP_TRACTION_Y] = "traction-y",   [SLIP_SLIP_X] = "slip-x",
-        [SLIP_SLIP_Y] = "slip-y",           [SLIP_STATE] = "state",
-        [SLIP_HEIGHT] = "height",           [SLIP_LENGTH] = "slip",
-        [SLIP_DISSIPATION] = "dissipation", [SLIP_FRAMES] = NULL};
-
-    return words[k];
-}
+const char *const slip_frames[] = {
+    [SLIP_PRESSURE] = "pressure",       [SLIP_TRACTION_X] = "traction-x",
+    [SLIP_TRACTION_Y] = "traction-y",   [SLIP_SLIP_X] = "slip-x",
+    [SLIP_SLIP_Y] = "slip-y",           [SLIP_STATE] = "state",
+    [SLIP_HEIGHT] = "height",           [SLIP_LENGTH] = "slip",
+    [SLIP_DISSIPATION] = "dissipation", [SLIP_FRAMES] = NULL};
 
 /* ---- the input ---- */
 
@@ -249,9 +243,9 @@ slip_frame(struct drive *d, struct rc_model *m, struct rc_grid *frame, const cha
     const size_t n = rc_grid_nodes(frame);
 
     (void)m;
-    if (strcmp(word, slip_frame_word(SLIP_HEIGHT)) == 0)
+    if (strcmp(word, slip_frames[SLIP_HEIGHT]) == 0)
         return run->height->v;
-    if (strcmp(word, slip_frame_word(SLIP_LENGTH)) != 0)
+    if (strcmp(word, slip_frames[SLIP_LENGTH]) != 0)
         return NULL;
     memcpy(frame->v, run->slipped + 2 * n, n * sizeof *frame->v);
     memset(run->slipped + 2 * n, 0, n * sizeof *frame->v);

@@ -41,7 +41,7 @@ slip_check_rolling(struct slip_run *run)
     for (size_t k = SLIP_LENGTH; k <= SLIP_DISSIPATION; k++)
         if (a->output >> k & 1)
             tool_usage(t, "--output %s needs --tangential, --displacement, --path or --history",
-                       slip_frame_word(k));
+                       slip_frames[k]);
 }
 
 /* ---- a point ---- */

@@ -104,7 +104,7 @@ void slip_find_bodies(struct slip_run *run);
 
 /* ---- case.c ---- */
 
-const char *slip_frame_word(size_t k);
+extern const char *const slip_frames[]; /* of --output; the last is NULL */
 void slip_case(struct slip_run *run);
 /* Keys of a frame, and marks of a checkpoint, under any motion. */
 void slip_set_keys(struct slip_run *run, struct rc_grid *g, bool converged, double load,

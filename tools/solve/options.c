@@ -5,14 +5,6 @@
 
 #define AT(field) .at = offsetof(struct solve_args, field)
 
-static const char *
-tilt_word(size_t k)
-{
-    static const char *const words[] = {"fixed", "free", NULL};
-
-    return words[k];
-}
-
 /* clang-format off */
 const struct opt solve_contact_options[] = {
     {.group = physics_options, AT(physics)},
@@ -22,7 +14,8 @@ const struct opt solve_contact_options[] = {
      .help = "the bodies attract each other: 50mJ/m2, 50mJ/m2,exponential,2nm; a list is a path"},
     {.name = "history", .type = OPT_FLAG, AT(physics.history), .result = true,
      .help = "apply the loads in sequence, keeping plastic shape; 0 separates the bodies"},
-    {.name = "tilt", .type = OPT_CHOICE, AT(tilt), .words = tilt_word, .result = true,
+    {.name = "tilt", .type = OPT_CHOICE, AT(tilt), .result = true,
+     .list = (const char *const[]){"fixed", "free", NULL},
      .help = "free: the counter body tilts until the moment is zero (default fixed)"},
     {.name = "at", .type = OPT_NUMBERS, .unit = UNIT_M, AT(at), .min = -INFINITY, .max = INFINITY,
      .result = true, .arg = "X,Y",

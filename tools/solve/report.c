@@ -5,24 +5,18 @@
 #include <stdlib.h>
 #include <string.h>
 
-const char *
-solve_frame_word(size_t k)
-{
-    static const char *const words[] = {
-        [SOLVE_CONTACT] = CONTACT_CHANNEL,
-        [SOLVE_PRESSURE] = "pressure",
-        [SOLVE_GAP] = "gap",
-        [SOLVE_DISPLACEMENT] = "displacement",
-        [SOLVE_HEIGHT] = "height",
-        [SOLVE_PLASTIC] = "plastic",
-        [SOLVE_RESIDUAL] = "residual",
-        [SOLVE_STRAIN] = "strain",
-        [SOLVE_ADHESION] = "adhesion",
-        [SOLVE_FRAMES] = NULL,
-    };
-
-    return words[k];
-}
+const char *const solve_frames[] = {
+    [SOLVE_CONTACT] = CONTACT_CHANNEL,
+    [SOLVE_PRESSURE] = "pressure",
+    [SOLVE_GAP] = "gap",
+    [SOLVE_DISPLACEMENT] = "displacement",
+    [SOLVE_HEIGHT] = "height",
+    [SOLVE_PLASTIC] = "plastic",
+    [SOLVE_RESIDUAL] = "residual",
+    [SOLVE_STRAIN] = "strain",
+    [SOLVE_ADHESION] = "adhesion",
+    [SOLVE_FRAMES] = NULL,
+};
 
 /* ---- effects ---- */
 
@@ -87,8 +81,7 @@ show_effects(struct run *run, const char *engine, const bool *active,
     for (size_t k = 0; k < sizeof effects / sizeof *effects; k++)
         show(run, effects[k][0], effects[k][1]);
     for (int f = 0; f < SOLVE_ADHESION; f++)
-        show(run, solve_frame_word((size_t)f),
-             solve_wanted(args, f) ? "on" : "left out: not in --output");
+        show(run, solve_frames[f], solve_wanted(args, f) ? "on" : "left out: not in --output");
 }
 
 static void

@@ -14,22 +14,6 @@
 static const double beyond = 10;        /* times the inverse of the shortest relaxation time */
 static const double contradicts = 0.05; /* RMS misfit of a master curve                      */
 
-const char *
-slide_direction_word(size_t k)
-{
-    static const char *const words[] = {"x", "y", NULL};
-
-    return words[k];
-}
-
-const char *
-slide_track_word(size_t k)
-{
-    static const char *const words[] = {"fresh", "repeated", NULL};
-
-    return words[k];
-}
-
 static bool
 slides_along_y(const struct run *run)
 {

@@ -23,7 +23,7 @@ enum solve_frame { /* in the order of the words of --output and of writing */
     SOLVE_ADHESION,
     SOLVE_FRAMES
 };
-const char *solve_frame_word(size_t k); /* of --output */
+extern const char *const solve_frames[]; /* of --output; the last is NULL */
 
 struct solve_args {
     struct physics physics;
@@ -253,8 +253,6 @@ const char *relax_state(const struct run *run);
 /* ---- slide.c: all do nothing without --speed ---- */
 
 /* The words of --along and --track. */
-const char *slide_direction_word(size_t k);
-const char *slide_track_word(size_t k);
 /* Ends the tool if the options are invalid. */
 void slide_check(struct run *run);
 /* The cases, their speeds, and their places in the list of loads. */

@@ -85,8 +85,7 @@ yield_read(struct run *run)
         tool_usage(&run->d.t, "--increments and --slabs have no effect without --yield");
     for (int f = SOLVE_RESIDUAL; !y->wanted && f <= SOLVE_STRAIN; f++)
         if (solve_wanted(args, f))
-            tool_usage(&run->d.t, "--output %s has no effect without --yield",
-                       solve_frame_word((size_t)f));
+            tool_usage(&run->d.t, "--output %s has no effect without --yield", solve_frames[f]);
     if (!y->wanted)
         return;
     if (yield_law_read(&y->read, args->yield, &run->d.t.err) != RC_OK)
