@@ -112,19 +112,11 @@ refuse_spacings(struct tool *t, const struct rc_grid *a, const struct rc_grid *b
 
 /* ---- keys ---- */
 
-static bool
-is_periodic(const struct rc_grid *g)
-{
-    const char *periodic = rc_grid_get(g, "periodic");
-
-    return periodic != NULL && strcmp(periodic, "yes") == 0;
-}
-
 static enum rc_status
 set_periodic(struct tool *t, struct rc_grid *a, const struct rc_grid *b, bool cut,
              struct rc_err *err)
 {
-    if (!is_periodic(a) || (is_periodic(b) && !cut))
+    if (!map_says(a, "periodic", "yes") || (map_says(b, "periodic", "yes") && !cut))
         return RC_OK;
     tool_warn(
         t, "%s: this surface is periodic, but the result is not, because %s: it gets periodic=no",

@@ -20,19 +20,11 @@ struct work {
 static const double filled_much = 0.05;
 static const double outliers_much = 0.05; /* the same for outliers */
 
-static bool
-is_periodic(const struct rc_grid *g)
-{
-    const char *periodic = rc_grid_get(g, "periodic");
-
-    return periodic != NULL && strcmp(periodic, "yes") == 0;
-}
-
 /* Removing a form from a periodic surface opens a step between the periods. */
 static enum rc_status
 end_period(struct tool *t, struct rc_grid *g, struct rc_err *err)
 {
-    if (!is_periodic(g))
+    if (!map_says(g, "periodic", "yes"))
         return RC_OK;
     tool_warn(t, "%s: a periodic surface is not periodic without its form: it gets periodic=no",
               tool_where(t, g));
@@ -101,7 +93,7 @@ filter(struct tool *t, struct rc_grid *g, double cutoff, bool high, struct rc_er
     const struct rc_filter what = {.cutoff = cutoff,
                                    .high = high,
                                    .robust = args.robust,
-                                   .periodic = is_periodic(g),
+                                   .periodic = map_says(g, "periodic", "yes"),
                                    .threads = t->threads};
 
     return rc_filter(rc_shape_of(g), &what, g->v, err);
@@ -136,7 +128,8 @@ outliers(struct tool *t, struct rc_grid *g, double times, struct rc_err *err)
     size_t count, nodes = g->nx * g->ny;
     const char *where = tool_where(t, g);
 
-    if (rc_outliers(rc_shape_of(g), times, is_periodic(g), t->threads, g->v, &count, err) != RC_OK)
+    if (rc_outliers(rc_shape_of(g), times, map_says(g, "periodic", "yes"), t->threads, g->v, &count,
+                    err) != RC_OK)
         return RC_FAIL;
     t->missing = true;
     tool_note(t, "%s: %zu of %zu points are outliers", where, count, nodes);
@@ -198,7 +191,7 @@ mirror(struct tool *t, struct rc_grid *g, double value, struct rc_err *err)
     if (rc_grid_get(g, "section") != NULL || strcmp(rc_grid_dunit(g), "m") != 0)
         return rc_err_set(err, "--mirror: the frame is not a map of places: leave it out, with "
                                "rc-pick --channel");
-    if (is_periodic(g))
+    if (map_says(g, "periodic", "yes"))
         return rc_err_set(
             err, "--mirror has no effect, because the map is already periodic: leave it out");
     if (from.nx * from.ny == 1)

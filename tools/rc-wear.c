@@ -381,7 +381,7 @@ suspect_track(struct run *run, const struct rc_grid *g)
     const char *where = tool_where(&run->d.t, g);
 
     if (track > 0 && run->law.k[1] > 0 && fabs(track - period) > 1e-6 * period &&
-        strcmp(rc_grid_get(g, "boundary"), "periodic") == 0)
+        map_says(g, "boundary", "periodic"))
         tool_warn(&run->d.t,
                   "%s: the map is periodic, so that each point of the track is passed every %s and "
                   "not every %s: give the period as the length of the track, or solve a free map",
@@ -395,7 +395,7 @@ add_counter(struct run *run, const struct rc_grid *g)
     struct tool *t = &run->d.t;
     struct rc_statistics other;
 
-    if (strcmp(rc_grid_get(g, "boundary"), "periodic") != 0)
+    if (!map_says(g, "boundary", "periodic"))
         tool_refuse(t, g,
                     "--motion sliding needs a periodic map, on which body 2 can pass for ever: run "
                     "rc-solve --periodic");

@@ -101,8 +101,8 @@ contact_demand(struct tool *t, const struct rc_grid *p, const struct rc_grid *co
 
 /* ---- the boundary ---- */
 
-static bool
-says(const struct rc_grid *g, const char *key, const char *value)
+bool
+map_says(const struct rc_grid *g, const char *key, const char *value)
 {
     const char *own = rc_grid_get(g, key);
 
@@ -113,8 +113,8 @@ enum rc_boundary
 map_boundary(const struct rc_grid *g)
 {
     if (rc_grid_get(g, "boundary") != NULL)
-        return says(g, "boundary", "periodic") ? RC_PERIODIC : RC_FREE;
-    return says(g, "periodic", "yes") ? RC_PERIODIC : RC_FREE;
+        return map_says(g, "boundary", "periodic") ? RC_PERIODIC : RC_FREE;
+    return map_says(g, "periodic", "yes") ? RC_PERIODIC : RC_FREE;
 }
 
 enum rc_boundary
@@ -124,9 +124,9 @@ contact_boundary(struct tool *tool, const struct rc_grid *p, bool periodic)
 
     if (own == NULL)
         return periodic ? RC_PERIODIC : RC_FREE;
-    if (says(p, "boundary", "periodic"))
+    if (map_says(p, "boundary", "periodic"))
         return RC_PERIODIC;
-    if (!says(p, "boundary", "free"))
+    if (!map_says(p, "boundary", "free"))
         tool_refuse(tool, p, "its boundary is '%s': it must be free or periodic", own);
     if (periodic)
         tool_refuse(tool, p,

@@ -10,6 +10,7 @@
 #include <string.h>
 #include <unistd.h>
 
+#include "contact.h"
 #include "foreign.h"
 #include "libcontact/contact.h"
 #include "parts.h"
@@ -104,9 +105,7 @@ close_input(struct tool *t)
 static void
 check_convergence(struct tool *t, const struct rc_grid *g)
 {
-    const char *converged = rc_grid_get(g, "converged");
-
-    if (converged == NULL || strcmp(converged, "no") != 0)
+    if (!map_says(g, "converged", "no"))
         return;
     if (!t->input.warned_short)
         tool_warn(t,

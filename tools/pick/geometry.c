@@ -158,14 +158,6 @@ replace(struct rc_grid *g, struct rc_grid *to)
 
 /* ---- keys ---- */
 
-static bool
-has(const struct rc_grid *g, const char *key, const char *value)
-{
-    const char *is = rc_grid_get(g, key);
-
-    return is != NULL && strcmp(is, value) == 0;
-}
-
 static enum rc_status
 remove_keys(struct rc_grid *g, const char *const *name, struct rc_err *err)
 {
@@ -187,9 +179,9 @@ forget_counts(struct rc_grid *g, struct rc_err *err)
 static enum rc_status
 forget_period(struct tool *t, struct rc_grid *g, struct rc_err *err)
 {
-    if (has(g, "boundary", "periodic") && rc_grid_set(g, "boundary", NULL, err) != RC_OK)
+    if (map_says(g, "boundary", "periodic") && rc_grid_set(g, "boundary", NULL, err) != RC_OK)
         return RC_FAIL;
-    if (!has(g, "periodic", "yes"))
+    if (!map_says(g, "periodic", "yes"))
         return RC_OK;
     tool_warn(t, "%s: a part of a periodic map is not periodic: it gets periodic=no",
               tool_where(t, g));
@@ -263,7 +255,8 @@ static enum rc_status
 resample(struct tool *t, struct rc_grid *g, const struct request *r, struct rc_err *err)
 {
     struct rc_shape from = rc_grid_shape(g), to;
-    bool periodic = has(g, "periodic", "yes") || has(g, "boundary", "periodic"), covers, same;
+    bool periodic = map_says(g, "periodic", "yes") || map_says(g, "boundary", "periodic"), covers,
+         same;
     struct rc_grid *map = NULL;
 
     if (new_shape(&from, r, &to, err) != RC_OK)

@@ -310,11 +310,10 @@ warn_of_metres(struct tool *t, const struct physics *a, const struct rc_grid *g,
 static void
 warn(struct tool *t, const struct physics *a, const struct rc_grid *g)
 {
-    const char *periodic = rc_grid_get(g, "periodic");
     const char *where = tool_where(t, g);
 
     warn_of_metres(t, a, g, where);
-    if (!a->periodic && periodic != NULL && strcmp(periodic, "yes") == 0 && isnan(a->radius))
+    if (!a->periodic && map_says(g, "periodic", "yes") && isnan(a->radius))
         tool_warn(t,
                   "%s: the surface is periodic, but the solution has no material beyond the map: "
                   "for a periodic solution add --periodic",

@@ -21,9 +21,7 @@ look_unit(const struct rc_grid *g)
 const char *
 look_stamp(const struct rc_grid *g)
 {
-    const char *converged = rc_grid_get(g, "converged");
-
-    return converged != NULL && strcmp(converged, "no") == 0 ? "not converged" : NULL;
+    return map_says(g, "converged", "no") ? "not converged" : NULL;
 }
 
 static void

@@ -45,8 +45,7 @@ mean_of_four(const double *p, size_t nx, size_t i, size_t i1, size_t j, size_t j
 void
 means_take(struct tool *t, struct rc_grid *g, struct means *m)
 {
-    const char *boundary = rc_grid_get(g, "boundary");
-    bool round = boundary != NULL && strcmp(boundary, "periodic") == 0;
+    bool round = map_says(g, "boundary", "periodic");
     size_t nx = g->nx, ny = g->ny;
     double *p;
 

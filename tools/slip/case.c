@@ -83,11 +83,9 @@ check_solvable(struct slip_run *run)
 void
 slip_set_keys(struct slip_run *run, struct rc_grid *g, bool converged, double load, double approach)
 {
-    const char *own = rc_grid_get(g, "converged");
     struct tool *t = &run->d.t;
 
-    converged = converged && (own == NULL || strcmp(own, "no") != 0);
-    tool_set(t, g, "converged", converged ? "yes" : "no");
+    tool_set(t, g, "converged", converged && !map_says(g, "converged", "no") ? "yes" : "no");
     tool_set(t, g, "boundary", run->boundary == RC_PERIODIC ? "periodic" : "free");
     if (tool_given(t, "E1"))
         bodies_set(t, g, &run->bodies.pair, NULL);

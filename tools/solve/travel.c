@@ -80,14 +80,6 @@ travel_read(struct run *run)
 
 /* ---- a case ---- */
 
-static bool
-repeats(const struct rc_grid *g)
-{
-    const char *periodic = rc_grid_get(g, "periodic");
-
-    return periodic != NULL && strcmp(periodic, "yes") == 0;
-}
-
 /* A map for the heights at a position, with the keys of the whole map. */
 static struct rc_grid *
 window_of(struct run *run, const struct rc_grid *g)
@@ -149,14 +141,15 @@ travel_model(struct run *run, struct rc_model *inner)
     const struct rc_grid *g = w->track, *other = w->counter;
     struct rc_travel_problem problem = {.track = rc_grid_shape(g),
                                         .h1 = g->v,
-                                        .repeats = run->args->physics.periodic || repeats(g),
+                                        .repeats = run->args->physics.periodic ||
+                                                   map_says(g, "periodic", "yes"),
                                         .ratio = run->args->counter_travel};
     struct rc_model *m;
 
     if (other != NULL) {
         problem.counter = rc_grid_shape(other);
         problem.h2 = other->v;
-        problem.counter_repeats = run->args->physics.periodic || repeats(other);
+        problem.counter_repeats = run->args->physics.periodic || map_says(other, "periodic", "yes");
     }
     if (!isnan(run->args->physics.radius))
         problem.radius = run->args->physics.radius;
