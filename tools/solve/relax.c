@@ -75,8 +75,8 @@ check_times(struct run *run)
         x->shortest = 0;
 }
 
-static void
-warn_of_material(struct run *run)
+void
+relax_warn_of_material(struct run *run)
 {
     const struct relaxing *x = &run->relaxing;
     const struct rc_relaxation *m = x->law.material;
@@ -124,7 +124,7 @@ relax_check(struct run *run)
            "solve a coarser map in a second command instead");
     refuse(run, ranks_of(&run->d.t) != NULL, "several processes", "take one");
     check_times(run);
-    warn_of_material(run);
+    relax_warn_of_material(run);
     if (args->increments != NULL && strcmp(args->increments, "auto") != 0) {
         char *end;
         x->increments = strtoul(args->increments, &end, 10);
@@ -191,21 +191,6 @@ relax_model(struct run *run, struct rc_model *inner)
 
     return tool_made(&run->d.t, run->g,
                      rc_viscoelastic_new(inner, run->g->v, &problem, &run->d.t.err));
-}
-
-/* The expected cost of a time. */
-enum rc_status
-relax_expect(const struct run *run, const struct rc_problem *problem, struct rc_expected *expected,
-             struct rc_err *err)
-{
-    struct rc_point to = {0};
-
-    rc_point_set(&to, RC_TIME, 0);
-    if (problem->approach > 0)
-        rc_point_set(&to, RC_APPROACH, problem->approach);
-    else
-        rc_point_set(&to, RC_LOAD, problem->load);
-    return rc_model_plan(run->model, &to, expected, err);
 }
 
 /* What a state of a checkpoint must agree in: the material, the other body, and the points so far. */
@@ -294,9 +279,12 @@ relax_report(struct report *r, const struct run *run)
     const struct relaxing *x = &run->relaxing;
     const struct figures from[] = {{rc_figures("viscoelastic"), x->found}, {NULL, NULL}};
 
-    if (!x->wanted)
+    if (run->args->relaxation == NULL)
         return;
-    report_named(r, from, "time equivalent_load");
+    if (x->wanted)
+        report_named(r, from, "time equivalent_load");
+    else
+        slide_report(r, run);
     report_count(r, "relaxation_terms", x->law.material->terms, NULL);
     report_number(r, "relaxation_misfit", x->law.misfit, NULL);
     report_number(r, "modulus_instant", run->args->physics.relaxes, "Pa");

@@ -245,10 +245,26 @@ solve_report(struct drive *d, const struct rc_model *m)
     report_number(r, "elastic_energy", s->contact.elastic_energy, "J");
     travel_report(r, run);
     relax_report(r, run);
-    slide_report(r, run);
 }
 
 /* ---- plan ---- */
+
+/* The expected cost of a load, a time or a speed, of bodies that neither yield nor attract each other. */
+static enum rc_status
+expect(const struct run *run, const struct rc_grid *g, const struct rc_problem *problem,
+       struct rc_expected *expected, struct rc_err *err)
+{
+    const bool approach = problem->approach > 0;
+    struct rc_point to = {0};
+
+    if (!run->relaxing.wanted && !run->sliding.wanted)
+        return rc_solver_expect(rc_shape_of(g), problem, expected, err);
+    rc_point_set(&to, approach ? RC_APPROACH : RC_LOAD,
+                 approach ? problem->approach : problem->load);
+    rc_point_set(&to, run->sliding.wanted ? RC_SPEED : RC_TIME,
+                 run->sliding.wanted ? slide_speed(run, 0) : 0);
+    return rc_model_plan(run->model, &to, expected, err);
+}
 
 size_t
 solve_memory(const struct run *run, const struct rc_grid *g, const struct rc_problem *problem)
@@ -266,12 +282,8 @@ solve_memory(const struct run *run, const struct rc_grid *g, const struct rc_pro
     rc_point_set(&to, RC_LOAD, problem->load);
     if (run->yielding.wanted)
         (void)rc_model_plan(run->model, &to, &expected, &err);
-    else if (run->relaxing.wanted)
-        (void)relax_expect(run, problem, &expected, &err);
-    else if (run->sliding.wanted)
-        (void)slide_expect(run, problem, &expected, &err);
     else
-        (void)rc_solver_expect(rc_shape_of(g), problem, &expected, &err);
+        (void)expect(run, g, problem, &expected, &err);
     return expected.memory + small + (dents + later + travel_bytes(run)) * rc_grid_nodes(g);
 }
 
@@ -303,11 +315,8 @@ solve_plan(struct run *run, const struct rc_grid *g, const struct rc_problem *pr
         loads = 1 + next * (loads - 1) + (run->args->pull_off ? retraction : 0);
     } else if (run->yielding.wanted)
         loads = yield_expect(run, problem->load, &e);
-    else if ((run->relaxing.wanted ? relax_expect(run, problem, &e, &run->d.t.err)
-              : run->sliding.wanted
-                  ? slide_expect(run, problem, &e, &run->d.t.err)
-                  : rc_solver_expect(&shape, problem, &e, &run->d.t.err)) != RC_OK)
-        tool_refuse(&run->d.t, g, "%s", run->d.t.err.text);
+    else
+        tool_must(&run->d.t, g, expect(run, g, problem, &e, &run->d.t.err));
     each = e.convolutions + (run->conductance ? STIFFNESS + 1 : 0) +
            (run->stiffness && !(run->conductance && isinf(run->hardness_min)) ? STIFFNESS : 0);
     memory = ranks_most(&run->d.t, (double)before + (double)(run->adhering.wanted

@@ -11,8 +11,7 @@
 
 #include "formats/core/core.h"
 
-static const double beyond = 10;        /* times the inverse of the shortest relaxation time */
-static const double contradicts = 0.05; /* RMS misfit of a master curve                      */
+static const double beyond = 10; /* times the inverse of the shortest relaxation time */
 
 static bool
 slides_along_y(const struct run *run)
@@ -54,24 +53,6 @@ make_material(struct run *run)
         tool_usage(&run->d.t, "--relaxation: %s", err.text);
 }
 
-/* A fitted curve says nothing beyond its frequencies. */
-static void
-warn_of_material(struct run *run)
-{
-    const double rubber = 0.45;
-
-    if (run->relaxing.law.misfit > contradicts)
-        tool_warn(&run->d.t,
-                  "--relaxation: the RMS misfit of the master curve is %.2g: its storage and loss "
-                  "moduli contradict each other, or are scattered",
-                  run->relaxing.law.misfit);
-    if (run->args->physics.nu1 < rubber)
-        tool_warn(&run->d.t,
-                  "--nu1 %g: it is constant in time, which holds for rubber (0.5): a compressible "
-                  "polymer relaxes less in its volume than in shear",
-                  run->args->physics.nu1);
-}
-
 void
 slide_check(struct run *run)
 {
@@ -111,7 +92,7 @@ slide_check(struct run *run)
                    a->speed.n, run->steps->n);
     run->stiffness = false;
     make_material(run);
-    warn_of_material(run);
+    relax_warn_of_material(run);
 }
 
 /* ---- points ---- */
@@ -146,19 +127,6 @@ slide_model(struct run *run, const struct rc_problem *problem)
 
     return tool_made(&run->d.t, run->g,
                      rc_slide_new(rc_shape_of(run->g), run->g->v, problem, &law, &run->d.t.err));
-}
-
-enum rc_status
-slide_expect(const struct run *run, const struct rc_problem *problem, struct rc_expected *expected,
-             struct rc_err *err)
-{
-    const bool approach = problem->approach > 0;
-    struct rc_point to = {0};
-
-    rc_point_set(&to, approach ? RC_APPROACH : RC_LOAD,
-                 approach ? problem->approach : problem->load);
-    rc_point_set(&to, RC_SPEED, slide_speed(run, 0));
-    return rc_model_plan(run->model, &to, expected, err);
 }
 
 /* What a state of a checkpoint must agree in. */
@@ -241,19 +209,11 @@ slide_set_keys(struct run *run, struct rc_grid *as)
 void
 slide_report(struct report *r, const struct run *run)
 {
-    const struct sliding *s = &run->sliding;
-    const struct rc_relaxation *m = run->relaxing.law.material;
-    const struct figures from[] = {{rc_figures("slide"), s->found}, {NULL, NULL}};
+    const struct figures from[] = {{rc_figures("slide"), run->sliding.found}, {NULL, NULL}};
 
-    if (!s->wanted)
-        return;
     report_named(r, from,
                  "speed friction friction_force friction_error_estimate dissipated_power track "
                  "tan_delta_max contacts");
-    report_count(r, "relaxation_terms", m->terms, NULL);
-    report_number(r, "relaxation_misfit", run->relaxing.law.misfit, NULL);
-    report_number(r, "modulus_instant", run->args->physics.e1, "Pa");
-    report_number(r, "modulus_relaxed", m->relaxed, "Pa");
 }
 
 const char *

@@ -231,6 +231,7 @@ const char *travel_state(const struct run *run);
  * invalid. */
 void relax_read(struct run *run, struct solve_args *args);
 void relax_check(struct run *run);
+void relax_warn_of_material(struct run *run);
 /* The points of the history, their times, and their places in the list of loads. */
 size_t relax_points(const struct run *run);
 double relax_time(const struct run *run, size_t point);
@@ -239,8 +240,6 @@ size_t relax_largest(const struct run *run);
 /* The part of --tol for each contact, or for the steps in time. */
 double relax_part(const struct run *run, bool contacts);
 struct rc_model *relax_model(struct run *run, struct rc_model *inner);
-enum rc_status relax_expect(const struct run *run, const struct rc_problem *problem,
-                            struct rc_expected *expected, struct rc_err *err);
 void relax_mark(struct run *run, char *value, size_t size);
 bool relax_look(struct run *run, const struct rc_model *m);
 /* Sets the parts of the error. */
@@ -252,15 +251,12 @@ const char *relax_state(const struct run *run);
 
 /* ---- slide.c: all do nothing without --speed ---- */
 
-/* The words of --along and --track. */
 /* Ends the tool if the options are invalid. */
 void slide_check(struct run *run);
 /* The cases, their speeds, and their places in the list of loads. */
 size_t slide_points(const struct run *run);
 double slide_speed(const struct run *run, size_t point);
 size_t slide_step(const struct run *run, size_t point);
-enum rc_status slide_expect(const struct run *run, const struct rc_problem *problem,
-                            struct rc_expected *expected, struct rc_err *err);
 struct rc_model *slide_model(struct run *run, const struct rc_problem *problem);
 void slide_mark(struct run *run, char *value, size_t size);
 /* Takes the figures of a case. */
