@@ -8,6 +8,8 @@
 #include <string.h>
 #include <zlib.h>
 
+#include "libcontact/owned.h"
+
 enum {
     FAST = 4000000 /* a PNG with more pixels is compressed fast, a smaller one well */
 };
@@ -73,13 +75,12 @@ put_texts(struct picture *p, const struct picture_text *text, size_t texts)
     }
 }
 
+/* The part between creation and release; a failure of libpng ends in setjmp. */
 static enum rc_status
-start(struct picture *p, FILE *file, size_t w, size_t h, double dpi,
-      const struct picture_text *text, size_t texts, struct rc_err *err)
+write_rows(struct picture *p, FILE *file, size_t w, size_t h, double dpi,
+           const struct picture_text *text, size_t texts, picture_row *row, void *ctx,
+           unsigned char *rgb, struct rc_err *err)
 {
-    p->png = png_create_write_struct(PNG_LIBPNG_VER_STRING, p, give_up, ignore);
-    if (p->png == NULL || (p->info = png_create_info_struct(p->png)) == NULL)
-        return rc_err_set(err, "out of memory for a PNG");
     if (setjmp(png_jmpbuf(p->png)) != 0)
         return rc_err_set(err, "the PNG cannot be written: %s", p->why);
     png_set_write_fn(p->png, file, write_bytes, flush_bytes);
@@ -99,23 +100,11 @@ start(struct picture *p, FILE *file, size_t w, size_t h, double dpi,
     }
     put_texts(p, text, texts);
     png_write_info(p->png, p->info);
-    return RC_OK;
-}
-
-static enum rc_status
-put_row(struct picture *p, const unsigned char *rgb, struct rc_err *err)
-{
-    if (setjmp(png_jmpbuf(p->png)) != 0)
-        return rc_err_set(err, "the PNG cannot be written: %s", p->why);
-    png_write_row(p->png, rgb);
-    return RC_OK;
-}
-
-static enum rc_status
-end(struct picture *p, struct rc_err *err)
-{
-    if (setjmp(png_jmpbuf(p->png)) != 0)
-        return rc_err_set(err, "the PNG cannot be written: %s", p->why);
+    for (size_t y = 0; y < h; y++) {
+        if (row(ctx, y, rgb, err) != RC_OK)
+            return RC_FAIL;
+        png_write_row(p->png, rgb);
+    }
     png_write_end(p->png, NULL);
     return RC_OK;
 }
@@ -124,8 +113,8 @@ enum rc_status
 picture_write(FILE *file, size_t w, size_t h, double dpi, const struct picture_text *text,
               size_t texts, picture_row *row, void *ctx, struct rc_err *err)
 {
-    struct picture picture = {.png = NULL};
-    unsigned char *rgb;
+    struct picture p = {.png = NULL};
+    RC_OWNED unsigned char *rgb = NULL;
     enum rc_status status;
 
     if (w > PNG_UINT_31_MAX || h > PNG_UINT_31_MAX || w > SIZE_MAX / 8)
@@ -133,13 +122,11 @@ picture_write(FILE *file, size_t w, size_t h, double dpi, const struct picture_t
             err, "a picture of %zu by %zu pixels: PNG allows at most 2147483647 a side", w, h);
     if ((rgb = malloc(3 * w)) == NULL)
         return rc_err_set(err, "out of memory for a picture of %zu pixels a row", w);
-    status = start(&picture, file, w, h, dpi, text, texts, err);
-    for (size_t y = 0; y < h && status == RC_OK; y++)
-        if ((status = row(ctx, y, rgb, err)) == RC_OK)
-            status = put_row(&picture, rgb, err);
-    if (status == RC_OK)
-        status = end(&picture, err);
-    png_destroy_write_struct(&picture.png, &picture.info);
-    free(rgb);
+    p.png = png_create_write_struct(PNG_LIBPNG_VER_STRING, &p, give_up, ignore);
+    if (p.png == NULL || (p.info = png_create_info_struct(p.png)) == NULL)
+        status = rc_err_set(err, "out of memory for a PNG");
+    else
+        status = write_rows(&p, file, w, h, dpi, text, texts, row, ctx, rgb, err);
+    png_destroy_write_struct(&p.png, &p.info);
     return status;
 }

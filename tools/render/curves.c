@@ -75,21 +75,11 @@ last_part(const char *name)
     return point == NULL ? name : point + 1;
 }
 
-/* The title and the unit of a column; NULL for an unknown one. */
-static const char *
-title_known(const char *name)
+/* A known column, with its title and unit; NULL for another one. */
+static const struct rc_figure *
+figure_of(const char *name)
 {
-    const struct rc_figure *f = report_figure(last_part(name));
-
-    return f == NULL ? NULL : f->title;
-}
-
-static const char *
-unit_known(const char *name)
-{
-    const struct rc_figure *f = report_figure(last_part(name));
-
-    return f == NULL ? NULL : f->unit;
+    return report_figure(last_part(name));
 }
 
 /* The title inside a sentence; E*, RMS and names of parameters, such as Sq, keep their capitals. */
@@ -113,7 +103,7 @@ title_of(const struct curves *c, size_t k)
 
     if (c->history && strcmp(name, helper_name[APPROACH]) == 0)
         name = helper_name[INDENTATION];
-    return title_known(name) == NULL ? name : title_known(name);
+    return figure_of(name) == NULL ? name : figure_of(name)->title;
 }
 
 /* A spectrum of a profile has a different unit. */
@@ -121,14 +111,14 @@ static const char *
 unit_of(const struct table *table, size_t c)
 {
     const struct column *column = &table->column[c];
-    const char *unit = unit_known(column->name);
+    const struct rc_figure *known = figure_of(column->name);
     const double *ny = table->column[table->columns - HELPERS + NY].v;
 
     if (column->unit[0] != '\0')
         return column->unit;
     if (strcmp(last_part(column->name), "c") == 0 && ny[0] == 1)
         return "m3";
-    return unit == NULL ? "1" : unit;
+    return known == NULL || known->unit == NULL ? "1" : known->unit;
 }
 
 static const char *
@@ -155,50 +145,32 @@ curve_log(const struct curve_style *s, char axis)
 
 /* ---- the columns asked for ---- */
 
+/* Divides the list at its commas into names, after the n names of `word`; text: the argument of the option. */
+static void
+split_list(struct curves *c, const char *option, const char *text, const char *must, char *list,
+           const char **word, size_t most, size_t *n)
+{
+    for (char *s = list, *comma; s != NULL; s = comma) {
+        if ((comma = strchr(s, ',')) != NULL)
+            *comma++ = '\0';
+        if (*s == '\0' || *n == most)
+            tool_usage(c->tool, "--%s %s: it must be %s, %zu at most", option, text, must, most);
+        word[(*n)++] = s;
+    }
+}
+
 static void
 split_names(struct curves *c, const char *columns)
 {
-    const char *wrong = "it must be X:Y or X:Y,Y,..., names of columns";
-    char *s;
+    static const char must[] = "X:Y or X:Y,Y,..., names of columns";
+    char *colon;
 
     c->names = tool_copy(c->tool, columns);
-    if ((s = strchr(c->names, ':')) == NULL || strchr(s + 1, ':') != NULL)
-        tool_usage(c->tool, "--curve %s: %s", columns, wrong);
-    *s = '\0';
+    if ((colon = strchr(c->names, ':')) == NULL || colon == c->names || strchr(colon + 1, ':'))
+        tool_usage(c->tool, "--curve %s: it must be %s", columns, must);
+    *colon = '\0';
     c->column[c->columns++] = c->names;
-    for (char *word = s + 1;; word = s + 1) {
-        if (c->columns == COLUMNS)
-            tool_usage(c->tool, "--curve: more than %d columns over one other", COLUMNS - 1);
-        c->column[c->columns++] = word;
-        if ((s = strchr(word, ',')) == NULL)
-            break;
-        *s = '\0';
-    }
-    for (size_t k = 0; k < c->columns; k++)
-        if (*c->column[k] == '\0')
-            tool_usage(c->tool, "--curve %s: %s", columns, wrong);
-}
-
-/* Divides a list at commas, in a copy that the caller frees. */
-static char *
-split_list(struct curves *c, const char *option, const char *list, const char **word, size_t most,
-           size_t *n)
-{
-    char *copy = tool_copy(c->tool, list), *s = copy;
-
-    for (;;) {
-        char *comma = strchr(s, ',');
-
-        if (comma != NULL)
-            *comma = '\0';
-        if (*s == '\0' || *n == most)
-            tool_usage(c->tool, "--%s %s: it must be names of columns, %zu at most", option, list,
-                       most);
-        word[(*n)++] = s;
-        if (comma == NULL)
-            return copy;
-        s = comma + 1;
-    }
+    split_list(c, "curve", columns, must, colon + 1, c->column, COLUMNS, &c->columns);
 }
 
 static void
@@ -207,9 +179,11 @@ split_options(struct curves *c)
     const struct curve_style *s = c->style;
 
     if (s->by != NULL)
-        c->by_names = split_list(c, "by", s->by, c->by, GROUP_COLUMNS, &c->bys);
+        split_list(c, "by", s->by, "names of columns", c->by_names = tool_copy(c->tool, s->by),
+                   c->by, GROUP_COLUMNS, &c->bys);
     if (s->error != NULL)
-        c->error_names = split_list(c, "error", s->error, c->error, COLUMNS, &c->errors);
+        split_list(c, "error", s->error, "names of columns",
+                   c->error_names = tool_copy(c->tool, s->error), c->error, COLUMNS, &c->errors);
     if (c->errors > 0 && c->errors != c->columns - 1)
         tool_usage(c->tool, "--error %s: it must be one column for each of --curve", s->error);
     if (c->errors > 0 && s->spread)
@@ -370,12 +344,13 @@ static void
 say_label(const struct table *table, size_t k, size_t row, char text[NAME])
 {
     const struct column *column = &table->column[k];
-    const char *known = title_known(column->name), *unit = unit_of(table, k), *end;
+    const struct rc_figure *known = figure_of(column->name);
+    const char *unit = unit_of(table, k), *end;
     const char *word = word_of(table, k, row);
     char title[NAME];
     double number;
 
-    snprintf(title, sizeof title, "%s", known == NULL ? last_part(column->name) : known);
+    snprintf(title, sizeof title, "%s", known == NULL ? last_part(column->name) : known->title);
     begin_small(title);
     end = word == NULL ? NULL : rc_number_read(word, true, &number);
     if (word != NULL && strcmp(last_part(column->name), helper_name[SOURCE]) == 0)
@@ -822,13 +797,13 @@ describe(struct curves *c)
         size_t n = strlen(c->axis);
 
         add_word(c->axis, title_of(c, k));
-        if (k > 1 && title_known(c->column[k]) != NULL)
+        if (k > 1 && figure_of(c->column[k]) != NULL)
             begin_small(c->axis + n + 2);
     }
     snprintf(c->title, NAME, "%.150s against ", c->axis);
     x += strlen(x);
     snprintf(x, NAME - (size_t)(x - c->title), "%.90s", title_of(c, 0));
-    if (title_known(c->column[0]) != NULL)
+    if (figure_of(c->column[0]) != NULL)
         begin_small(x);
 }
 
@@ -847,13 +822,11 @@ draw(struct curves *c, struct drawn *drawn)
         .n = c->n,
         .note = *c->note == '\0' ? NULL : c->note,
     };
-    struct canvas *canvas;
 
     wording_axis(c->tool, c->style, 'x', &graph.x);
     wording_axis(c->tool, c->style, 'y', &graph.y);
     wording_legend(c->tool, c->style, c->series, c->n, c->legend, sizeof c->legend);
-    canvas = tool_made(c->tool, NULL, graph_draw(&graph, &c->tool->err));
-    return canvas;
+    return tool_made(c->tool, NULL, graph_draw(&graph, &c->tool->err));
 }
 
 static void

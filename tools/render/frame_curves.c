@@ -407,14 +407,6 @@ histogram_draw(struct tool *t, struct rc_grid *const *grid, const struct rc_grid
 
 /* ---- the share above a value ---- */
 
-static int
-falling(const void *a, const void *b)
-{
-    double x = *(const double *)a, y = *(const double *)b;
-
-    return (x < y) - (x > y);
-}
-
 static size_t
 sort_values(struct set *s, const struct rc_grid *g, double **values)
 {
@@ -426,7 +418,7 @@ sort_values(struct set *s, const struct rc_grid *g, double **values)
     for (size_t i = 0; i < g->nx * g->ny; i++)
         if (isfinite(g->v[i]))
             (*values)[n++] = g->v[i];
-    qsort(*values, n, sizeof **values, falling);
+    qsort(*values, n, sizeof **values, range_compare);
     return n;
 }
 
@@ -450,7 +442,7 @@ material_ratio_draw(struct tool *t, struct rc_grid *const *grid, size_t n,
                 points == nodes ? p : (size_t)((double)p / (SAMPLES - 1) * (double)(nodes - 1));
 
             s.x[k][p] = 100 * ((double)i + 0.5) / (double)nodes;
-            s.y[k][p] = value[i];
+            s.y[k][p] = value[nodes - 1 - i];
         }
         free(value);
     }

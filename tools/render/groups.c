@@ -64,14 +64,6 @@ groups_sort(struct table *table, struct tool *t, const size_t *by, size_t n, boo
 
 /* ---- by x ---- */
 
-static int
-compare_points(const void *one, const void *other)
-{
-    const double *a = one, *b = other;
-
-    return (a[0] > b[0]) - (a[0] < b[0]);
-}
-
 void
 spread_take(struct spread *s, struct tool *t, const double *x, const double *y, size_t n)
 {
@@ -89,7 +81,7 @@ spread_take(struct spread *s, struct tool *t, const double *x, const double *y, 
             point[points][0] = x[k];
             point[points++][1] = y[k];
         }
-    qsort(point, points, sizeof *point, compare_points);
+    qsort(point, points, sizeof *point, range_compare);
     for (size_t k = 0; k < points; k = last) {
         double sum[2] = {0, 0}, squares = 0, rows, deviation;
 

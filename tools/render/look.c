@@ -4,6 +4,7 @@
 #include "render.h"
 
 #include <math.h>
+#include <stdlib.h>
 #include <string.h>
 
 bool
@@ -16,6 +17,25 @@ enum unit
 look_unit(const struct rc_grid *g)
 {
     return strcmp(rc_grid_dunit(g), "m") == 0 ? UNIT_M : UNIT_NONE;
+}
+
+enum rc_status
+look_pair(const char *text, enum unit unit, double pair[2], struct rc_err *err)
+{
+    struct numbers n = {0};
+    char list[256], *colon;
+
+    if (strlen(text) >= sizeof list)
+        return rc_err_set(err, "it is longer than %zu bytes", sizeof list - 1);
+    strcpy(list, text);
+    if ((colon = strchr(list, ':')) != NULL)
+        *colon = ',';
+    if (unit_numbers(list, unit, &n, err) != RC_OK)
+        return RC_FAIL;
+    for (size_t k = 0; k < 2; k++)
+        pair[k] = n.n == 2 ? n.v[k] : NAN;
+    free(n.v);
+    return RC_OK;
 }
 
 const char *

@@ -128,8 +128,8 @@ percentile(const struct frames_of *f, double percent)
 
 /* ---- outliers ---- */
 
-static int
-by_size(const void *a, const void *b)
+int
+range_compare(const void *a, const void *b)
 {
     double x = *(const double *)a, y = *(const double *)b;
 
@@ -147,7 +147,7 @@ around(const double *touch, const struct rc_grid *g, size_t node)
         for (size_t x = i < 2 ? 0 : i - 2; x < g->nx && x <= i + 2; x++)
             if (counts(touch, g, y * g->nx + x))
                 near[n++] = g->v[y * g->nx + x];
-    qsort(near, n, sizeof *near, by_size);
+    qsort(near, n, sizeof *near, range_compare);
     return near[n / 2];
 }
 
@@ -170,10 +170,9 @@ has_outlier(const struct frames_of *f, const struct survey *s)
 /* ---- options ---- */
 
 static bool
-is_percent(const char *text, double *value)
+is_percent(const char *text, size_t n, double *value)
 {
     char number[64];
-    size_t n = strlen(text);
     struct rc_err err;
 
     if (n < 2 || n >= sizeof number || text[n - 1] != '%')
@@ -185,14 +184,13 @@ is_percent(const char *text, double *value)
 
 /* P%:Q% or P%,Q% */
 static void
-read_percent(struct tool *t, const char *text, char *list, struct range *r)
+read_percent(struct tool *t, const char *text, struct range *r)
 {
-    char *second = strchr(list, ',');
+    const size_t n = strcspn(text, ":,");
 
-    if (second != NULL)
-        *second++ = '\0';
-    if (second == NULL || !is_percent(list, &r->low_percent) ||
-        !is_percent(second, &r->high_percent) || !(r->low_percent < r->high_percent))
+    if (text[n] == '\0' || !is_percent(text, n, &r->low_percent) ||
+        !is_percent(text + n + 1, strlen(text + n + 1), &r->high_percent) ||
+        !(r->low_percent < r->high_percent))
         tool_usage(t, "--range %s: percentiles are P%%:Q%%, from 0%% to 100%%, with P below Q",
                    text);
     r->kind = RANGE_PERCENT;
@@ -201,31 +199,25 @@ read_percent(struct tool *t, const char *text, char *list, struct range *r)
 void
 range_read(struct tool *t, const char *text, const struct rc_grid *g, struct range *r)
 {
-    char list[256];
-    char *colon;
-    struct numbers n = {0};
+    double pair[2];
 
     r->kind = RANGE_SYMMETRIC;
     if (strcmp(text, "symmetric") == 0)
         return;
-    snprintf(list, sizeof list, "%s", text);
-    if ((colon = strchr(list, ':')) != NULL)
-        *colon = ',';
     if (strchr(text, '%') != NULL) {
-        read_percent(t, text, list, r);
+        read_percent(t, text, r);
         return;
     }
-    if (unit_numbers(list, unit_of(g), &n, &t->err) != RC_OK)
+    if (look_pair(text, unit_of(g), pair, &t->err) != RC_OK)
         tool_usage(t, "--range %s: %s (channel %s is in %s)", text, t->err.text, g->channel,
                    g->unit);
-    if (n.n != 2 || !(n.v[0] < n.v[1]))
+    if (!(pair[0] < pair[1]))
         tool_usage(
             t, "--range %s: it must be LO:HI, two values with LO below HI, P%%:Q%% or symmetric",
             text);
     r->kind = RANGE_VALUES;
-    r->lo = n.v[0];
-    r->hi = n.v[1];
-    free(n.v);
+    r->lo = pair[0];
+    r->hi = pair[1];
 }
 
 const char *

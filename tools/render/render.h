@@ -127,6 +127,8 @@ struct range {
     char note[80]; /* its note in the legend; may be empty */
 };
 
+/* For qsort: the order of two numbers. */
+int range_compare(const void *a, const void *b);
 /* Reads LO:HI or LO,HI in the unit of the grid, P%:Q% or symmetric; ends the tool for another text. */
 void range_read(struct tool *tool, const char *text, const struct rc_grid *grid,
                 struct range *range);
@@ -403,6 +405,8 @@ struct look {
 };
 
 bool look_is_profile(const struct rc_grid *grid);
+/* Reads two numbers, "LO:HI" or "LO,HI"; both are NAN if there are fewer or more. */
+enum rc_status look_pair(const char *text, enum unit unit, double pair[2], struct rc_err *err);
 /* The warning for the stamp; NULL: none. */
 const char *look_stamp(const struct rc_grid *grid);
 /* The properties of a figure of n frames, except subtitle, edge of contact, and positions. */

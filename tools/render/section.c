@@ -165,9 +165,7 @@ section_range(struct tool *t, const char *text, const struct rc_grid *g, const d
               double *top, double *bottom)
 {
     double first = depth[0], last = depth[g->ny - 1];
-    char list[128];
-    char *colon;
-    struct numbers n = {0};
+    double pair[2];
 
     *top = first;
     *bottom = last;
@@ -177,19 +175,15 @@ section_range(struct tool *t, const char *text, const struct rc_grid *g, const d
     }
     if (text == NULL)
         return;
-    snprintf(list, sizeof list, "%s", text);
-    if ((colon = strchr(list, ':')) != NULL)
-        *colon = ',';
-    if (unit_numbers(list, UNIT_M, &n, &t->err) != RC_OK)
+    if (look_pair(text, UNIT_M, pair, &t->err) != RC_OK)
         tool_usage(t, "--depth-range %s: %s", text, t->err.text);
-    if (colon == NULL || n.n != 2 || !(n.v[0] < n.v[1]) || n.v[0] < 0)
+    if (strchr(text, ':') == NULL || !(pair[0] < pair[1]) || pair[0] < 0)
         tool_usage(t, "--depth-range %s: it must be Z0:Z1, two depths, the lesser first", text);
     if (g->ny > 1) {
-        *top = fmax(n.v[0], first);
-        *bottom = fmin(n.v[1], last);
-    } else if (n.v[0] > first || n.v[1] < first)
+        *top = fmax(pair[0], first);
+        *bottom = fmin(pair[1], last);
+    } else if (pair[0] > first || pair[1] < first)
         *bottom = *top; /* the only depth is left out */
-    free(n.v);
     if (!(*top < *bottom))
         tool_refuse(t, g, "--depth-range %s: its depths go from %s to %s", text,
                     scale_value(first, "m"), scale_value(last, "m"));

@@ -9,17 +9,16 @@
 void
 view_read(struct tool *t, const char *text, struct view *view)
 {
-    struct numbers n = {0};
+    double pair[2];
 
-    if (unit_numbers(text, UNIT_NONE, &n, &t->err) != RC_OK)
+    if (look_pair(text, UNIT_NONE, pair, &t->err) != RC_OK)
         tool_usage(t, "--view %s: %s", text, t->err.text);
-    if (n.n != 2 || !(fabs(n.v[0]) <= 360) || !(n.v[1] > 0 && n.v[1] <= 90))
+    if (!(fabs(pair[0]) <= 360) || !(pair[1] > 0 && pair[1] <= 90))
         tool_usage(t,
                    "--view %s: it must be AZ,EL in degrees, as in 30,35, EL above 0 and at most 90",
                    text);
-    view->azimuth = n.v[0];
-    view->elevation = n.v[1];
-    free(n.v);
+    view->azimuth = pair[0];
+    view->elevation = pair[1];
 }
 
 void

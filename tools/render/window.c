@@ -123,28 +123,13 @@ static void
 read_pair(struct tool *t, const struct rc_grid *g, const char *window, const char *text,
           double pair[2])
 {
-    char list[128];
-    char *colon;
-    struct numbers n = {0};
-
-    snprintf(list, sizeof list, "%s", text);
-    if ((colon = strchr(list, ':')) != NULL)
-        *colon = ',';
-    if (strlen(text) >= sizeof list || colon == NULL)
-        tool_usage(t,
-                   "--window %s: it must be X0:X1,Y0:Y1, two lengths with the lower first for each "
-                   "axis, contact or all",
-                   window);
-    if (unit_numbers(list, look_unit(g), &n, &t->err) != RC_OK)
+    if (look_pair(text, look_unit(g), pair, &t->err) != RC_OK)
         tool_usage(t, "--window %s: %s", window, t->err.text);
-    if (n.n != 2 || !(n.v[0] < n.v[1]))
+    if (!(pair[0] < pair[1]))
         tool_usage(t,
                    "--window %s: it must be X0:X1,Y0:Y1, two lengths with the lower first for each "
                    "axis, contact or all",
                    window);
-    pair[0] = n.v[0];
-    pair[1] = n.v[1];
-    free(n.v);
 }
 
 static void
