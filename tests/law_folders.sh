@@ -63,7 +63,7 @@ formats/readers/exchange/x3p | %reader                         | %formats
 formats/readers/exchange/xlsx | %reader                        | %formats
 formats/readers/text | %reader                                 | %formats
 formats/writers     | libcontact/grid.h formats/core/core.h    | libcontact formats/core
-formats/writers     | formats/containers/containers.h          | formats/containers
+formats/writers     | formats/containers/containers.h formats/containers/hdf_id.h | formats/containers
 formats/writers     | formats/export.h                         | formats
 formats             | libcontact/grid.h formats/core/core.h formats/sandbox/sandbox.h | libcontact formats/core formats/sandbox
 formats             |                                          | formats/readers/probes=rc_format_

@@ -15,7 +15,10 @@ enum {
     RANK_MOST = 1024
 };
 
-const unsigned char rc_cdf_width[RC_CDF_TYPES] = {0, 1, 1, 2, 4, 4, 8, 1, 2, 4, 8, 8};
+/* The type of the numbers, by the code of the file; text counts as numbers of 8 bits. */
+static const enum rc_raw raws[RC_CDF_TYPES] = {RC_RAW_I8,  RC_RAW_I8,  RC_RAW_U8,  RC_RAW_I16,
+                                               RC_RAW_I32, RC_RAW_F32, RC_RAW_F64, RC_RAW_U8,
+                                               RC_RAW_U16, RC_RAW_U32, RC_RAW_I64, RC_RAW_U64};
 
 /* A count or a size. It has 64 bits in version 5. */
 static uint64_t
@@ -45,43 +48,18 @@ rc_cdf_is(struct rc_piece p, const char *word)
     return p.n == strlen(word) && memcmp(p.text, word, p.n) == 0;
 }
 
+size_t
+rc_cdf_width(unsigned type)
+{
+    return rc_raw_width(raws[type]);
+}
+
 double
 rc_cdf_value(const unsigned char *at, unsigned type)
 {
-    struct rc_bytes b = {.data = at, .size = rc_cdf_width[type], .big = true};
-    uint64_t wide;
-    int64_t whole;
-    double v;
+    struct rc_bytes b = {.data = at, .size = rc_cdf_width(type), .big = true};
 
-    switch (type) {
-    case 1:
-        return (double)(*at ^ 0x80) - 128;
-    case 2:
-    case 7:
-        return *at;
-    case 3:
-        rc_bytes_values(&b, RC_RAW_I16, &v, 1);
-        return v;
-    case 4:
-        rc_bytes_values(&b, RC_RAW_I32, &v, 1);
-        return v;
-    case 5:
-        rc_bytes_values(&b, RC_RAW_F32, &v, 1);
-        return v;
-    case 6:
-        rc_bytes_values(&b, RC_RAW_F64, &v, 1);
-        return v;
-    case 8:
-        return rc_bytes_u16(&b);
-    case 9:
-        return rc_bytes_u32(&b);
-    case 10:
-        wide = rc_bytes_u64(&b);
-        memcpy(&whole, &wide, sizeof whole);
-        return (double)whole;
-    default:
-        return (double)rc_bytes_u64(&b);
-    }
+    return rc_bytes_at(&b, 0, raws[type]);
 }
 
 static enum rc_status
@@ -159,7 +137,7 @@ read_attributes(struct rc_cdf *f, struct rc_cdf_variable *v, struct rc_err *err)
         if (f->b.past || type == 0 || type >= RC_CDF_TYPES || values > f->b.size)
             return rc_err_set(err, "attribute %llu is damaged or cut off",
                               (unsigned long long)k + 1);
-        p = bytes(f, values * rc_cdf_width[type]);
+        p = bytes(f, values * rc_cdf_width(type));
         if (v != NULL && !f->b.past)
             take_attribute(v, name, type, values, p);
     }
@@ -235,7 +213,7 @@ read_variables(struct rc_cdf *f, struct rc_err *err)
     for (size_t k = 0; k < f->variables && with_records == 1; k++)
         if (rc_cdf_has_records(f, &f->variable[k]) && f->variable[k].rank == 2) {
             const struct rc_cdf_variable *v = &f->variable[k];
-            f->record = f->dimension[v->dimension[1]].length * rc_cdf_width[v->type];
+            f->record = f->dimension[v->dimension[1]].length * rc_cdf_width(v->type);
         }
     return RC_OK;
 }

@@ -10,8 +10,8 @@ enum {
     RC_CDF_TYPES = 12
 };
 
-/* Bytes of a value by type; 0: none. */
-extern const unsigned char rc_cdf_width[RC_CDF_TYPES];
+/* Bytes of a value by type, which is from 1 on. */
+size_t rc_cdf_width(unsigned type);
 
 struct rc_cdf_dimension {
     struct rc_piece name;

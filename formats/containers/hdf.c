@@ -52,7 +52,7 @@ rc_hdf_is_number(hid_t type)
 static bool
 shape_of(hid_t set, struct rc_hdf_set *to)
 {
-    hid_t space = H5Dget_space(set), type = H5Dget_type(set);
+    RC_HID space = H5Dget_space(set), type = H5Dget_type(set);
     hsize_t size[RC_HDF_RANK], last[2] = {0, 0};
     int rank = H5Sget_simple_extent_ndims(space), wide = 0;
     bool good = rank >= 2 && rank <= RC_HDF_RANK && rc_hdf_is_number(type) &&
@@ -67,22 +67,18 @@ shape_of(hid_t set, struct rc_hdf_set *to)
     /* a size that exceeds the memory remains too large: sizes in the file have 64 bits on every machine */
     to->rows = last[0] < SIZE_MAX ? (size_t)last[0] : SIZE_MAX;
     to->columns = last[1] < SIZE_MAX ? (size_t)last[1] : SIZE_MAX;
-    H5Tclose(type);
-    H5Sclose(space);
     return good && wide == 2;
 }
 
 bool
 rc_hdf_set_at(struct rc_hdf *h, const char *path, struct rc_hdf_set *to)
 {
-    hid_t set = H5Dopen2(h->file, path, H5P_DEFAULT);
-    bool good = set >= 0 && strlen(path) < sizeof to->path && shape_of(set, to);
+    RC_HID set = H5Dopen2(h->file, path, H5P_DEFAULT);
 
-    if (good)
-        strcpy(to->path, path);
-    if (set >= 0)
-        H5Dclose(set);
-    return good;
+    if (set < 0 || strlen(path) >= sizeof to->path || !shape_of(set, to))
+        return false;
+    strcpy(to->path, path);
+    return true;
 }
 
 struct search {
@@ -127,12 +123,9 @@ rc_hdf_sets(struct rc_hdf *h, struct rc_hdf_set *set, size_t most)
 enum rc_status
 rc_hdf_values(struct rc_hdf *h, const struct rc_hdf_set *from, double *v, struct rc_err *err)
 {
-    hid_t set = H5Dopen2(h->file, from->path, H5P_DEFAULT);
-    bool good = set >= 0 && H5Dread(set, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, v) >= 0;
+    RC_HID set = H5Dopen2(h->file, from->path, H5P_DEFAULT);
 
-    if (set >= 0)
-        H5Dclose(set);
-    if (good)
+    if (set >= 0 && H5Dread(set, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, v) >= 0)
         return RC_OK;
     return rc_err_set(err,
                       "the dataset '%s' cannot be unpacked: the file is damaged, needs more memory "

@@ -19,37 +19,28 @@ open_attribute(struct rc_hdf *h, const char *path, const char *name)
     return H5Aopen_by_name(h->file, path, name, H5P_DEFAULT, H5P_DEFAULT);
 }
 
-/* The number of values of an attribute; 0 if it is implausibly large. */
+/* The number of values of an attribute; 0 if it is implausibly large, or if there is no attribute. */
 static size_t
 values_in(hid_t attribute)
 {
-    hid_t space = H5Aget_space(attribute);
+    RC_HID space = H5Aget_space(attribute);
     hssize_t n = H5Sget_simple_extent_npoints(space);
 
-    H5Sclose(space);
     return n > 0 && n <= RECORDS_MOST ? (size_t)n : 0;
 }
 
 bool
 rc_hdf_number(struct rc_hdf *h, const char *path, const char *name, double *value)
 {
-    hid_t attribute = open_attribute(h, path, name), type;
-    size_t n;
+    RC_HID attribute = open_attribute(h, path, name), type = H5Aget_type(attribute);
+    size_t n = values_in(attribute);
     RC_OWNED double *v = NULL;
-    bool good = false;
 
-    if (attribute < 0)
+    if (n == 0 || !rc_hdf_is_number(type) || (v = calloc(n, sizeof *v)) == NULL ||
+        H5Aread(attribute, H5T_NATIVE_DOUBLE, v) < 0)
         return false;
-    type = H5Aget_type(attribute);
-    n = values_in(attribute);
-    if (n > 0 && rc_hdf_is_number(type) && (v = calloc(n, sizeof *v)) != NULL &&
-        H5Aread(attribute, H5T_NATIVE_DOUBLE, v) >= 0) {
-        *value = v[0];
-        good = true;
-    }
-    H5Tclose(type);
-    H5Aclose(attribute);
-    return good;
+    *value = v[0];
+    return true;
 }
 
 /* The text of a member or attribute at `at`, with the type `type` in memory. */
@@ -71,25 +62,18 @@ take_text(hid_t type, const unsigned char *at, char *to, size_t size)
 char *
 rc_hdf_text(struct rc_hdf *h, const char *path, const char *name, char *to, size_t size)
 {
-    hid_t attribute = open_attribute(h, path, name), type, space;
+    RC_HID attribute = open_attribute(h, path, name), type = H5Aget_type(attribute);
+    RC_HID space = H5Aget_space(attribute);
     RC_OWNED unsigned char *bytes = NULL;
-    size_t n;
+    size_t n = values_in(attribute);
 
     to[0] = '\0';
-    if (attribute < 0)
+    if (n == 0 || H5Tget_class(type) != H5T_STRING ||
+        (bytes = calloc(n, H5Tget_size(type))) == NULL || H5Aread(attribute, type, bytes) < 0)
         return to;
-    type = H5Aget_type(attribute);
-    space = H5Aget_space(attribute);
-    n = values_in(attribute);
-    if (n > 0 && H5Tget_class(type) == H5T_STRING &&
-        (bytes = calloc(n, H5Tget_size(type))) != NULL && H5Aread(attribute, type, bytes) >= 0) {
-        take_text(type, bytes, to, size);
-        if (H5Tis_variable_str(type) > 0)
-            H5Dvlen_reclaim(type, space, H5P_DEFAULT, bytes);
-    }
-    H5Sclose(space);
-    H5Tclose(type);
-    H5Aclose(attribute);
+    take_text(type, bytes, to, size);
+    if (H5Tis_variable_str(type) > 0)
+        H5Dvlen_reclaim(type, space, H5P_DEFAULT, bytes);
     return to;
 }
 
@@ -99,7 +83,7 @@ rc_hdf_text(struct rc_hdf *h, const char *path, const char *name, char *to, size
 static void
 take_numbers(hid_t type, const unsigned char *at, struct rc_hdf_record *record)
 {
-    hid_t of = H5Tget_super(type);
+    RC_HID of = H5Tget_super(type);
     hsize_t size[RC_HDF_RANK];
     size_t n = 0;
 
@@ -116,7 +100,6 @@ take_numbers(hid_t type, const unsigned char *at, struct rc_hdf_record *record)
         if (record->numbers > 0)
             memcpy(record->number, at, record->numbers * sizeof *record->number);
     }
-    H5Tclose(of);
 }
 
 static void
@@ -130,7 +113,7 @@ take_records(hid_t type, const unsigned char *bytes, size_t n, rc_hdf_take_recor
         size_t texts = 0;
 
         for (unsigned m = 0; m < (unsigned)members; m++) {
-            hid_t member = H5Tget_member_type(type, m);
+            RC_HID member = H5Tget_member_type(type, m);
             const unsigned char *at = bytes + k * width + H5Tget_member_offset(type, m);
             H5T_class_t class = H5Tget_class(member);
 
@@ -138,7 +121,6 @@ take_records(hid_t type, const unsigned char *bytes, size_t n, rc_hdf_take_recor
                 take_text(member, at, record.text[texts++], sizeof record.text[0]);
             else if ((class == H5T_VLEN || class == H5T_ARRAY) && record.numbers == 0)
                 take_numbers(member, at, &record);
-            H5Tclose(member);
         }
         take(arg, &record);
     }
@@ -148,33 +130,21 @@ bool
 rc_hdf_table(struct rc_hdf *h, const char *path, const char *attribute, rc_hdf_take_record *take,
              void *arg)
 {
-    hid_t from = attribute != NULL ? open_attribute(h, path, attribute)
-                                   : H5Dopen2(h->file, path, H5P_DEFAULT);
-    hid_t stored = -1, type = -1, space = -1;
+    RC_HID from = attribute != NULL ? open_attribute(h, path, attribute)
+                                    : H5Dopen2(h->file, path, H5P_DEFAULT);
+    RC_HID stored = attribute != NULL ? H5Aget_type(from) : H5Dget_type(from);
+    RC_HID space = attribute != NULL ? H5Aget_space(from) : H5Dget_space(from);
+    RC_HID type = -1;
     RC_OWNED unsigned char *bytes = NULL;
-    bool good = false;
-    hssize_t n;
+    hssize_t n = H5Sget_simple_extent_npoints(space);
 
-    if (from < 0)
-        return false;
-    stored = attribute != NULL ? H5Aget_type(from) : H5Dget_type(from);
-    space = attribute != NULL ? H5Aget_space(from) : H5Dget_space(from);
-    n = H5Sget_simple_extent_npoints(space);
     if (H5Tget_class(stored) == H5T_COMPOUND && n > 0 && n <= RECORDS_MOST)
         type = H5Tget_native_type(stored, H5T_DIR_ASCEND);
-    if (type >= 0 && (bytes = calloc((size_t)n, H5Tget_size(type))) != NULL)
-        good = (attribute != NULL ? H5Aread(from, type, bytes)
-                                  : H5Dread(from, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, bytes)) >= 0;
-    if (good) {
-        take_records(type, bytes, (size_t)n, take, arg);
-        H5Dvlen_reclaim(type, space, H5P_DEFAULT, bytes);
-    }
-    H5Tclose(type);
-    H5Tclose(stored);
-    H5Sclose(space);
-    if (attribute != NULL)
-        H5Aclose(from);
-    else
-        H5Dclose(from);
-    return good;
+    if (type < 0 || (bytes = calloc((size_t)n, H5Tget_size(type))) == NULL ||
+        (attribute != NULL ? H5Aread(from, type, bytes)
+                           : H5Dread(from, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, bytes)) < 0)
+        return false;
+    take_records(type, bytes, (size_t)n, take, arg);
+    H5Dvlen_reclaim(type, space, H5P_DEFAULT, bytes);
+    return true;
 }

@@ -2,9 +2,8 @@
 #ifndef RC_HDF_INTERNAL_H
 #define RC_HDF_INTERNAL_H
 
-#include <hdf5.h>
-
 #include "hdf.h"
+#include "hdf_id.h"
 
 struct rc_hdf {
     hid_t file;

@@ -177,42 +177,40 @@ rc_tiff_text(struct rc_tiff *t, uint32_t tag, char *to, size_t size)
                          end == NULL ? n : (size_t)(end - (const char *)bytes));
 }
 
+/* Number k of an array in the byte order of this machine. */
+static double
+own_number(const void *at, size_t k, enum rc_raw raw)
+{
+    static const uint16_t one = 1;
+    struct rc_bytes b = {
+        .data = at, .size = (k + 1) * rc_raw_width(raw), .big = *(const unsigned char *)&one == 0};
+
+    return rc_bytes_at(&b, k * rc_raw_width(raw), raw);
+}
+
 bool
 rc_tiff_number(struct rc_tiff *t, uint32_t tag, double *value)
 {
+    static const struct {
+        TIFFDataType type;
+        enum rc_raw raw; /* as libtiff returns them: rational numbers are floats */
+    } types[] = {
+        {TIFF_BYTE, RC_RAW_U8},    {TIFF_SHORT, RC_RAW_U16},    {TIFF_SSHORT, RC_RAW_I16},
+        {TIFF_LONG, RC_RAW_U32},   {TIFF_SLONG, RC_RAW_I32},    {TIFF_FLOAT, RC_RAW_F32},
+        {TIFF_DOUBLE, RC_RAW_F64}, {TIFF_RATIONAL, RC_RAW_F32}, {TIFF_SRATIONAL, RC_RAW_F32},
+    };
     const TIFFField *field = TIFFFindField(t->tiff, tag, TIFF_ANY);
     const void *at;
     size_t count;
 
     if (field == NULL || !private_tag(t, field, &at, &count) || count == 0)
         return false;
-    switch (TIFFFieldDataType(field)) {
-    case TIFF_BYTE:
-        *value = *(const uint8_t *)at;
-        return true;
-    case TIFF_SHORT:
-        *value = *(const uint16_t *)at;
-        return true;
-    case TIFF_SSHORT:
-        *value = *(const int16_t *)at;
-        return true;
-    case TIFF_LONG:
-        *value = *(const uint32_t *)at;
-        return true;
-    case TIFF_SLONG:
-        *value = *(const int32_t *)at;
-        return true;
-    case TIFF_FLOAT:
-    case TIFF_RATIONAL:
-    case TIFF_SRATIONAL:
-        *value = (double)*(const float *)at;
-        return true;
-    case TIFF_DOUBLE:
-        *value = *(const double *)at;
-        return true;
-    default:
-        return false;
-    }
+    for (size_t k = 0; k < sizeof types / sizeof *types; k++)
+        if (TIFFFieldDataType(field) == types[k].type) {
+            *value = own_number(at, 0, types[k].raw);
+            return true;
+        }
+    return false;
 }
 
 bool
@@ -250,37 +248,15 @@ rc_tiff_shape(struct rc_tiff *t, struct rc_tiff_shape *shape, struct rc_err *err
     return RC_OK;
 }
 
-/* One sample of an unpacked row, in the byte order of this machine. */
-static double
-sample(const unsigned char *row, size_t k, unsigned bits, unsigned kind)
+/* The type of the samples of more than one bit. */
+static enum rc_raw
+raw_of(unsigned bits, unsigned kind)
 {
-    uint16_t half;
-    uint32_t word;
-    int16_t short_;
-    int32_t long_;
-    float real;
-    double wide;
-
-    switch (bits) {
-    case 1:
-        return row[k / 8] >> (7 - k % 8) & 1;
-    case 8:
-        return kind == SAMPLEFORMAT_INT ? (double)(row[k] ^ 0x80) - 128 : row[k];
-    case 16:
-        memcpy(&half, row + 2 * k, 2);
-        memcpy(&short_, row + 2 * k, 2);
-        return kind == SAMPLEFORMAT_INT ? (double)short_ : half;
-    case 64:
-        memcpy(&wide, row + 8 * k, 8);
-        return wide;
-    default:
-        memcpy(&word, row + 4 * k, 4);
-        memcpy(&long_, row + 4 * k, 4);
-        memcpy(&real, row + 4 * k, 4);
-        return kind == SAMPLEFORMAT_IEEEFP ? (double)real
-               : kind == SAMPLEFORMAT_INT  ? (double)long_
-                                           : word;
-    }
+    if (kind == SAMPLEFORMAT_IEEEFP)
+        return bits == 64 ? RC_RAW_F64 : RC_RAW_F32;
+    if (kind == SAMPLEFORMAT_INT)
+        return bits == 8 ? RC_RAW_I8 : bits == 16 ? RC_RAW_I16 : RC_RAW_I32;
+    return bits == 8 ? RC_RAW_U8 : bits == 16 ? RC_RAW_U16 : RC_RAW_U32;
 }
 
 enum rc_status
@@ -311,7 +287,9 @@ rc_tiff_values(struct rc_tiff *t, const struct rc_tiff_shape *shape, double *v, 
                 err, "row %zu of %zu (from 0) cannot be unpacked: the file is damaged or cut off",
                 j, shape->ny);
         for (size_t i = 0; i < shape->nx; i++)
-            v[j * shape->nx + i] = sample(row, i * stride, shape->bits, kind);
+            v[j * shape->nx + i] = shape->bits == 1
+                                       ? row[i * stride / 8] >> (7 - i * stride % 8) & 1
+                                       : own_number(row, i * stride, raw_of(shape->bits, kind));
     }
     return RC_OK;
 }

@@ -4,12 +4,12 @@
  * of the frame as text; a missing point is NaN. If rows or slices are depths, the depths are a dataset too,
  * the dimension scale of their axis. The library must seek, so it makes the file in memory.
  */
-#include <hdf5.h>
 #include <hdf5_hl.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "encode.h"
+#include "formats/containers/hdf_id.h"
 #include "formats/export.h"
 #include "stack.h"
 
@@ -21,29 +21,21 @@ enum {
 static bool
 put_number(hid_t set, const char *name, double value)
 {
-    hid_t space = H5Screate(H5S_SCALAR);
-    hid_t attribute = H5Acreate2(set, name, H5T_IEEE_F64LE, space, H5P_DEFAULT, H5P_DEFAULT);
-    bool good = attribute >= 0 && H5Awrite(attribute, H5T_NATIVE_DOUBLE, &value) >= 0;
+    RC_HID space = H5Screate(H5S_SCALAR);
+    RC_HID attribute = H5Acreate2(set, name, H5T_IEEE_F64LE, space, H5P_DEFAULT, H5P_DEFAULT);
 
-    H5Aclose(attribute);
-    H5Sclose(space);
-    return good;
+    return attribute >= 0 && H5Awrite(attribute, H5T_NATIVE_DOUBLE, &value) >= 0;
 }
 
 static bool
 put_text(hid_t set, const char *name, const char *value)
 {
-    hid_t space = H5Screate(H5S_SCALAR), type = H5Tcopy(H5T_C_S1), attribute;
-    bool good;
+    RC_HID space = H5Screate(H5S_SCALAR), type = H5Tcopy(H5T_C_S1), attribute = -1;
 
     H5Tset_size(type, H5T_VARIABLE);
     H5Tset_cset(type, H5T_CSET_UTF8);
     attribute = H5Acreate2(set, name, type, space, H5P_DEFAULT, H5P_DEFAULT);
-    good = attribute >= 0 && H5Awrite(attribute, type, &value) >= 0;
-    H5Aclose(attribute);
-    H5Tclose(type);
-    H5Sclose(space);
-    return good;
+    return attribute >= 0 && H5Awrite(attribute, type, &value) >= 0;
 }
 
 /* Omits the key `depth` in a stack, because its scale has the depths of all its frames. */
@@ -62,14 +54,11 @@ put_attributes(hid_t set, const struct rc_grid *g, bool stack)
 static hid_t
 new_set(hid_t file, const char *name, int rank, const hsize_t *size, enum rc_raw raw)
 {
-    hid_t space = H5Screate_simple(rank, size, NULL), options = H5Pcreate(H5P_DATASET_CREATE), set;
+    RC_HID space = H5Screate_simple(rank, size, NULL), options = H5Pcreate(H5P_DATASET_CREATE);
 
     H5Pset_obj_track_times(options, false); /* the same frames give the same bytes */
-    set = H5Dcreate2(file, name, raw == RC_RAW_F32 ? H5T_IEEE_F32LE : H5T_IEEE_F64LE, space,
-                     H5P_DEFAULT, options, H5P_DEFAULT);
-    H5Pclose(options);
-    H5Sclose(space);
-    return set;
+    return H5Dcreate2(file, name, raw == RC_RAW_F32 ? H5T_IEEE_F32LE : H5T_IEEE_F64LE, space,
+                      H5P_DEFAULT, options, H5P_DEFAULT);
 }
 
 /* ---- depths along an axis ---- */
@@ -109,18 +98,15 @@ static bool
 put_scale(struct output *o, struct scale *scale)
 {
     const hsize_t size = scale->n;
-    hid_t set;
-    bool good;
+    RC_HID set = -1;
 
     strcpy(scale->name, "depth");
     for (int k = 2; H5Lexists(o->file, scale->name, H5P_DEFAULT) > 0; k++)
         snprintf(scale->name, sizeof scale->name, "depth_%d", k);
     set = new_set(o->file, scale->name, 1, &size, RC_RAW_F64);
-    good = set >= 0 &&
+    return set >= 0 &&
            H5Dwrite(set, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, scale->at) >= 0 &&
            H5DSset_scale(set, "depth") >= 0 && put_text(set, "unit", "m");
-    H5Dclose(set);
-    return good;
 }
 
 /* Makes the depths the scale of the first axis; a scale of the same depths that was written before
@@ -129,8 +115,7 @@ static bool
 attach_depths(struct output *o, hid_t set, double *at, size_t n)
 {
     size_t k = 0;
-    hid_t scale;
-    bool good;
+    RC_HID scale = -1;
 
     while (k < o->scales && (o->scale[k].n != n || memcmp(o->scale[k].at, at, n * sizeof *at) != 0))
         k++;
@@ -142,10 +127,8 @@ attach_depths(struct output *o, hid_t set, double *at, size_t n)
             return false;
     }
     scale = H5Dopen2(o->file, o->scale[k].name, H5P_DEFAULT);
-    good =
-        scale >= 0 && H5DSattach_scale(set, scale, 0) >= 0 && H5DSset_label(set, 0, "depth") >= 0;
-    H5Dclose(scale);
-    return good;
+    return scale >= 0 && H5DSattach_scale(set, scale, 0) >= 0 &&
+           H5DSset_label(set, 0, "depth") >= 0;
 }
 
 /* ---- frames ---- */
@@ -155,17 +138,13 @@ put_layer(hid_t set, const struct rc_stack *s, size_t k)
 {
     const struct rc_grid *g = s->layer[k];
     const hsize_t from[3] = {k, 0, 0}, size[3] = {1, g->ny, g->nx};
-    hid_t memory = H5Screate_simple(3, size, NULL), space = H5Dget_space(set);
-    bool good;
+    RC_HID memory = H5Screate_simple(3, size, NULL), space = H5Dget_space(set);
 
     if (s->n == 1)
         H5Sselect_all(space);
     else
         H5Sselect_hyperslab(space, H5S_SELECT_SET, from, NULL, size, NULL);
-    good = H5Dwrite(set, H5T_NATIVE_DOUBLE, memory, space, H5P_DEFAULT, g->v) >= 0;
-    H5Sclose(memory);
-    H5Sclose(space);
-    return good;
+    return H5Dwrite(set, H5T_NATIVE_DOUBLE, memory, space, H5P_DEFAULT, g->v) >= 0;
 }
 
 static bool
@@ -174,14 +153,12 @@ put_stack(struct output *o, const char *name, const struct rc_stack *s, enum rc_
     const struct rc_grid *g = s->layer[0];
     const hsize_t size[3] = {s->n, g->ny, g->nx};
     bool deep = s->n > 1;
-    hid_t set = new_set(o->file, name, deep ? 3 : 2, deep ? size : size + 1, raw);
+    RC_HID set = new_set(o->file, name, deep ? 3 : 2, deep ? size : size + 1, raw);
     bool good = set >= 0;
 
     for (size_t k = 0; good && k < s->n; k++)
         good = put_layer(set, s, k);
-    good = good && put_attributes(set, g, deep);
-    H5Dclose(set);
-    return good;
+    return good && put_attributes(set, g, deep);
 }
 
 static bool
@@ -189,15 +166,9 @@ put_depths(struct output *o, const char *name, const struct rc_stack *s)
 {
     size_t n;
     double *at = depths_of(s, &n);
-    hid_t set;
-    bool good;
+    RC_HID set = at == NULL ? -1 : H5Dopen2(o->file, name, H5P_DEFAULT);
 
-    if (at == NULL)
-        return true;
-    set = H5Dopen2(o->file, name, H5P_DEFAULT);
-    good = attach_depths(o, set, at, n);
-    H5Dclose(set);
-    return good;
+    return at == NULL || attach_depths(o, set, at, n);
 }
 
 static enum rc_status
@@ -276,7 +247,7 @@ hdf5_write(FILE *out, struct rc_grid *const *frame, size_t frames,
            const struct rc_export_wish *wish, struct rc_err *err)
 {
     struct output o = {.file = -1};
-    hid_t access;
+    RC_HID access = -1;
     struct rc_stack *stack;
     size_t stacks;
     enum rc_status status = rc_stacks_make(&stack, &stacks, frame, frames, err);
@@ -295,7 +266,6 @@ hdf5_write(FILE *out, struct rc_grid *const *frame, size_t frames,
     if (status == RC_OK)
         status = put_image(o.file, out, err);
     H5Fclose(o.file);
-    H5Pclose(access);
     rc_stacks_free(stack, stacks);
     return status;
 }

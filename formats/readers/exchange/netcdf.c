@@ -88,9 +88,9 @@ static const unsigned char *
 place(const struct rc_cdf *f, const struct rc_cdf_variable *v, uint64_t i, uint64_t j)
 {
     uint64_t columns = v->rank >= 2 ? length(f, v->dimension[1]) : 1;
-    uint64_t row = in_records(f, v) ? f->record : columns * rc_cdf_width[v->type];
+    uint64_t row = in_records(f, v) ? f->record : columns * rc_cdf_width(v->type);
 
-    return f->b.data + v->at + i * row + j * rc_cdf_width[v->type];
+    return f->b.data + v->at + i * row + j * rc_cdf_width(v->type);
 }
 
 static enum rc_status
@@ -102,14 +102,14 @@ check_bytes(const struct rc_cdf *f, const struct rc_cdf_variable *v, struct rc_e
     uint64_t row, there = v->at > f->b.size ? 0 : f->b.size - v->at;
 
     rc_piece_shown_to(quote, v->name);
-    if (columns > there / rc_cdf_width[v->type])
+    if (columns > there / rc_cdf_width(v->type))
         return rc_err_set(err, "variable '%s' promises %llu values a row, the file is too short",
                           quote, (unsigned long long)columns);
-    row = columns * rc_cdf_width[v->type];
+    row = columns * rc_cdf_width(v->type);
     if (in_records(f, v) && f->record < row)
         return rc_err_set(err, "variable '%s' does not fit its records", quote);
     row = in_records(f, v) ? f->record : row;
-    if (rows - 1 > (there - columns * rc_cdf_width[v->type]) / row)
+    if (rows - 1 > (there - columns * rc_cdf_width(v->type)) / row)
         return rc_err_set(err, "variable '%s' promises %llu x %llu values, the file is too short",
                           quote, (unsigned long long)rows, (unsigned long long)columns);
     return RC_OK;
@@ -122,7 +122,7 @@ scalar(const struct rc_cdf *f, const char *name, double *value)
     const struct rc_cdf_variable *v = named(f, (struct rc_piece){name, strlen(name)});
 
     if (v == NULL || v->rank != 0 || v->type == RC_CDF_CHAR || v->at > f->b.size ||
-        f->b.size - v->at < rc_cdf_width[v->type])
+        f->b.size - v->at < rc_cdf_width(v->type))
         return false;
     *value = rc_cdf_value(f->b.data + v->at, v->type);
     return true;
