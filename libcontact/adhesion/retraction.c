@@ -3,7 +3,8 @@
  *
  * Coarse: from state to state until the attraction is less than minus the lowest load so far. Gaps only grow,
  * so that no later load is below minus the attraction. On a path without jumps the falling load is a convex
- * function of the approach, because contact and stiffness decrease.
+ * function of the approach, because contact and stiffness decrease. The first step follows from the stiffness
+ * of a flat punch. If the load falls far more, the step may pass a jump unseen; a shorter one replaces it.
  *
  * Fine, if the load is not convex: repeats the path from the state before the first step that may hide a
  * lower load. Between jumps the load falls no faster than the stiffness of the contact allows. A step is
@@ -36,6 +37,7 @@ static const double settled = 1e-3;   /* fraction of the lowest load: smaller di
                                           count */
 static const double unsteady = 1.5;   /* change of the rate of attraction that counts as a jump */
 static const double convex = 1.1;     /* a larger growth of the slope means a jump */
+static const double stiffer = 2; /* a larger slope of the first step means that it was too long */
 static const double noise =
     2e-4; /* error of the difference of two loads, relative to the lowest load */
 static const double least_step = 1e-6; /* relative to the range */
@@ -102,7 +104,7 @@ hidden(const struct rc_retraction *r, const struct rc_retraction_state *here, bo
     const struct rc_retraction_state *last = &r->last;
     double way = last->c - here->c, least = fmin(last->load, here->load), at, bend;
 
-    if (jumped || (r->stage == RC_RETRACTION_COARSE && r->states > 2))
+    if (jumped || (r->stage == RC_RETRACTION_COARSE && r->has_prior))
         return fmin(least, fmax(last->load - stiffness(r, last) * way, -last->attraction));
     if (r->has_prior && here->load > last->load && last->slope > 0)
         return fmin(least, vertex(&r->prior, last, here, &at, &bend));
@@ -274,8 +276,9 @@ begin_fine(struct rc_retraction *r, struct rc_retraction_state from, double step
         r->known = r->lowest.load;
         r->known_at = r->lowest.c;
     }
-    r->hidden = r->beside = INFINITY;
-    r->steps_n = 0;
+    r->hidden = r->beside = r->estimate = INFINITY;
+    r->missed = 0;
+    r->steps_n = r->checks = 0;
     r->last = r->base = from;
     r->has_base = true;
     r->has_prior = r->has_after = r->has_before = false;
@@ -301,7 +304,8 @@ end(struct rc_retraction *r, double load, double at, double spread)
  * the contact, and jumps up where a node separates. The lowest load found then belongs to one tooth. Two
  * states beside it show this: they lie where the parabola of the coarse stage is higher by `settled`. Their
  * distances have no simple ratio. If they are off the parabola, six more states measure the height of the
- * teeth. A state far above the parabola is beyond a jump, not on a tooth. */
+ * teeth. A state far above the parabola is beyond a jump, not on a tooth. Coarse steps may hide more such
+ * jumps: the fine stage follows. */
 static const double places[RC_RETRACTION_CHECKS] = {1,     -0.618, -1.5, 0.382,
                                                     0.854, -0.236, -1.1, 0.56};
 static const double leap = 0.05; /* relative to the lowest load */
@@ -348,9 +352,11 @@ check(struct rc_retraction *r)
     bool saw = r->missed > settled / 2 * fabs(r->estimate);
 
     if (r->checks == RC_RETRACTION_CHECKS || (r->checks >= FIRST && !saw)) {
-        double lowest = fmin(r->estimate, r->lowest.load);
-        return end(r, lowest, lowest < r->lowest.load ? r->at_estimate : r->lowest.c,
-                   fmax(r->spread, saw ? 1.5 * teeth(r) : 2 * r->missed));
+        double lowest = fmin(r->estimate, r->lowest.load),
+               spread = fmax(r->spread, saw ? 1.5 * teeth(r) : 2 * r->missed);
+        if (r->leaps && r->fine == 0 && spread < leap * fabs(lowest))
+            return begin_fine(r, r->base, fine_way(r, &r->base));
+        return end(r, lowest, lowest < r->lowest.load ? r->at_estimate : r->lowest.c, spread);
     }
     way = sqrt(settled * fabs(r->estimate) / r->around);
     way = places[r->checks++] * fmin(way, r->at_estimate - r->late);
@@ -380,6 +386,7 @@ note_check(struct rc_retraction *r, struct rc_retraction_state here)
 
     r->keep = RC_RETRACTION_HERE;
     r->is_lowest = here.load < r->lowest.load;
+    r->leaps |= here.load > r->estimate + leap * fabs(r->estimate);
     if (here.load > r->estimate + leap * fabs(r->estimate))
         return;
     r->missed = fmax(r->missed, fabs(here.load - r->estimate - r->bend * way * way));
@@ -432,7 +439,9 @@ settle(struct rc_retraction *r)
     bool again = r->fine < FINE && !r->short_of, jumped;
 
     if (!r->has_after) /* too few states */
-        return end(r, m->load, m->c, m->load - least);
+        return again && r->has_base && counts(r, least)
+                   ? begin_fine(r, r->base, fine_way(r, &r->base))
+                   : end(r, m->load, m->c, m->load - least);
     if (!r->has_before) { /* the first state has the lowest load, unless the first step was too
                              long */
         r->to = right->c;
@@ -517,8 +526,14 @@ rc_retraction_next(struct rc_retraction *r, struct rc_retraction_state here)
     way = r->last.c - here.c;
     here.slope = (r->last.load - here.load) / way;
     here.rate = (r->last.attraction - here.attraction) / way;
+    if (r->stage == RC_RETRACTION_COARSE && !r->has_prior && here.slope > stiffer * r->last.slope) {
+        r->keep = RC_RETRACTION_HERE;
+        r->step *= r->last.slope / here.slope;
+        r->last.slope = here.slope;
+        return go(r, &r->last, r->last.c - r->step);
+    }
     jumped = has_jumped(r->last.rate, &r->last, &here);
-    if (!r->has_after && r->states > 2 && here.slope > convex * fmax(r->last.slope, 0))
+    if (!r->has_after && r->has_prior && here.slope > convex * fmax(r->last.slope, 0))
         r->rough = true;
     hides = hidden(r, &here, jumped);
     lost = r->last.c > r->known_at && here.c <= r->known_at &&

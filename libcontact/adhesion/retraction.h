@@ -59,6 +59,7 @@ struct rc_retraction {
     double missed; /* largest difference of a load from the parabola */
     double around; /* the bend of the parabola of the coarse stage; 0: there is none */
     double late;   /* the end of that parabola */
+    bool leaps;    /* a checked load was far above it */
     /* The lowest point and the points beside it: distance and load. */
     double beside_way[RC_RETRACTION_CHECKS + 1], beside_load[RC_RETRACTION_CHECKS + 1];
     size_t beside_n;

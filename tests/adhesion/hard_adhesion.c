@@ -321,7 +321,9 @@ pull_off_of_rough(void **state)
 }
 
 /* The load over the approach is far from a parabola (first map), has jumps of single nodes (second), or is
- * like a saw (third). The lowest load of 400 steps is below the found one by at most the spread. */
+ * like a saw (third). By the stiffness of a punch, the first step jumps past the lowest load (fourth).
+ * Coarse steps pass over a saw that only the states beside the lowest load show (fifth). The lowest load of
+ * 400 steps is below the found one by at most the spread. */
 static void
 pull_off_has_spread(void **state)
 {
@@ -352,7 +354,21 @@ pull_off_has_spread(void **state)
          5.7623e-4,
          0.0869521,
          0.97,
-         RC_FREE}};
+         RC_FREE},
+        {48,
+         {.hurst = 0.8, .rms_slope = 0.0143839, .short_cut = 8, .rolloff = 12, .seed = 853695},
+         "dugdale",
+         2.211047e-4,
+         0.01918840,
+         0.947,
+         RC_PERIODIC},
+        {54,
+         {.hurst = 0.8, .rms_slope = 0.0682327, .short_cut = 4, .rolloff = 13.5, .seed = 758324},
+         "dugdale",
+         1.737158e-3,
+         0.1108541,
+         0.809204,
+         RC_PERIODIC}};
 
     (void)state;
     for (size_t k = 0; k < sizeof cases / sizeof *cases; k++) {
