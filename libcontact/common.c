@@ -38,6 +38,26 @@ rc_any(const double *v, size_t n)
     return false;
 }
 
+double
+rc_highest(const double *v, size_t n)
+{
+    double most = -INFINITY;
+
+    for (size_t k = 0; k < n; k++)
+        most = v[k] > most ? v[k] : most;
+    return most;
+}
+
+double
+rc_distance(const double *a, const double *b, size_t n)
+{
+    struct rc_total sum = {0};
+
+    for (size_t k = 0; k < n; k++)
+        rc_total_add(&sum, fabs(b == NULL ? a[k] : a[k] - b[k]));
+    return rc_total_value(&sum);
+}
+
 enum {
     LANES = 16
 };

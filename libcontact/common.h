@@ -55,6 +55,10 @@ rc_shape_coarser(const struct rc_shape *s)
 
 /* True if one of n values is not 0. */
 bool rc_any(const double *v, size_t n);
+/* The largest of n values. */
+double rc_highest(const double *v, size_t n);
+/* The sum of |a - b| over n values, compensated for rounding; b NULL: of |a|. */
+double rc_distance(const double *a, const double *b, size_t n);
 
 /* The sum of rc_sum, value by value. */
 struct rc_total {

@@ -19,9 +19,7 @@ rc_conduction_free(struct rc_conduction *c)
     if (c->framed != c->fft)
         rc_fft_free(c->framed); /* it uses the memory of c->fft */
     rc_fft_free(c->fft);
-    free(c->waves);
-    free(c->wave);
-    free(c->mirror);
+    rc_store_free(&c->own);
     free(c);
 }
 
@@ -49,8 +47,8 @@ rc_conduction_new(const struct rc_shape *shape, enum rc_boundary boundary, size_
     }
     rc_fft_waves(c->fft, &c->columns, &c->cy);
     c->length = rc_fft_length(c->fft);
-    c->waves = rc_alloc(2 * c->columns * c->length, sizeof *c->waves);
-    if (!rc_fft_fold(c->fft, &c->wave, &c->mirror) || c->waves == NULL)
+    c->waves = rc_store_take(&c->own, 2 * c->columns * c->length, sizeof *c->waves);
+    if (!rc_fft_fold(c->fft, &c->own, &c->wave, &c->mirror))
         return rc_err_null(err, "out of memory for the heat of %zu x %zu nodes", shape->nx,
                            shape->ny);
     return rc_give(&c);

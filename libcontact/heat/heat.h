@@ -75,7 +75,8 @@ struct rc_conduction {
     double *waves;              /* transform of the loaded map                                    */
     size_t *wave;               /* for place t of a column: its row in the quarter                */
     signed char *mirror;        /* -1 where this row is the mirror image, else 1                  */
-    double count;               /* of convolutions */
+    struct rc_store own;
+    double count; /* of convolutions */
 };
 struct rc_conduction *rc_conduction_new(const struct rc_shape *shape, enum rc_boundary boundary,
                                         size_t threads, struct rc_err *err);

@@ -166,14 +166,11 @@ find(struct rc_sum *sum, const struct rc_conv_options *o, bool *precise, const c
         return choose(sum, o, reason);
     *reason = "asked for";
     engine = rc_engine_named(o->engine, precise);
-    if (engine == NULL) {
-        rc_err_set(err, "there is no engine '%s'", o->engine);
-        return NULL;
-    }
+    if (engine == NULL)
+        return rc_err_null(err, "there is no engine '%s'", o->engine);
     sum->precise |= *precise;
-    if (rc_engine_serves(engine, o->engine, sum->boundary, sum->ranks, err) != RC_OK)
-        return NULL;
-    return engine;
+    return rc_engine_serves(engine, o->engine, sum->boundary, sum->ranks, err) == RC_OK ? engine
+                                                                                        : NULL;
 }
 
 static const char *
@@ -201,9 +198,7 @@ conv_new(const struct rc_solids *bodies, bool own, const struct rc_shape *shape,
     struct rc_conv *conv = calloc(1, sizeof *conv);
     struct rc_sum sum;
 
-    if (conv == NULL)
-        rc_err_set(err, "out of memory for a plan");
-    if (rc_ranks_agree(options->ranks, conv == NULL ? RC_FAIL : RC_OK, err) != RC_OK) {
+    if (rc_ranks_need(options->ranks, conv != NULL, err, "out of memory for a plan") != RC_OK) {
         free(conv);
         return NULL;
     }

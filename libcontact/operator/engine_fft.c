@@ -39,9 +39,7 @@ plan_new(const struct rc_sum *sum, struct rc_err *err)
 {
     RC_OWN(plan, plan) = calloc(1, sizeof *plan);
 
-    if (plan == NULL)
-        rc_err_set(err, "out of memory for a plan");
-    if (rc_ranks_agree(sum->ranks, plan == NULL ? RC_FAIL : RC_OK, err) != RC_OK)
+    if (rc_ranks_need(sum->ranks, plan != NULL, err, "out of memory for a plan") != RC_OK)
         return NULL;
     plan->fft =
         rc_fft_new(sum->ranks, NULL, &sum->shape, sum->boundary, precision(sum), sum->threads, err);

@@ -11,7 +11,6 @@
 
 #include <assert.h>
 #include <complex.h>
-#include <math.h>
 #include <omp.h>
 #include <stdlib.h>
 #include <string.h>
@@ -38,6 +37,7 @@ struct rc_fft {
     double *columns;              /* COLUMNS columns of a spectrum for each thread */
     /* transpositions of waves and of the rows of a quarter, where ranks share it */
     struct rc_turn turn, quarter;
+    struct rc_store own;
 };
 
 enum {
@@ -123,17 +123,16 @@ half_free(struct half *h)
 {
     rc_dct_free(h->dct);
     rc_line_free(h->line);
-    free(h->scratch);
 }
 
 static bool
-half_new(struct half *h, size_t length, size_t threads)
+half_new(struct half *h, struct rc_store *own, size_t length, size_t threads)
 {
     *h = (struct half){.length = length, .n = length / 2 + 1};
     if (length % 2 == 0)
         return (h->dct = rc_dct_new(h->n, threads, NULL)) != NULL;
     h->line = rc_line_new(length, threads, NULL);
-    h->scratch = rc_alloc(threads * (length + 1 + 2 * h->n), sizeof *h->scratch);
+    h->scratch = rc_store_take(own, threads * (length + 1 + 2 * h->n), sizeof *h->scratch);
     return h->line != NULL && h->scratch != NULL;
 }
 
@@ -197,14 +196,14 @@ fft_new(const struct rc_ranks *ranks, struct rc_fft *lender, const struct rc_sha
         enum rc_boundary boundary, const struct rc_frame *frame, enum rc_precision precision,
         size_t threads, struct rc_err *err)
 {
-    struct rc_fft *f = calloc(1, sizeof *f);
+    RC_OWN(rc_fft, f) = calloc(1, sizeof *f);
     struct rc_shape own = {s->nx, rc_rows_of(ranks, s).n, s->dx, s->dy};
     void *lent = NULL;
     struct rc_layout *l;
     size_t team;
 
     if (f == NULL)
-        goto short_of_memory;
+        return rc_err_null(err, "out of memory for a plan");
     f->shape = *s;
     f->boundary = boundary;
     l = &f->layout;
@@ -218,21 +217,17 @@ fft_new(const struct rc_ranks *ranks, struct rc_fft *lender, const struct rc_sha
     team = (size_t)l->threads;
     f->ops = precision == RC_SINGLE ? &rc_fft_single : &rc_fft_double;
     if (share(f, ranks, precision, err) != RC_OK)
-        goto fail;
+        return NULL;
     if (lender != NULL)
         lent = lender->ops->workspace(lender->plan, rc_layout_rows(l) * 2 * real_size(precision));
     f->plan = f->ops->new (l, lent);
     if (frame == NULL)
-        f->columns = rc_alloc(team * COLUMNS * l->cy, sizeof *f->columns);
-    if (f->plan != NULL &&
-        (frame != NULL || (f->columns != NULL && half_new(&f->along_x, l->px, team) &&
-                           half_new(&f->along_y, l->py, team))))
-        return f;
-short_of_memory:
-    rc_err_set(err, "out of memory for transforms of %zu x %zu nodes", s->nx, s->ny);
-fail:
-    rc_fft_free(f);
-    return NULL;
+        f->columns = rc_store_take(&f->own, team * COLUMNS * l->cy, sizeof *f->columns);
+    if (f->plan == NULL ||
+        (frame == NULL && (f->columns == NULL || !half_new(&f->along_x, &f->own, l->px, team) ||
+                           !half_new(&f->along_y, &f->own, l->py, team))))
+        return rc_err_null(err, "out of memory for transforms of %zu x %zu nodes", s->nx, s->ny);
+    return rc_give(&f);
 }
 
 /* RC_FAIL on one rank becomes a failure on all. */
@@ -252,11 +247,9 @@ rc_fft_new(const struct rc_ranks *ranks, struct rc_fft *lender, const struct rc_
 {
     if (rc_shape_check(s, err) != RC_OK)
         return NULL;
-    if (s->nx > (size_t)1 << 28 || s->ny > (size_t)1 << 28) {
-        rc_err_set(err, "%zu x %zu nodes: a side is too long for a Fourier transform", s->nx,
-                   s->ny);
-        return NULL;
-    }
+    if (s->nx > (size_t)1 << 28 || s->ny > (size_t)1 << 28)
+        return rc_err_null(err, "%zu x %zu nodes: a side is too long for a Fourier transform",
+                           s->nx, s->ny);
     return agree(ranks, fft_new(ranks, lender, s, boundary, NULL, precision, threads, err), err);
 }
 
@@ -285,7 +278,7 @@ rc_fft_free(struct rc_fft *f)
     half_free(&f->along_y);
     rc_turn_free(&f->turn);
     rc_turn_free(&f->quarter);
-    free(f->columns);
+    rc_store_free(&f->own);
     free(f);
 }
 
@@ -295,20 +288,16 @@ struct rc_spectrum *
 rc_spectrum_new(const struct rc_fft *f, struct rc_err *err)
 {
     const struct rc_layout *l = &f->layout;
-    struct rc_spectrum *k = calloc(1, sizeof *k);
+    RC_OWN(rc_spectrum, k) = calloc(1, sizeof *k);
 
     if (k != NULL)
         k->values = rc_alloc(l->columns * l->cy, f->ops->real_size);
-    if (k != NULL)
-        k->ratio = k->first = numbers_themselves;
-    if (k == NULL || k->values == NULL)
-        rc_err_set(err, "out of memory for a kernel's spectrum of %zu x %zu numbers", l->cx, l->cy);
-    if (rc_ranks_agree(ranks_of(f), k == NULL || k->values == NULL ? RC_FAIL : RC_OK, err) !=
-        RC_OK) {
-        rc_spectrum_free(k);
+    if (rc_ranks_need(ranks_of(f), k != NULL && k->values != NULL, err,
+                      "out of memory for a kernel's spectrum of %zu x %zu numbers", l->cx,
+                      l->cy) != RC_OK)
         return NULL;
-    }
-    return k;
+    k->ratio = k->first = numbers_themselves;
+    return rc_give(&k);
 }
 
 void
@@ -436,28 +425,22 @@ rc_fft_quarter_turn(const struct rc_fft *f, double *quarter, struct rc_err *err)
 {
     const struct rc_layout *l = &f->layout;
     size_t first, n;
-    double *pieces, *row;
-    enum rc_status status;
+    RC_OWNED double *pieces = NULL, *row = NULL;
 
     if (l->turn == NULL)
         return RC_OK;
     rc_fft_quarter_rows(f, &first, &n);
     pieces = rc_alloc(n * l->stride, sizeof *pieces);
     row = calloc(l->stride, sizeof *row);
-    status = pieces == NULL || row == NULL ? RC_FAIL : RC_OK;
-    if (status != RC_OK)
-        rc_err_set(err, "out of memory for a kernel of %zu x %zu values", l->cx, l->cy);
-    status = rc_ranks_agree(ranks_of(f), status, err);
-    if (status == RC_OK) {
-        for (size_t j = 0; j < n; j++) {
-            memcpy(row, quarter + j * l->cx, l->cx * sizeof *row);
-            rc_turn_put(&f->quarter, j, row, pieces);
-        }
-        rc_ranks_turn(&f->quarter, false, pieces, quarter);
+    if (rc_ranks_need(ranks_of(f), pieces != NULL && row != NULL, err,
+                      "out of memory for a kernel of %zu x %zu values", l->cx, l->cy) != RC_OK)
+        return RC_FAIL;
+    for (size_t j = 0; j < n; j++) {
+        memcpy(row, quarter + j * l->cx, l->cx * sizeof *row);
+        rc_turn_put(&f->quarter, j, row, pieces);
     }
-    free(pieces);
-    free(row);
-    return status;
+    rc_ranks_turn(&f->quarter, false, pieces, quarter);
+    return RC_OK;
 }
 
 enum rc_status
@@ -467,18 +450,15 @@ rc_spectrum_set_by(struct rc_spectrum *k, const struct rc_fft *f, const struct r
     const struct rc_lattice nodes = {f->shape.dx, f->shape.dy, 1, 1};
     size_t cx = f->layout.cx, from, rows;
     const size_t size = rc_fft_quarter_size(f);
-    double *own = NULL, *values = f->ops->workspace(f->plan, size * sizeof *values);
-    enum rc_status status = RC_OK;
+    RC_OWNED double *own = NULL;
+    double *values = f->ops->workspace(f->plan, size * sizeof *values);
 
     rc_fft_quarter_rows(f, &from, &rows);
     if (values == NULL)
         values = own = rc_alloc(size, sizeof *own);
-    if (values == NULL)
-        status = rc_err_set(err, "out of memory for a kernel of %zu x %zu values", cx, rows);
-    if (rc_ranks_agree(ranks_of(f), status, err) != RC_OK) {
-        free(own);
+    if (rc_ranks_need(ranks_of(f), values != NULL, err,
+                      "out of memory for a kernel of %zu x %zu values", cx, rows) != RC_OK)
         return RC_FAIL;
-    }
 #pragma omp parallel for num_threads(f->layout.threads) schedule(dynamic)
     for (size_t first = from; first < from + rows; first += ROWS) {
         size_t last = first + ROWS < from + rows ? first + ROWS : from + rows;
@@ -489,12 +469,11 @@ rc_spectrum_set_by(struct rc_spectrum *k, const struct rc_fft *f, const struct r
             rc_fft_quarter_row(f, 1, (kernel->parity & RC_ODD_X) != 0, &row);
         }
     }
-    status = rc_fft_quarter_turn(f, values, err);
-    if (status == RC_OK)
-        set_quarter(k, f, kernel->parity, values, f->layout.turn == NULL ? cx : f->layout.wide,
-                    each, ctx);
-    free(own);
-    return status;
+    if (rc_fft_quarter_turn(f, values, err) != RC_OK)
+        return RC_FAIL;
+    set_quarter(k, f, kernel->parity, values, f->layout.turn == NULL ? cx : f->layout.wide, each,
+                ctx);
+    return RC_OK;
 }
 
 void
@@ -591,18 +570,11 @@ symbol_of(const void *of, size_t i, double qx, size_t n, const double *qy, doubl
 }
 
 enum rc_status
-rc_spectrum_set_values(struct rc_spectrum *k, const struct rc_fft *f,
-                       const struct rc_kernel *kernel, struct rc_err *err)
-{
-    return rc_spectrum_set_by(k, f, kernel, NULL, NULL, err);
-}
-
-enum rc_status
 rc_spectrum_set(struct rc_spectrum *k, const struct rc_fft *f, const struct rc_kernel *kernel,
                 struct rc_err *err)
 {
     if (f->boundary == RC_FREE)
-        return rc_spectrum_set_values(k, f, kernel, err);
+        return rc_spectrum_set_by(k, f, kernel, NULL, NULL, err);
     if (kernel->symbol == NULL)
         return rc_err_set(err, "this kernel has no periodic form");
     sample(k, f, kernel->parity, symbol_of, kernel);
@@ -614,21 +586,17 @@ rc_spectrum_set(struct rc_spectrum *k, const struct rc_fft *f, const struct rc_k
 struct rc_spectrum *
 rc_spectrum_new_reciprocal(const struct rc_fft *f, const struct rc_spectrum *of, struct rc_err *err)
 {
-    struct rc_spectrum *k = malloc(sizeof *k);
+    RC_OWN(rc_spectrum, k) = calloc(1, sizeof *k);
     double size = (double)f->layout.px * (double)f->layout.py;
 
-    if (k == NULL)
-        rc_err_set(err, "out of memory for a spectrum");
-    if (rc_ranks_agree(ranks_of(f), k == NULL ? RC_FAIL : RC_OK, err) != RC_OK) {
-        free(k);
+    if (rc_ranks_need(ranks_of(f), k != NULL, err, "out of memory for a spectrum") != RC_OK)
         return NULL;
-    }
     *k = *of;
     k->lent = true;
     k->ratio = k->first =
         (struct rc_ratio){1 / (size * size), 0, 0, 1}; /* both are divided by size */
     k->total = of->total == 0 ? 0 : 1 / of->total;
-    return k;
+    return rc_give(&k);
 }
 
 /* Stored numbers s are K/N or A/N, N = px py. K + D is s + D/N, 1/(K + D) is N^-2/(s + D/N) of a lent K, and
@@ -686,10 +654,10 @@ enum rc_status
 rc_fft_load(struct rc_fft *f, size_t source, const double *p, struct rc_err *err)
 {
     assert(source < RC_SOURCES);
-    if (!f->ops->load(f->plan, source, p))
-        return rc_err_set(err, "out of memory for the transform of %zu x %zu nodes", f->shape.nx,
-                          f->shape.ny);
-    return RC_OK;
+    return f->ops->load(f->plan, source, p)
+               ? RC_OK
+               : rc_err_set(err, "out of memory for the transform of %zu x %zu nodes", f->shape.nx,
+                            f->shape.ny);
 }
 
 /* The kernels of rc_fft_fields, and memory for each thread: lines of columns, and their spectra. */
@@ -740,23 +708,18 @@ rc_fft_fields(struct rc_fft *f, size_t columns, size_t kernels, const struct rc_
               size_t n, const struct rc_fft_sum *sum, struct rc_err *err)
 {
     const size_t size = (size_t)f->layout.threads * f->ops->line * f->layout.cy;
-    struct lines lines = {.f = f,
-                          .count = kernels,
-                          .kernel = kernel,
-                          .columns = rc_alloc((kernels + 1) * size, sizeof(double)),
-                          .spectra = rc_alloc(kernels * size, f->ops->real_size)};
-    bool done;
+    RC_OWNED double *column = rc_alloc((kernels + 1) * size, sizeof *column);
+    RC_OWNED char *spectra = rc_alloc(kernels * size, f->ops->real_size);
+    struct lines lines = {f, kernels, kernel, 0, column, spectra};
 
     assert(kernels <= RC_LINES && n <= RC_FIELDS);
     for (size_t k = 0; k < kernels; k++)
         lines.odd |= kernel[k].parity & RC_ODD_Y ? 1u << k : 0;
-    done = rc_ranks_sum(ranks_of(f), lines.columns == NULL || lines.spectra == NULL) == 0 &&
-           f->ops->fields(f->plan, columns, line_spectra, &lines, kernel, n, sum);
-    if (!done)
-        rc_err_set(err, "out of memory for fields of %zu x %zu nodes", f->shape.nx, f->shape.ny);
-    free(lines.columns);
-    free(lines.spectra);
-    return done ? RC_OK : RC_FAIL;
+    if (rc_ranks_sum(ranks_of(f), column == NULL || spectra == NULL) > 0 ||
+        !f->ops->fields(f->plan, columns, line_spectra, &lines, kernel, n, sum))
+        return rc_err_set(err, "out of memory for fields of %zu x %zu nodes", f->shape.nx,
+                          f->shape.ny);
+    return RC_OK;
 }
 
 /* ---- waves alone ---- */
@@ -774,18 +737,18 @@ rc_fft_wave(const struct rc_fft *f, size_t t)
 }
 
 bool
-rc_fft_fold(const struct rc_fft *f, size_t **place, signed char **mirror)
+rc_fft_fold(const struct rc_fft *f, struct rc_store *own, size_t **place, signed char **mirror)
 {
     const size_t n = f->layout.py;
 
-    *place = rc_alloc(n, sizeof **place);
-    *mirror = rc_alloc(n, sizeof **mirror);
-    for (size_t t = 0; t < n && *place != NULL && *mirror != NULL; t++) {
+    *place = rc_store_take(own, n, sizeof **place);
+    *mirror = rc_store_take(own, n, sizeof **mirror);
+    for (size_t t = 0; t < n && !own->failed; t++) {
         const size_t j = rc_fft_wave(f, t);
         (*place)[t] = 2 * j <= n ? j : n - j;
         (*mirror)[t] = 2 * j <= n ? 1 : -1;
     }
-    return *place != NULL && *mirror != NULL;
+    return !own->failed;
 }
 
 void

@@ -10,6 +10,7 @@
 #include <signal.h>
 
 #include "libcontact/body/body.h"
+#include "libcontact/memory.h"
 #include "libcontact/ranks/ranks.h"
 
 enum rc_precision {
@@ -86,10 +87,6 @@ struct rc_spectrum *rc_spectrum_new_reciprocal(const struct rc_fft *fft,
  * `inverse` the spectrum is that of K^-1. plus and row 0 restore K. */
 void rc_spectrum_add(struct rc_spectrum *spectrum, const struct rc_fft *fft, bool inverse,
                      double plus, double row);
-/* The transform of the kernel's values on either boundary; on the periodic one each offset counts once, by
- * the shortest way around the map. */
-enum rc_status rc_spectrum_set_values(struct rc_spectrum *spectrum, const struct rc_fft *fft,
-                                      const struct rc_kernel *kernel, struct rc_err *err);
 
 /* Kernels of rc_fft_fields. On the free boundary a kernel is given by a quarter of its period, its values at
  * the offsets i < *nx, j < *ny. Ranks compute rows *first .. *first + *n - 1 each. rc_fft_quarter_row
@@ -166,8 +163,9 @@ typedef void rc_wave_column(void *ctx, size_t i, void *column);
 size_t rc_fft_length(const struct rc_fft *fft);
 size_t rc_fft_wave(const struct rc_fft *fft, size_t t);
 /* For each number t of a column: its place in a column of the quarter of a spectrum, and -1 where it is the
- * mirror image of the number there, else 1. The caller frees both arrays. False when memory is short. */
-bool rc_fft_fold(const struct rc_fft *fft, size_t **place, signed char **mirror);
+ * mirror image of the number there, else 1. False when memory is short. */
+bool rc_fft_fold(const struct rc_fft *fft, struct rc_store *own, size_t **place,
+                 signed char **mirror);
 void rc_fft_forward(struct rc_fft *fft, rc_row *row, void *ctx, void *waves,
                     rc_wave_column *column);
 void rc_fft_back(struct rc_fft *fft, const void *waves, rc_wave_column *column, rc_row *row,

@@ -39,6 +39,7 @@ struct own {
     double *p, *u; /* scratch for engines without single precision: maps */
     float *row; /* a row for each thread, for these and for a diagonal by nodes; otherwise NULL */
     int row_threads;
+    struct rc_store memory;
 };
 
 static struct rc_conv_options
@@ -265,9 +266,7 @@ rc_operator_free(struct rc_operator *op)
     rc_spectrum_free(s->kernel);
     rc_spectrum_free(s->inverse);
     rc_solids_free(&s->own);
-    free(s->p);
-    free(s->u);
-    free(s->row);
+    rc_store_free(&s->memory);
     free(s->op.sunk);
     free(s);
 }
@@ -296,7 +295,7 @@ keep_column(void *ctx, size_t i, size_t n, double *column)
 {
     struct bounded *b = ctx;
 
-    memcpy(b->kernel + (i - b->first) * n, column, n * sizeof *column);
+    rc_keep_column(b->kernel, i - b->first, n, column);
 }
 
 static double
@@ -340,27 +339,20 @@ set_bounded(struct own *s, const struct rc_shape *unit, const struct rc_kernel *
         .s = s,
         .length = length,
         .longest = RC_PI / (2 * fmax(unit->dx * (double)unit->nx, unit->dy * (double)unit->ny))};
+    RC_OWNED double *values = NULL;
     size_t columns;
-    enum rc_status status;
 
     rc_fft_waves(s->fft, &columns, &b.n);
     rc_fft_columns(s->fft, &b.first, &columns);
-    status = (b.kernel = rc_alloc(columns * b.n, sizeof *b.kernel)) == NULL ? RC_FAIL : RC_OK;
-    if (status != RC_OK)
-        rc_err_set(err, "out of memory for the inverse of a layered body");
-    if (rc_ranks_agree(s->op.rows.ranks, status, err) != RC_OK) {
-        free(b.kernel);
+    b.kernel = values = rc_alloc(columns * b.n, sizeof *values);
+    if (rc_ranks_need(s->op.rows.ranks, values != NULL, err,
+                      "out of memory for the inverse of a layered body") != RC_OK ||
+        rc_spectrum_set_by(s->kernel, s->fft, kernel, keep_column, &b, err) != RC_OK)
         return RC_FAIL;
-    }
-    status = rc_spectrum_set_by(s->kernel, s->fft, kernel, keep_column, &b, err);
-    if (status == RC_OK)
-        b.positive = all_positive(&b, columns) && stiffening(s->bodies, &s->op.whole) <= 1;
-    if (status == RC_OK && (s->inverse = rc_spectrum_new(s->fft, err)) != NULL)
-        status = rc_spectrum_set_by(s->inverse, s->fft, &rc_kernel_of_one, invert_column, &b, err);
-    else
-        status = RC_FAIL;
-    free(b.kernel);
-    return status;
+    b.positive = all_positive(&b, columns) && stiffening(s->bodies, &s->op.whole) <= 1;
+    return (s->inverse = rc_spectrum_new(s->fft, err)) != NULL
+               ? rc_spectrum_set_by(s->inverse, s->fft, &rc_kernel_of_one, invert_column, &b, err)
+               : RC_FAIL;
 }
 
 static enum rc_status
@@ -382,14 +374,10 @@ set_spectra(struct own *s, const struct rc_shape *unit, double length, struct rc
 static struct own *
 own_new(const struct rc_ranks *ranks, struct rc_err *err)
 {
-    struct own *s = calloc(1, sizeof *s);
+    RC_OWNED struct own *s = calloc(1, sizeof *s);
 
-    if (s == NULL)
-        rc_err_set(err, "out of memory for a plan");
-    if (rc_ranks_agree(ranks, s == NULL ? RC_FAIL : RC_OK, err) == RC_OK)
-        return s;
-    free(s);
-    return NULL;
+    return rc_ranks_need(ranks, s != NULL, err, "out of memory for a plan") == RC_OK ? rc_give(&s)
+                                                                                     : NULL;
 }
 
 /* Sets everything but the bodies and K p in double precision, which exist. */
@@ -440,7 +428,7 @@ make_rows(struct own *s, struct rc_err *err)
 {
     s->row_threads = rc_useful_threads(&s->op.shape, s->op.threads);
     if (s->row == NULL)
-        s->row = rc_alloc((size_t)s->row_threads * s->op.shape.nx, sizeof *s->row);
+        s->row = rc_store_take(&s->memory, (size_t)s->row_threads * s->op.shape.nx, sizeof *s->row);
     return s->row != NULL ? RC_OK : rc_err_set(err, "out of memory for rows of displacements");
 }
 
@@ -448,14 +436,12 @@ make_rows(struct own *s, struct rc_err *err)
 static enum rc_status
 make_room(struct own *s, const struct rc_operator_options *o, struct rc_err *err)
 {
-    size_t n = s->op.shape.nx * s->op.rows.n;
-    enum rc_status status = make_rows(s, err);
+    const size_t n = s->op.shape.nx * s->op.rows.n;
 
-    s->p = rc_alloc(n, sizeof *s->p);
-    s->u = rc_alloc(n, sizeof *s->u);
-    if (status == RC_OK && (s->p == NULL || s->u == NULL))
-        status = rc_err_set(err, "out of memory for the displacements of %zu nodes", n);
-    return rc_ranks_agree(o->ranks, status, err);
+    s->p = rc_store_take(&s->memory, n, sizeof *s->p);
+    s->u = rc_store_take(&s->memory, n, sizeof *s->u);
+    return rc_ranks_need(o->ranks, make_rows(s, NULL) == RC_OK && !s->memory.failed, err,
+                         "out of memory for the displacements of %zu nodes", n);
 }
 
 struct rc_operator *
@@ -463,31 +449,28 @@ rc_operator_new(const struct rc_shape *shape, const struct rc_operator_options *
                 struct rc_err *err)
 {
     struct rc_conv_options options = conv_options(o);
+    RC_OWN(rc_operator, op) = NULL;
     struct own *s;
 
     if (rc_shape_check(shape, err) != RC_OK || (s = own_new(o->ranks, err)) == NULL)
         return NULL;
+    op = &s->op;
     s->bodies = &s->own;
     s->positive = rc_pair_positive(o->pair);
     s->bends = bending_length(shape, o->pair);
     if (rc_solids_new(&s->own, o->pair, o->ranks, err) != RC_OK ||
         (s->conv = rc_conv_new_of(s->bodies, shape, &options, err)) == NULL ||
         plan(s, shape, o, err) != RC_OK)
-        goto fail;
-    s->op.exact = true;
-    s->op.estar = rc_pair_modulus(o->pair);
-    s->op.error = rc_conv_error(s->conv);
-    s->op.engine = rc_conv_engine(s->conv);
-    s->op.reason = rc_conv_reason(s->conv);
+        return NULL;
+    op->exact = true;
+    op->estar = rc_pair_modulus(o->pair);
+    op->error = rc_conv_error(s->conv);
+    op->engine = rc_conv_engine(s->conv);
+    op->reason = rc_conv_reason(s->conv);
     if (rc_conv_mixed(s->conv))
-        return &s->op;
-    s->op.row_cost = 1;
-    if (make_room(s, o, err) != RC_OK)
-        goto fail;
-    return &s->op;
-fail:
-    rc_operator_free(&s->op);
-    return NULL;
+        return rc_give(&op);
+    op->row_cost = 1;
+    return make_room(s, o, err) == RC_OK ? rc_give(&op) : NULL;
 }
 
 struct rc_operator *
@@ -498,20 +481,20 @@ rc_operator_coarse(const struct rc_operator *op, const struct rc_ranks *ranks,
     struct rc_operator_options o = {
         .boundary = op->boundary, .threads = op->threads, .ranks = ranks};
     struct own *s = own_new(ranks, err);
+    RC_OWN(rc_operator, coarse) = s == NULL ? NULL : &s->op;
 
     if (s == NULL)
         return NULL;
     s->bodies = fine->bodies;
     s->positive = fine->positive;
     s->bends = fine->bends;
-    if (plan(s, shape, &o, err) == RC_OK) {
-        s->op.estar = op->estar;
-        if ((op->plus == 0 && op->row == 0) ||
-            rc_operator_set_diagonal(&s->op, op->plus, NULL, op->row, err) == RC_OK)
-            return &s->op;
-    }
-    rc_operator_free(&s->op);
-    return NULL;
+    if (plan(s, shape, &o, err) != RC_OK)
+        return NULL;
+    coarse->estar = op->estar;
+    return (op->plus == 0 && op->row == 0) ||
+                   rc_operator_set_diagonal(coarse, op->plus, NULL, op->row, err) == RC_OK
+               ? rc_give(&coarse)
+               : NULL;
 }
 
 enum rc_status

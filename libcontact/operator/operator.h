@@ -146,8 +146,6 @@ struct rc_whole {
 struct rc_whole *rc_whole_new(const struct rc_shape *shape,
                               const struct rc_operator_options *options, struct rc_err *err);
 void rc_whole_free(struct rc_whole *whole); /* NULL is allowed */
-/* The whole grid of a map; layers may need more padding than this. */
-struct rc_shape rc_whole_grid(const struct rc_shape *shape, enum rc_boundary boundary);
 /* E* of the pair for waves as short as the roughness of this grid, Pa, and `diagonal`. */
 enum rc_status rc_whole_scales(const struct rc_shape *shape, const struct rc_pair *pair,
                                double *modulus, double *diagonal, struct rc_err *err);

@@ -35,10 +35,19 @@ grid_of(const struct rc_shape *s, enum rc_boundary boundary, size_t half)
     return grid;
 }
 
-struct rc_shape
-rc_whole_grid(const struct rc_shape *s, enum rc_boundary boundary)
+/* Frees transforms and spectra, for example before another padding is tried. */
+static void
+clear(struct own *w)
 {
-    return grid_of(s, boundary, halves[0]);
+    struct own none = {.whole = w->whole, .bodies = w->bodies};
+
+    rc_fft_free(w->rough); /* uses memory of the other */
+    rc_fft_free(w->fft);
+    rc_spectrum_free(w->kernel);
+    rc_spectrum_free(w->inverse);
+    rc_spectrum_free(w->rough_kernel);
+    rc_spectrum_free(w->rough_inverse);
+    *w = none;
 }
 
 void
@@ -48,30 +57,12 @@ rc_whole_free(struct rc_whole *whole)
 
     if (w == NULL)
         return;
-    rc_fft_free(w->rough); /* uses memory of the other */
-    rc_fft_free(w->fft);
-    rc_spectrum_free(w->kernel);
-    rc_spectrum_free(w->inverse);
-    rc_spectrum_free(w->rough_kernel);
-    rc_spectrum_free(w->rough_inverse);
+    clear(w);
     rc_solids_free(&w->bodies);
     free(w);
 }
 
-/* Frees transforms and spectra before another padding is tried. */
-static void
-clear(struct own *w)
-{
-    struct own none = {.whole = w->whole, .bodies = w->bodies};
-
-    rc_fft_free(w->rough);
-    rc_fft_free(w->fft);
-    rc_spectrum_free(w->kernel);
-    rc_spectrum_free(w->inverse);
-    rc_spectrum_free(w->rough_kernel);
-    rc_spectrum_free(w->rough_inverse);
-    *w = none;
-}
+RC_OWNER(rc_whole)
 
 struct extremes {
     double least, most;
@@ -176,17 +167,16 @@ struct rc_whole *
 rc_whole_new(const struct rc_shape *shape, const struct rc_operator_options *o, struct rc_err *err)
 {
     double length = sqrt(shape->dx) * sqrt(shape->dy);
+    RC_OWN(rc_whole, whole) = NULL;
     struct own *w;
 
     if (rc_shape_check(shape, err) != RC_OK || rc_pair_check(o->pair, err) != RC_OK)
         return NULL;
-    w = calloc(1, sizeof *w);
-    if (w == NULL) {
-        rc_err_set(err, "out of memory for a plan");
-        return NULL;
-    }
+    if ((w = calloc(1, sizeof *w)) == NULL)
+        return rc_err_null(err, "out of memory for a plan");
+    whole = &w->whole;
     if (rc_solids_new(&w->bodies, o->pair, NULL, err) != RC_OK)
-        goto fail;
+        return NULL;
     w->whole = (struct rc_whole){.map = *shape,
                                  .boundary = o->boundary,
                                  .length = length,
@@ -197,19 +187,17 @@ rc_whole_new(const struct rc_shape *shape, const struct rc_operator_options *o, 
         w->whole.grid = grid_of(shape, o->boundary, halves[k]);
         w->whole.threads = rc_useful_threads(&w->whole.grid, o->threads);
         if (plan(w, o->threads, &seen, err) != RC_OK)
-            goto fail;
+            return NULL;
         w->whole.most = o->boundary == RC_PERIODIC ? most_of(w) : seen.most;
         if (seen.least > 0)
-            return &w->whole;
+            return rc_give(&whole);
         clear(w);
     }
-    rc_err_set(err,
-               "these layers bend over lengths beyond the map of %g x %g m, so that its longest "
-               "waves have no positive stiffness: take a larger map or softer layers",
-               shape->dx * (double)shape->nx, shape->dy * (double)shape->ny);
-fail:
-    rc_whole_free(&w->whole);
-    return NULL;
+    return rc_err_null(
+        err,
+        "these layers bend over lengths beyond the map of %g x %g m, so that its longest "
+        "waves have no positive stiffness: take a larger map or softer layers",
+        shape->dx * (double)shape->nx, shape->dy * (double)shape->ny);
 }
 
 void

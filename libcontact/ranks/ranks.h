@@ -189,6 +189,10 @@ rc_ranks_beside(const struct rc_rows *rows, bool round, size_t bytes, const void
 }
 #endif
 
+/* RC_OK if `has` is true on all ranks, of memory for example; else RC_FAIL on all, with this sentence. */
+#define rc_ranks_need(ranks, has, err, ...)                                                        \
+    rc_ranks_agree(ranks, (has) ? RC_OK : rc_err_set(err, __VA_ARGS__), err)
+
 /* The sum over all ranks, independent of their number; the largest value; the sum of counts. */
 double rc_ranks_total(const struct rc_ranks *ranks, struct rc_total total);
 double rc_ranks_most(const struct rc_ranks *ranks, double v);

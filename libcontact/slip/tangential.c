@@ -134,8 +134,6 @@ rc_tangential_free(struct rc_tangential *t)
     rc_fft_free(t->framed); /* it uses the memory of t->fft */
     rc_fft_free(t->fft);
     rc_store_free(&t->own);
-    free(t->wave);
-    free(t->mirror);
     free(t);
 }
 
@@ -151,7 +149,7 @@ allocate(struct rc_tangential *t)
         t->single[k] = rc_store_take(&t->own, t->columns * t->cy, sizeof(float));
     for (int k = 0; k < 2; k++)
         t->waves[k] = rc_store_take(&t->own, 2 * t->columns * t->length, sizeof(double));
-    return !t->own.failed && rc_fft_fold(t->fft, &t->wave, &t->mirror);
+    return rc_fft_fold(t->fft, &t->own, &t->wave, &t->mirror);
 }
 
 struct rc_frame

@@ -4,7 +4,6 @@
 #include "solver.h"
 
 #include <math.h>
-#include <stdlib.h>
 
 #include "libcontact/memory.h"
 

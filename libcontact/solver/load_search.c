@@ -79,35 +79,31 @@ check_yield(struct rc_solver *s, double approach, double depth, struct rc_err *e
 {
     const struct rc_box box = rc_box(s, 0);
     size_t n = s->posed.n;
-    double *p, *u, last = -INFINITY;
-    enum rc_status status = RC_OK;
+    RC_OWNED double *p = NULL, *u = NULL;
+    double last = -INFINITY;
 
     if (approach < depth || isinf(s->posed.bounds.full) || s->posed.rough)
         return RC_OK;
     p = rc_alloc(n, sizeof *p);
     u = rc_alloc(n, sizeof *u);
-    if (p == NULL || u == NULL)
-        status = rc_err_set(err, "out of memory for an approach of %zu x %zu nodes",
-                            s->posed.whole.nx, s->posed.whole.ny);
-    status = rc_ranks_agree(s->posed.rows.ranks, status, err);
-    if (status == RC_OK) {
-        for (size_t k = 0; k < n; k++)
-            p[k] = rc_high(box, k);
-        rc_operator_apply(s->op, p, u);
-        rc_iterate_count(s, 1);
-        for (size_t k = 0; k < n; k++)
-            last = fmax(last, u[k] - s->posed.h[k]);
-        last = rc_ranks_most(s->posed.rows.ranks, last);
-        if (approach >= last)
-            status = rc_err_set(
-                err,
-                "approach %.9g m: at %.9g m and a load of %.9g N every node is at its hardness, "
-                "and the load cannot increase further; give a smaller approach or the load",
-                approach, last, s->posed.bounds.full * s->posed.cell);
-    }
-    free(p);
-    free(u);
-    return status;
+    if (rc_ranks_need(s->posed.rows.ranks, p != NULL && u != NULL, err,
+                      "out of memory for an approach of %zu x %zu nodes", s->posed.whole.nx,
+                      s->posed.whole.ny) != RC_OK)
+        return RC_FAIL;
+    for (size_t k = 0; k < n; k++)
+        p[k] = rc_high(box, k);
+    rc_operator_apply(s->op, p, u);
+    rc_iterate_count(s, 1);
+    for (size_t k = 0; k < n; k++)
+        last = fmax(last, u[k] - s->posed.h[k]);
+    last = rc_ranks_most(s->posed.rows.ranks, last);
+    if (approach >= last)
+        return rc_err_set(
+            err,
+            "approach %.9g m: at %.9g m and a load of %.9g N every node is at its hardness, "
+            "and the load cannot increase further; give a smaller approach or the load",
+            approach, last, s->posed.bounds.full * s->posed.cell);
+    return RC_OK;
 }
 
 /* RC_FAIL where complete contact is reached before this approach: a larger load does not increase the

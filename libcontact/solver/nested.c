@@ -94,16 +94,6 @@ coarsen(const struct rc_posed *fine, const double *v, size_t coarse_nx, double *
     }
 }
 
-static double
-largest(const struct rc_ranks *ranks, const double *v, size_t n)
-{
-    double most = -INFINITY;
-
-    for (size_t k = 0; k < n; k++)
-        most = v[k] > most ? v[k] : most;
-    return rc_ranks_most(ranks, most);
-}
-
 /* ---- between ranks ---- */
 
 /* The first coarse row of each rank: `under`: the first that covers its fine rows; `own`: the
@@ -112,26 +102,19 @@ struct dealt {
     size_t *under, *own;
 };
 
-static bool
-deal(const struct rc_posed *fine, const struct rc_rows *coarse, struct dealt *d)
+static struct dealt
+deal(const struct rc_posed *fine, const struct rc_rows *coarse, struct rc_store *room)
 {
     size_t count = rc_ranks_count(fine->rows.ranks);
+    struct dealt d = {rc_store_take(room, count + 1, sizeof *d.under),
+                      rc_store_take(room, count + 1, sizeof *d.own)};
 
-    *d = (struct dealt){.under = malloc((count + 1) * sizeof *d->under),
-                        .own = malloc((count + 1) * sizeof *d->own)};
-    for (size_t r = 0; r <= count && d->under != NULL && d->own != NULL; r++) {
+    for (size_t r = 0; r <= count && !room->failed; r++) {
         size_t unit = rc_rows_unit(fine->whole.nx), nx = (fine->whole.nx + 1) / 2;
-        d->under[r] = (rc_rows_dealt(fine->whole.ny, unit, count, r) + 1) / 2;
-        d->own[r] = rc_rows_dealt(coarse->ny, rc_rows_unit(nx), count, r);
+        d.under[r] = (rc_rows_dealt(fine->whole.ny, unit, count, r) + 1) / 2;
+        d.own[r] = rc_rows_dealt(coarse->ny, rc_rows_unit(nx), count, r);
     }
-    return d->under != NULL && d->own != NULL;
-}
-
-static void
-dealt_free(struct dealt *d)
-{
-    free(d->under);
-    free(d->own);
+    return d;
 }
 
 /* NULL for a small grid, which every rank solves by itself: communication would take longer. */
@@ -150,14 +133,11 @@ coarse_map(const struct rc_solver *s, const double *map, const struct rc_shape *
 {
     const struct rc_ranks *ranks = s->posed.rows.ranks;
     RC_OWNED double *h = rc_alloc(rows_under(&s->posed.rows) * shape->nx, sizeof *h);
-    RC_OWNED double *own = NULL;
-    RC_ENDS(dealt_free) struct dealt d = {NULL, NULL};
-    bool fine = h != NULL;
+    RC_OWNED double *own = ranks == NULL ? NULL : rc_alloc(rows->n * shape->nx, sizeof *own);
+    RC_ENDS(rc_store_free) struct rc_store room = {0};
+    const struct dealt d = deal(&s->posed, rows, &room);
+    const bool fine = h != NULL && (ranks == NULL || own != NULL) && !room.failed;
 
-    if (ranks != NULL) {
-        own = rc_alloc(rows->n * shape->nx, sizeof *own);
-        fine = deal(&s->posed, rows, &d) && fine && own != NULL;
-    }
     if (rc_ranks_agree(s->posed.all, fine ? RC_OK : RC_FAIL, NULL) != RC_OK)
         return NULL;
     coarsen(&s->posed, map, shape->nx, h);
@@ -169,29 +149,24 @@ coarse_map(const struct rc_solver *s, const double *map, const struct rc_shape *
 }
 
 /* Returns the rows of a coarse map that cover the fine rows held here. Where several ranks share the coarse
- * grid, they are moved into `room`. NULL when memory is short on any rank. */
+ * grid, they are moved into memory of `room`. NULL when memory is short on any rank. */
 static const double *
-map_under(const struct rc_solver *s, const struct rc_solver *c, const double *map, double **room)
+map_under(const struct rc_solver *s, const struct rc_solver *c, const double *map,
+          struct rc_store *room)
 {
     const struct rc_ranks *ranks = s->posed.rows.ranks;
     size_t nx = c->posed.whole.nx;
-    RC_ENDS(dealt_free) struct dealt d = {NULL, NULL};
-    bool fine;
+    struct dealt d;
+    double *to;
 
-    *room = NULL;
     if (c->posed.rows.ranks == NULL) /* this rank has all rows */
         return map + (s->posed.rows.first + 1) / 2 * nx;
-    *room = rc_alloc(rows_under(&s->posed.rows) * nx, sizeof **room);
-    fine = deal(&s->posed, &c->posed.rows, &d) && *room != NULL;
-    if (rc_ranks_agree(ranks, fine ? RC_OK : RC_FAIL, NULL) == RC_OK)
-        rc_ranks_move(ranks, nx * sizeof **room, d.own, d.under, 0, map, *room);
-    else
-        fine = false;
-    if (!fine) {
-        free(*room);
-        *room = NULL;
-    }
-    return *room;
+    to = rc_store_take(room, rows_under(&s->posed.rows) * nx, sizeof *to);
+    d = deal(&s->posed, &c->posed.rows, room);
+    if (rc_ranks_agree(ranks, room->failed ? RC_FAIL : RC_OK, NULL) != RC_OK)
+        return NULL;
+    rc_ranks_move(ranks, nx * sizeof *to, d.own, d.under, 0, map, to);
+    return to;
 }
 
 /* ---- down ---- */
@@ -234,7 +209,8 @@ coarse_new(const struct rc_solver *s, bool *sought)
     if (h == NULL || (fine_highs != NULL && highs == NULL))
         return NULL;
     rc_bounds_pose(&s->posed.bounds, highs, &problem);
-    lower = -largest(rows.ranks, h, rows.n * shape.nx); /* the largest fine height is 0 */
+    lower = -rc_ranks_most(rows.ranks,
+                           rc_highest(h, rows.n * shape.nx)); /* the largest fine height is 0 */
     rc_tilt_pose(s, &problem);
     *sought =
         /* a free tilt changes `lower` */
@@ -254,17 +230,10 @@ struct known {
                             held here */
     const double *p, *u; /* pressure, and displacement up to a constant */
     const double *before, *after; /* rows of u before and after them; NULL: none */
-    double *rooms[3]; /* memory for p, u and the rows beside them, if ranks share the coarse grid */
-    double stiffness; /* Pa/m: stiffness of a fine node whose neighbours are fixed */
-    bool round;       /* the map is periodic */
+    struct rc_store room; /* for p, u and the rows beside them, if ranks share the coarse grid */
+    double stiffness;     /* Pa/m: stiffness of a fine node whose neighbours are fixed */
+    bool round;           /* the map is periodic */
 };
-
-static void
-known_free(struct known *k)
-{
-    for (size_t i = 0; i < 3; i++)
-        free(k->rooms[i]);
-}
 
 /* Fetches the coarse solution; u replaces c->it.v. False when memory is short on any rank. */
 static bool
@@ -282,15 +251,15 @@ known_under(const struct rc_solver *s, struct rc_solver *c, struct known *k)
 #pragma omp parallel for num_threads(c->posed.threads) schedule(static)
     for (size_t i = 0; i < c->posed.n; i++)
         u[i] += c->posed.h[i];
-    if ((k->p = map_under(s, c, c->it.p, &k->rooms[0])) == NULL ||
-        (k->u = map_under(s, c, u, &k->rooms[1])) == NULL)
+    if ((k->p = map_under(s, c, c->it.p, &k->room)) == NULL ||
+        (k->u = map_under(s, c, u, &k->room)) == NULL)
         return false;
     if (!shared) {
         k->before = first > 0 ? u + (first - 1) * nx : k->round ? u + (ny - 1) * nx : NULL;
         k->after = last < ny ? u + last * nx : k->round ? u : NULL;
         return true;
     }
-    ends = k->rooms[2] = rc_alloc(2 * nx, sizeof *ends);
+    ends = rc_store_take(&k->room, 2 * nx, sizeof *ends);
     if (rc_ranks_agree(s->posed.rows.ranks, ends != NULL ? RC_OK : RC_FAIL, NULL) != RC_OK)
         return false;
     rc_ranks_beside(&s->posed.rows, k->round, nx * sizeof *ends, k->u,
@@ -437,14 +406,17 @@ static void
 refine(struct rc_solver *s, struct rc_solver *c)
 {
     bool known = c->it.known && !rc_solver_hurried(s); /* repeating takes half the time */
-    RC_ENDS(known_free) struct known k;
+    struct known k;
 
-    if (!known_under(s, c, &k))
+    if (!known_under(s, c, &k)) {
+        rc_store_free(&k.room);
         return;
+    }
 #pragma omp parallel for num_threads(s->posed.threads) schedule(static)
     for (size_t j = 0; j < k.rows; j++)
         for (size_t i = 0; i < k.nx; i += MANY)
             refine_some(s, &k, known ? rc_low(rc_box(s, 0), 0) : INFINITY, i, j);
+    rc_store_free(&k.room);
     if (fabs(rc_iterate_carried(s) - s->load.sum) <= 1e-14 * s->load.sum)
         return;
     /* an odd line was counted twice; if nodes have to join, the highest joins first */
@@ -463,7 +435,7 @@ compare(struct rc_solver *s, struct rc_solver *c)
     for (size_t k = 0; k < c->posed.n; k++)
         contact += !rc_at_low(rc_box(c, 0), k, c->it.p[k]);
     s->coarse.contact_area = (double)rc_ranks_sum(c->posed.rows.ranks, contact) * c->posed.cell;
-    s->coarse.max_pressure = largest(c->posed.rows.ranks, c->it.p, c->posed.n);
+    s->coarse.max_pressure = rc_ranks_most(c->posed.rows.ranks, rc_highest(c->it.p, c->posed.n));
     rc_iterate_shift(c);
     s->coarse.approach = c->it.elastic > 0 && s->load.target == 0 ? rc_tilt_approach(c) : NAN;
 }

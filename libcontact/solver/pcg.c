@@ -27,7 +27,6 @@
 
 #include <math.h>
 #include <stdlib.h>
-#include <string.h>
 
 #include "libcontact/memory.h"
 
@@ -78,7 +77,6 @@ struct pcg {
     double rate;              /* ratio of the last two estimates, at most 1 */
     double best;              /* the least estimate                         */
     size_t best_at;           /* and its iteration                          */
-    struct rc_store own;
 };
 
 /* Context of the passes over all nodes. */
@@ -87,17 +85,6 @@ struct pass {
     struct pcg *s;
     double a, b;
 };
-
-static void
-state_free(void *at)
-{
-    struct pcg *s = at;
-
-    if (s == NULL)
-        return;
-    rc_store_free(&s->own);
-    free(s);
-}
 
 static void
 forget(void *at)
@@ -112,25 +99,21 @@ forget(void *at)
 }
 
 static void *
-state_new(const struct rc_solver *solver, struct rc_err *err)
+state_new(struct rc_solver *solver)
 {
-    struct pcg *s = calloc(1, sizeof *s);
-    size_t n = solver->posed.n;
+    struct rc_store *own = &solver->own;
+    struct pcg *s = rc_store_zeros(own, 1, sizeof *s);
+    const size_t n = solver->posed.n;
 
-    if (s != NULL) {
-        s->delta = rc_store_take(&s->own, n, sizeof *s->delta);
-        s->q = rc_store_take(&s->own, n, sizeof *s->q);
-        s->tiles = rc_store_take(&s->own, rc_tiles(&solver->posed.shape), sizeof *s->tiles);
-        rc_tile_line_new(&s->line, &solver->posed, &s->own);
-    }
-    if (s == NULL || s->own.failed) {
-        rc_err_set(err, "out of memory for the iteration of %zu nodes", n);
-        state_free(s);
+    if (s == NULL)
         return NULL;
-    }
+    s->delta = rc_store_take(own, n, sizeof *s->delta);
+    s->q = rc_store_take(own, n, sizeof *s->q);
+    s->tiles = rc_store_take(own, rc_tiles(&solver->posed.shape), sizeof *s->tiles);
+    rc_tile_line_new(&s->line, &solver->posed, own);
     s->alpha = 0.9;
     forget(s);
-    return s;
+    return own->failed ? NULL : s;
 }
 
 /* ---- v, the working set, the residual ---- */
@@ -753,5 +736,4 @@ const struct rc_method rc_method_pcg = {
     .new = state_new,
     .step = step,
     .forget = forget,
-    .free = state_free,
 };

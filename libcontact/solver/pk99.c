@@ -24,38 +24,22 @@ struct state {
     double delta; /* 0: the next direction is steepest descent       */
     double tau;   /* last step length, 0 before the first            */
     struct rc_safeguard safeguard;
-    struct rc_store own;
 };
 
-static void
-state_free(void *at)
+static void *
+state_new(struct rc_solver *solver)
 {
-    struct state *s = at;
+    struct rc_store *own = &solver->own;
+    struct state *s = rc_store_zeros(own, 1, sizeof *s);
 
     if (s == NULL)
-        return;
-    rc_store_free(&s->own);
-    free(s);
-}
-
-static void *
-state_new(const struct rc_solver *solver, struct rc_err *err)
-{
-    struct state *s = calloc(1, sizeof *s);
-
-    if (s != NULL) {
-        s->t = rc_store_zeros(&s->own, solver->posed.n, sizeof *s->t);
-        s->r = rc_store_take(&s->own, solver->posed.n, sizeof *s->r);
-        s->old = rc_store_take(&s->own, solver->posed.n, sizeof *s->old);
-    }
-    if (s == NULL || s->own.failed) {
-        rc_err_set(err, "out of memory for the iteration of %zu nodes", solver->posed.n);
-        state_free(s);
         return NULL;
-    }
+    s->t = rc_store_zeros(own, solver->posed.n, sizeof *s->t);
+    s->r = rc_store_take(own, solver->posed.n, sizeof *s->r);
+    s->old = rc_store_take(own, solver->posed.n, sizeof *s->old);
     s->G = 1;
     s->safeguard.energy = INFINITY;
-    return s;
+    return own->failed ? NULL : s;
 }
 
 static double
@@ -248,5 +232,4 @@ const struct rc_method rc_method_pk99 = {
     .new = state_new,
     .step = step,
     .forget = forget,
-    .free = state_free,
 };

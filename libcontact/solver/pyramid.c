@@ -280,10 +280,9 @@ rc_pyramid_new(const struct rc_pyramid_base *base, rc_power_at *power, const voi
             level_new(p, l);
         fine = !p->own.failed;
     }
-    if (!fine)
-        rc_err_set(err, "out of memory for the error estimate of %zu x %zu nodes", base->shape.nx,
-                   base->shape.ny);
-    if (rc_ranks_agree(base->ranks, fine ? RC_OK : RC_FAIL, err) != RC_OK)
+    if (rc_ranks_need(base->ranks, fine, err,
+                      "out of memory for the error estimate of %zu x %zu nodes", base->shape.nx,
+                      base->shape.ny) != RC_OK)
         return NULL;
     if (p->dealt != NULL)
         deal(p);

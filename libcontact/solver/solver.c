@@ -165,18 +165,15 @@ static enum rc_status
 make_room(struct rc_solver *s, struct rc_err *err)
 {
     const struct rc_shape *whole = &s->posed.whole;
-    enum rc_status status = RC_OK;
 
     s->z = rc_store_take(&s->own, s->posed.n, sizeof *s->z);
     s->partial =
         rc_store_take(&s->own, rc_reduce_partials(&s->posed.shape), RC_SUMS * sizeof *s->partial);
     rc_iterate_new(s);
-    if (rc_working_set_new(s) != RC_OK)
-        status =
-            rc_err_set(err, "out of memory for a contact of %zu x %zu nodes", whole->nx, whole->ny);
-    if (status == RC_OK && (s->state = s->method->new (s, err)) == NULL)
-        status = RC_FAIL;
-    return rc_ranks_agree(s->posed.rows.ranks, status, err);
+    return rc_ranks_need(s->posed.rows.ranks,
+                         rc_working_set_new(s) == RC_OK && (s->state = s->method->new (s)) != NULL,
+                         err, "out of memory for a contact of %zu x %zu nodes", whole->nx,
+                         whole->ny);
 }
 
 /* Makes a solver that owns the operator. The operator is NULL if making it failed (*err then has the reason).
@@ -236,8 +233,6 @@ rc_solver_free(struct rc_solver *s)
     if (s == NULL)
         return;
     rc_nested_free(s);
-    if (s->state != NULL)
-        s->method->free(s->state);
     rc_preconditioner_free(s->preconditioner);
     rc_operator_free(s->op);
     free(s->posed.h);

@@ -37,12 +37,11 @@ struct rc_method {
      * the tolerance. NULL: not measured. */
     double (*convolutions)(double nodes, double digits);
     /* Bytes of its state; NULL: unknown. */
-    /* The method's state; NULL and *err when memory is short. */
-    void *(*new)(const struct rc_solver *solver, struct rc_err *err);
+    /* The method's state, in memory of solver->own; NULL when that is short. */
+    void *(*new)(struct rc_solver *solver);
     struct rc_found (*step)(struct rc_solver *solver, void *state);
     /* For a new load: the method drops the data of earlier steps. NULL: the method has none. */
     void (*forget)(void *state);
-    void (*free)(void *state);
 };
 
 /* -DRC_METHODS_LIST=... replaces the list (tests/toys does). */

@@ -148,16 +148,14 @@ system_free(struct system *c)
 static enum rc_status
 system_new(struct system *c, struct rc_solver *s, struct rc_err *err)
 {
-    size_t n = s->posed.n;
-    enum rc_status status = RC_OK;
+    const size_t n = s->posed.n;
 
     *c = (struct system){.s = s};
     c->t = rc_alloc(n, sizeof *c->t);
     c->d = rc_alloc(n, sizeof *c->d);
     c->q = rc_alloc(n, sizeof *c->q);
-    if (c->t == NULL || c->d == NULL || c->q == NULL)
-        status = rc_err_set(err, "out of memory for the stiffness of %zu nodes", n);
-    return rc_ranks_agree(s->posed.rows.ranks, status, err);
+    return rc_ranks_need(s->posed.rows.ranks, c->t != NULL && c->d != NULL && c->q != NULL, err,
+                         "out of memory for the stiffness of %zu nodes", n);
 }
 
 static enum rc_status
@@ -299,21 +297,18 @@ bound_below(struct rc_solver *s, const float *t, double *bound, struct rc_err *e
     RC_OWNED double *p = rc_alloc(s->posed.n, sizeof *p);
     RC_OWNED double *u = rc_alloc(s->posed.n, sizeof *u);
     struct bound b = {t, p, u};
-    enum rc_status status = RC_OK;
     double total[RC_SUMS];
 
-    if (b.p == NULL || b.u == NULL)
-        status = rc_err_set(err, "out of memory for a bound of the conductance of %zu nodes",
-                            s->posed.n);
-    status = rc_ranks_agree(s->posed.rows.ranks, status, err);
-    if (status == RC_OK) {
-        rc_reduce_blocks(s, widen_block, &b, total);
-        rc_operator_apply(s->op, b.p, b.u);
-        rc_iterate_count(s, 1);
-        rc_reduce_blocks(s, energy_block, &b, total);
-        *bound = total[0] * total[0] / total[1] * s->posed.cell / (1 + s->op->error);
-    }
-    return status;
+    if (rc_ranks_need(s->posed.rows.ranks, p != NULL && u != NULL, err,
+                      "out of memory for a bound of the conductance of %zu nodes",
+                      s->posed.n) != RC_OK)
+        return RC_FAIL;
+    rc_reduce_blocks(s, widen_block, &b, total);
+    rc_operator_apply(s->op, p, u);
+    rc_iterate_count(s, 1);
+    rc_reduce_blocks(s, energy_block, &b, total);
+    *bound = total[0] * total[0] / total[1] * s->posed.cell / (1 + s->op->error);
+    return RC_OK;
 }
 
 enum rc_status

@@ -28,7 +28,6 @@
 #include "solver.h"
 
 #include <math.h>
-#include <stdlib.h>
 
 #include "libcontact/memory.h"
 
@@ -115,7 +114,6 @@ enum rc_status
 rc_tilt_new(struct rc_solver *s, const struct rc_problem *problem, struct rc_err *err)
 {
     const struct rc_shape *w = &s->posed.whole;
-    enum rc_status status = RC_OK;
     struct rc_tilt *t;
 
     if (!problem->tilt_free)
@@ -125,9 +123,8 @@ rc_tilt_new(struct rc_solver *s, const struct rc_problem *problem, struct rc_err
     s->tilt = t = rc_store_zeros(&s->own, 1, sizeof *t);
     if (t != NULL)
         t->room = rc_store_take(&s->own, s->posed.n, 3 * sizeof *t->room);
-    if (s->own.failed)
-        status = rc_err_set(err, "out of memory for the tilt of %zu x %zu nodes", w->nx, w->ny);
-    if (rc_ranks_agree(s->posed.rows.ranks, status, err) != RC_OK)
+    if (rc_ranks_need(s->posed.rows.ranks, !s->own.failed, err,
+                      "out of memory for the tilt of %zu x %zu nodes", w->nx, w->ny) != RC_OK)
         return RC_FAIL;
     t->at[0] = problem->force_at[0];
     t->at[1] = problem->force_at[1];

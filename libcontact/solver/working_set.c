@@ -28,7 +28,6 @@
 #include "solver.h"
 
 #include <math.h>
-#include <stdlib.h>
 #include <string.h>
 
 #include "libcontact/memory.h"

@@ -9,7 +9,6 @@
  */
 #include "coarse_grid.h"
 
-#include <math.h>
 #include <omp.h>
 #include <stdlib.h>
 #include <string.h>
@@ -37,6 +36,7 @@ struct rc_coarse {
     const struct rc_ranks *ranks;
     size_t own, order, *fine, *coarse, *from, *under;
     double *window; /* rows of x.coarse numbers from other ranks; NULL: no ranks */
+    struct rc_store memory;
 };
 
 /* Largest error of this interpolation, of source and field, for any kernel and pressures of size 1 with the
@@ -96,13 +96,11 @@ rc_coarse_shape(const struct rc_shape *s, size_t sx, size_t sy)
 }
 
 /* Lagrange's polynomials at each r / s between the two middle nodes of ORDER. */
-static bool
-set_axis(struct axis *a, size_t n, size_t s)
+static void
+set_axis(struct axis *a, struct rc_store *memory, size_t n, size_t s)
 {
-    *a = (struct axis){.n = n, .s = s, .coarse = coarse_nodes(n, s)};
-    if ((a->weight = malloc(s * ORDER * sizeof *a->weight)) == NULL)
-        return false;
-    for (size_t r = 0; r < s; r++)
+    *a = (struct axis){n, s, coarse_nodes(n, s), rc_store_take(memory, s, ORDER * sizeof(double))};
+    for (size_t r = 0; r < s && a->weight != NULL; r++)
         for (int k = 0; k < ORDER; k++) {
             double at = (double)r / (double)s + (double)(ORDER / 2 - 1), w = 1;
             for (int l = 0; l < ORDER; l++)
@@ -110,7 +108,6 @@ set_axis(struct axis *a, size_t n, size_t s)
                     w *= (at - l) / (k - l);
             a->weight[r * ORDER + (size_t)k] = w;
         }
-    return true;
 }
 
 /* Doubles of scratch of one thread. */
@@ -121,15 +118,15 @@ scratch_size(const struct rc_coarse *c)
 }
 
 /* Deals the rows of both grids to the ranks. */
-static bool
+static void
 deal(struct rc_coarse *c)
 {
     const size_t count = rc_ranks_count(c->ranks), s = c->y.s;
 
     c->own = rc_ranks_own(c->ranks);
     c->order = s == 1 ? 1 : ORDER;
-    if ((c->fine = malloc(4 * (count + 1) * sizeof *c->fine)) == NULL)
-        return false;
+    if ((c->fine = rc_store_take(&c->memory, 4 * (count + 1), sizeof *c->fine)) == NULL)
+        return;
     c->coarse = c->fine + count + 1;
     c->from = c->coarse + count + 1;
     c->under = c->from + count + 1;
@@ -139,7 +136,6 @@ deal(struct rc_coarse *c)
         c->from[r] = c->coarse[r] < c->order ? 0 : (c->coarse[r] - c->order + 1) * s;
         c->under[r] = c->fine[r] / s;
     }
-    return true;
 }
 
 /* Rows first[own] .. first[own + 1] - 1 + more, of at most `all`. */
@@ -151,38 +147,42 @@ rows_of(const struct rc_coarse *c, const size_t *first, size_t more, size_t all)
     return end > first[c->own] ? end - first[c->own] : 0;
 }
 
-static bool
+static void
 allocate(struct rc_coarse *c)
 {
     const size_t reach = (c->order - 1) * c->y.s, held = rows_of(c, c->fine, 0, c->y.n);
     const size_t from = rows_of(c, c->from, reach, c->y.n);
     const size_t under = rows_of(c, c->under, c->order, c->y.coarse);
 
-    c->rows = rc_alloc(held * c->x.coarse > under * c->x.n ? held * c->x.coarse : under * c->x.n,
-                       sizeof *c->rows);
-    c->scratch = rc_alloc((size_t)c->threads * scratch_size(c), sizeof *c->scratch);
+    c->rows = rc_store_take(
+        &c->memory, held * c->x.coarse > under * c->x.n ? held * c->x.coarse : under * c->x.n,
+        sizeof *c->rows);
+    c->scratch = rc_store_take(&c->memory, (size_t)c->threads * scratch_size(c), sizeof(double));
     if (c->ranks != NULL)
-        c->window = rc_alloc((from > under ? from : under) * c->x.coarse, sizeof *c->window);
-    return c->rows != NULL && c->scratch != NULL && (c->ranks == NULL || c->window != NULL);
+        c->window = rc_store_take(&c->memory, (from > under ? from : under) * c->x.coarse,
+                                  sizeof *c->window);
 }
 
 struct rc_coarse *
 rc_coarse_new(const struct rc_ranks *ranks, const struct rc_shape *shape, size_t sx, size_t sy,
               size_t threads, struct rc_err *err)
 {
-    struct rc_coarse *c = calloc(1, sizeof *c);
-    bool done = false;
+    RC_OWN(rc_coarse, c) = calloc(1, sizeof *c);
 
-    if (c != NULL && set_axis(&c->x, shape->nx, sx) && set_axis(&c->y, shape->ny, sy)) {
+    if (c != NULL) {
+        set_axis(&c->x, &c->memory, shape->nx, sx);
+        set_axis(&c->y, &c->memory, shape->ny, sy);
         c->ranks = ranks;
         c->threads = rc_useful_threads(shape, threads);
-        done = deal(c) && allocate(c);
+        deal(c);
+        if (!c->memory.failed)
+            allocate(c);
     }
-    if (rc_ranks_sum(ranks, !done) == 0)
-        return c;
-    rc_err_set(err, "out of memory for a coarser grid of %zu x %zu nodes", shape->nx, shape->ny);
-    rc_coarse_free(c);
-    return NULL;
+    return rc_ranks_need(ranks, c != NULL && !c->memory.failed, err,
+                         "out of memory for a coarser grid of %zu x %zu nodes", shape->nx,
+                         shape->ny) == RC_OK
+               ? rc_give(&c)
+               : NULL;
 }
 
 void
@@ -190,12 +190,7 @@ rc_coarse_free(struct rc_coarse *c)
 {
     if (c == NULL)
         return;
-    free(c->x.weight);
-    free(c->y.weight);
-    free(c->rows);
-    free(c->scratch);
-    free(c->fine);
-    free(c->window);
+    rc_store_free(&c->memory);
     free(c);
 }
 

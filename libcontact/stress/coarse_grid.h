@@ -20,6 +20,7 @@ struct rc_shape rc_coarse_shape(const struct rc_shape *shape, size_t sx, size_t 
 struct rc_coarse *rc_coarse_new(const struct rc_ranks *ranks, const struct rc_shape *shape,
                                 size_t sx, size_t sy, size_t threads, struct rc_err *err);
 void rc_coarse_free(struct rc_coarse *coarse);
+RC_OWNER(rc_coarse)
 /* Reduces pressures (forces) of the map to the coarser grid, and interpolates a field back. */
 void rc_coarse_reduce(struct rc_coarse *coarse, const double *p, double *out);
 void rc_coarse_expand(struct rc_coarse *coarse, const double *u, double *out);

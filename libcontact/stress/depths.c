@@ -311,7 +311,6 @@ rc_stress_depths(const struct rc_ranks *ranks, const struct rc_shape *shape, con
                  enum rc_boundary boundary, const struct rc_body *body, double **depths, size_t *n,
                  struct rc_err *err)
 {
-    enum rc_status status = RC_OK;
     struct descent d = {.body = body};
     RC_OWNED struct bins *b = malloc(sizeof *b);
     RC_OWNED double *found = malloc(MOST * sizeof *found);
@@ -321,13 +320,10 @@ rc_stress_depths(const struct rc_ranks *ranks, const struct rc_shape *shape, con
     *n = 0;
     if (rc_shape_check(shape, err) != RC_OK)
         return RC_FAIL;
-    if (b == NULL || found == NULL)
-        status = rc_err_set(err, "out of memory for depths");
-    status = rc_ranks_agree(ranks, status, err);
-    if (status == RC_OK)
-        status = rc_ranks_count(ranks) > 1 ? collect_shared(ranks, shape, p, b, err)
-                                           : collect(shape, p, b, err);
-    if (status != RC_OK)
+    if (rc_ranks_need(ranks, b != NULL && found != NULL, err, "out of memory for depths") !=
+            RC_OK ||
+        (rc_ranks_count(ranks) > 1 ? collect_shared(ranks, shape, p, b, err)
+                                   : collect(shape, p, b, err)) != RC_OK)
         return RC_FAIL;
     radius = contact_radius(ranks, shape, p);
     d.depths = found;

@@ -9,7 +9,7 @@
 
 struct plan {
     struct rc_stress_task task;
-    double *u; /* displacements of one kernel */
+    double u[]; /* displacements of one kernel */
 };
 
 /* An engine's tolerance is relative to the sum of |K| |p|. The sum of |K| grows with the logarithm of the map
@@ -25,28 +25,14 @@ sum_of(const struct rc_stress_task *t, const struct rc_stress_field *field)
                            .threads = t->options.threads};
 }
 
-static void
-plan_free(void *at)
-{
-    struct plan *plan = at;
-
-    if (plan == NULL)
-        return;
-    free(plan->u);
-    free(plan);
-}
-
 static void *
 plan_new(const struct rc_stress_task *task, struct rc_err *err)
 {
-    struct plan *plan = calloc(1, sizeof *plan);
-    size_t n = task->shape.nx * task->shape.ny;
+    const size_t n = task->shape.nx * task->shape.ny;
+    struct plan *plan = malloc(sizeof *plan + n * sizeof *plan->u);
 
-    if (plan == NULL || (plan->u = malloc(n * sizeof *plan->u)) == NULL) {
-        rc_err_set(err, "out of memory for a map of %zu nodes", n);
-        plan_free(plan);
-        return NULL;
-    }
+    if (plan == NULL)
+        return rc_err_null(err, "out of memory for a map of %zu nodes", n);
     plan->task = *task;
     return plan;
 }
@@ -128,5 +114,5 @@ slice(void *at, double depth, double *const s[RC_COMPONENTS], struct rc_err *err
 const struct rc_stress_evaluator rc_stress_slices_engine = {
     .new = plan_new,
     .slice = slice,
-    .free = plan_free,
+    .free = free,
 };

@@ -34,6 +34,7 @@ struct grid {
     size_t numbers;                     /* numbers that describe a wave at the depth */
     struct rc_inside *inside;           /* at the depth                                     */
     double depth;                       /* depth of all tables above, m */
+    struct rc_store own;
 };
 
 struct plan {
@@ -42,6 +43,7 @@ struct plan {
     struct rc_coarse *between;  /* between fine and coarse                              */
     size_t sx, sy;              /* fine nodes per coarse node                           */
     double *field[RC_FIELDS];   /* fields on the coarse grid */
+    struct rc_store own;        /* of them */
 };
 
 /* Smaller tolerances than this need double precision: single precision makes errors of up to 1e-6 of the
@@ -60,11 +62,9 @@ grid_free(struct grid *g)
 {
     if (g == NULL)
         return;
-    for (int k = 0; k < RC_STRESS_KERNELS; k++)
-        free(g->quarter[k]);
-    free(g->known);
     rc_inside_free(g->inside);
     rc_fft_free(g->fft);
+    rc_store_free(&g->own);
     free(g);
 }
 RC_OWNER(grid)
@@ -74,21 +74,19 @@ static enum rc_status
 make_tables(struct grid *g, struct rc_err *err)
 {
     const struct rc_stress_task *task = g->task;
-    enum rc_status status = RC_OK;
+    const bool periodic = task->options.boundary == RC_PERIODIC;
 
     rc_fft_quarter(g->fft, &g->cx, &g->cy);
     rc_fft_quarter_rows(g->fft, &g->first_row, &g->rows);
     rc_fft_columns(g->fft, &g->first_column, &g->columns);
     g->numbers = rc_stress_numbers(task);
-    for (int k = 0; k < RC_STRESS_KERNELS; k++)
-        if (task->options.boundary == RC_FREE && task->kernels >> k & 1 &&
-            (g->quarter[k] = rc_alloc(rc_fft_quarter_size(g->fft), sizeof(double))) == NULL)
-            status =
-                rc_err_set(err, "out of memory for a kernel of %zu x %zu values", g->cx, g->cy);
-    if (task->options.boundary == RC_PERIODIC &&
-        (g->known = rc_alloc(g->columns * g->cy * g->numbers, sizeof *g->known)) == NULL)
-        status = rc_err_set(err, "out of memory for %zu x %zu waves", g->cx, g->cy);
-    return rc_ranks_agree(task->options.ranks, status, err);
+    for (int k = 0; k < RC_STRESS_KERNELS && !periodic; k++)
+        if (task->kernels >> k & 1)
+            g->quarter[k] = rc_store_take(&g->own, rc_fft_quarter_size(g->fft), sizeof(double));
+    if (periodic)
+        g->known = rc_store_take(&g->own, g->columns * g->cy * g->numbers, sizeof *g->known);
+    return rc_ranks_need(task->options.ranks, !g->own.failed, err,
+                         "out of memory for kernels of %zu x %zu values", g->cx, g->cy);
 }
 
 static struct grid *
@@ -97,9 +95,7 @@ grid_new(const struct rc_stress_task *task, const struct rc_shape *shape, struct
     RC_OWN(grid, g) = calloc(1, sizeof *g);
     const struct rc_ranks *ranks = task->options.ranks;
 
-    if (g == NULL)
-        rc_err_set(err, "out of memory for a plan");
-    if (rc_ranks_agree(ranks, g == NULL ? RC_FAIL : RC_OK, err) != RC_OK)
+    if (rc_ranks_need(ranks, g != NULL, err, "out of memory for a plan") != RC_OK)
         return NULL;
     g->task = task;
     g->shape = *shape;
@@ -301,12 +297,10 @@ coarse_free(struct plan *plan)
 {
     grid_free(plan->coarse);
     rc_coarse_free(plan->between);
+    rc_store_free(&plan->own);
     plan->coarse = NULL;
     plan->between = NULL;
-    for (size_t k = 0; k < RC_FIELDS; k++) {
-        free(plan->field[k]);
-        plan->field[k] = NULL;
-    }
+    plan->own = (struct rc_store){0};
 }
 
 static enum rc_status
@@ -315,7 +309,6 @@ coarse_new(struct plan *plan, size_t sx, size_t sy, struct rc_err *err)
     const struct rc_stress_task *t = &plan->task;
     struct rc_shape shape = rc_coarse_shape(&t->shape, sx, sy);
     size_t nodes = shape.nx * rc_rows_of(t->options.ranks, &shape).n;
-    enum rc_status status = RC_OK;
 
     if (plan->coarse != NULL && plan->sx == sx && plan->sy == sy)
         return RC_OK;
@@ -323,10 +316,9 @@ coarse_new(struct plan *plan, size_t sx, size_t sy, struct rc_err *err)
     plan->sx = sx;
     plan->sy = sy;
     for (size_t k = 0; k < RC_FIELDS; k++)
-        if ((plan->field[k] = rc_alloc(nodes, sizeof(double))) == NULL)
-            status =
-                rc_err_set(err, "out of memory for a map of %zu x %zu nodes", shape.nx, shape.ny);
-    if (rc_ranks_agree(t->options.ranks, status, err) != RC_OK)
+        plan->field[k] = rc_store_take(&plan->own, nodes, sizeof(double));
+    if (rc_ranks_need(t->options.ranks, !plan->own.failed, err,
+                      "out of memory for a map of %zu x %zu nodes", shape.nx, shape.ny) != RC_OK)
         return RC_FAIL;
     plan->between = rc_coarse_new(t->options.ranks, &t->shape, sx, sy, t->options.threads, err);
     if (plan->between == NULL)
@@ -394,9 +386,7 @@ plan_new(const struct rc_stress_task *task, struct rc_err *err)
     const size_t before = rc_memory_held().held;
     RC_OWN(plan, plan) = calloc(1, sizeof *plan);
 
-    if (plan == NULL)
-        rc_err_set(err, "out of memory for a plan");
-    if (rc_ranks_agree(task->options.ranks, plan == NULL ? RC_FAIL : RC_OK, err) != RC_OK)
+    if (rc_ranks_need(task->options.ranks, plan != NULL, err, "out of memory for a plan") != RC_OK)
         return NULL;
     plan->task = *task;
     plan->fine = grid_new(&plan->task, &task->shape, err);

@@ -96,15 +96,12 @@ rc_strained_new(const struct rc_stress_task *task, struct rc_err *err)
     const struct rc_rows rows = rc_rows_of(task->options.ranks, &task->shape);
     RC_OWN(rc_strained, p) = calloc(1, sizeof *p);
     RC_OWNED bool *strained = calloc(options.slabs, sizeof *strained);
-    enum rc_status status = RC_OK;
 
-    if (p == NULL || strained == NULL)
-        status = rc_err_set(err, "out of memory for a plan");
-    if (rc_ranks_agree(task->options.ranks, status, err) == RC_OK && p != NULL) {
-        *p = (struct rc_strained){.task = task, .shape = rc_rows_shape(&rows, &task->shape)};
-        p->slabs = rc_slabs_new(&task->shape, &options, err);
-    }
-    if (p == NULL || p->slabs == NULL)
+    if (rc_ranks_need(task->options.ranks, p != NULL && strained != NULL, err,
+                      "out of memory for a plan") != RC_OK)
+        return NULL;
+    *p = (struct rc_strained){.task = task, .shape = rc_rows_shape(&rows, &task->shape)};
+    if ((p->slabs = rc_slabs_new(&task->shape, &options, err)) == NULL)
         return NULL;
     sweep(p, strained);
     return rc_give(&p);

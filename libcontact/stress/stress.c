@@ -19,6 +19,7 @@ struct rc_stress {
     double *own[RC_COMPONENTS]; /* components that are needed but not requested */
     struct rc_body body; /* the caller's; its layers are copied if they have residual stress */
     struct rc_stress_counts counts;
+    struct rc_store memory; /* of `own` */
 };
 
 const char *const rc_component_names[RC_STRESSES] = {"sxx",   "syy",    "szz", "sxy", "sxz", "syz",
@@ -213,10 +214,10 @@ rc_stress_new(const struct rc_shape *shape, const double *p,
     stress->body = options->body;
     stress->values = values_of(shape, options);
     for (int c = 0; c < RC_COMPONENTS; c++)
-        if ((stress->task.components & ~options->wanted) >> c & 1 &&
-            (stress->own[c] = rc_alloc(stress->values, sizeof *stress->own[c])) == NULL)
-            status = rc_err_set(err, "out of memory for %zu values of a stress", stress->values);
-    if (rc_ranks_agree(options->ranks, status, err) != RC_OK)
+        if ((stress->task.components & ~options->wanted) >> c & 1)
+            stress->own[c] = rc_store_take(&stress->memory, stress->values, sizeof(double));
+    if (rc_ranks_need(options->ranks, !stress->memory.failed, err,
+                      "out of memory for %zu values of a stress", stress->values) != RC_OK)
         return NULL;
     if ((stress->plan = stress->evaluator->new (&stress->task, err)) == NULL ||
         (options->strain != NULL &&
@@ -235,8 +236,7 @@ rc_stress_free(struct rc_stress *stress)
     if (stress->plan != NULL)
         stress->evaluator->free(stress->plan);
     rc_strained_free(stress->strained);
-    for (int c = 0; c < RC_COMPONENTS; c++)
-        free(stress->own[c]);
+    rc_store_free(&stress->memory);
     rc_solid_free(stress->solid);
     free(stress);
 }

@@ -425,7 +425,7 @@ make_room(struct own *w, size_t threads, struct rc_err *err)
     w->p = rc_store_take(&w->store, waves, sizeof *w->p);
     w->g = rc_store_take(&w->store, waves, sizeof *w->g);
     w->factor = rc_store_take(&w->store, w->grid.nx * w->grid.ny, sizeof *w->factor);
-    if (w->store.failed || !rc_fft_fold(w->fft, &w->place, &w->mirror))
+    if (w->store.failed || !rc_fft_fold(w->fft, &w->store, &w->place, &w->mirror))
         return rc_err_set(err, "out of memory for the waves of %zu x %zu nodes", w->px, w->py);
     memset(w->g, 0, waves * sizeof *w->g);
     return RC_OK;
@@ -458,7 +458,5 @@ rc_wake_free(struct rc_wake *wake)
         return;
     rc_fft_free(w->fft);
     rc_store_free(&w->store);
-    free(w->place);
-    free(w->mirror);
     free(w);
 }

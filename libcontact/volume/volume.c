@@ -148,9 +148,7 @@ rc_slabs_new(const struct rc_shape *shape, const struct rc_slabs_options *o, str
     if (check(shape, o, err) != RC_OK)
         return NULL;
     v = calloc(1, sizeof *v);
-    if (v == NULL)
-        rc_err_set(err, "out of memory for a plan");
-    if (rc_ranks_agree(o->ranks, v == NULL ? RC_FAIL : RC_OK, err) != RC_OK)
+    if (rc_ranks_need(o->ranks, v != NULL, err, "out of memory for a plan") != RC_OK)
         return NULL;
     rows = rc_rows_of(o->ranks, shape);
     *v = (struct rc_slabs){.shape = *shape,

@@ -3,16 +3,12 @@
  * bounds. */
 #include "libcontact/solver/solver.h"
 
-#include <stdlib.h>
+#include "libcontact/memory.h"
 
 static void *
-state_new(const struct rc_solver *s, struct rc_err *err)
+state_new(struct rc_solver *s)
 {
-    void *state = malloc(2 * s->posed.n * sizeof(double) + s->posed.n * sizeof(float));
-
-    if (state == NULL)
-        rc_err_set(err, "out of memory for %zu nodes", s->posed.n);
-    return state;
+    return rc_store_take(&s->own, s->posed.n, 2 * sizeof(double) + sizeof(float));
 }
 
 static struct rc_found
@@ -46,5 +42,4 @@ const struct rc_method rc_method_steepest = {
     .info = {.name = "steepest", .summary = "preconditioned steepest descent"},
     .new = state_new,
     .step = step,
-    .free = free,
 };

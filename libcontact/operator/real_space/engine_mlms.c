@@ -7,7 +7,6 @@
 #include <math.h>
 #include <omp.h>
 #include <stdlib.h>
-#include <string.h>
 
 /* ---- sizes ---- */
 
@@ -78,8 +77,6 @@ rc_mlms_free(void *at)
 
     if (m == NULL)
         return;
-    for (size_t q = 0; q <= m->d.levels; q++)
-        rc_mlms_stencils_free(&m->level[q]);
     rc_direct_free(m->direct);
     rc_store_free(&m->own);
     free(m);

@@ -37,7 +37,6 @@ enum {
 struct rc_mlms_stencil {
     size_t columns;
     struct rc_column *column;
-    double *values; /* values of all columns */
     double *sparse; /* the same unfolded, rows of `width` from the lowest l and k   */
     size_t width, rows;
     ptrdiff_t first_x, first_y; /* places of the lowest k and l */
@@ -109,13 +108,13 @@ ptrdiff_t rc_mlms_extent(const struct rc_mlms_design *d, const struct rc_shape *
 /* mlms_stencil.c */
 /* (8): s[i], i < t, weighs the nodes at the distances +-(2i + 1). */
 void rc_mlms_weights(size_t t, double *s);
+/* In memory of m->own; false when that is short. */
 bool rc_mlms_stencils(struct rc_mlms *m, const struct rc_sum *sum, size_t level);
 /* The coefficients that corrections neglect on the worst level. *one: the largest, over the kernel of a
  * nearby node: the error under pressure on one node. *all: their sum over the sum of |K| within the region:
  * the error under pressures of the worst signs everywhere. INFINITY when memory is short. */
 void rc_mlms_left_out(const struct rc_sum *sum, const struct rc_mlms_design *d, double *one,
                       double *all);
-void rc_mlms_stencils_free(struct rc_mlms_level *level);
 
 /* mlms_tile.c: operations on one tile of a level; tiles are numbered row by row. p and u are those of the
  * level. */

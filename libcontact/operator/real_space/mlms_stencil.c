@@ -5,7 +5,6 @@
 
 #include <math.h>
 #include <stdlib.h>
-#include <string.h>
 
 void
 rc_mlms_weights(size_t t, double *s)
@@ -25,13 +24,11 @@ struct table {
     double *v;
 };
 
-static bool
-table_new(struct table *t, size_t nx, size_t ny)
+/* v NULL: memory is short. */
+static struct table
+table_new(struct rc_store *own, size_t nx, size_t ny)
 {
-    t->nx = nx;
-    t->ny = ny;
-    t->v = calloc(nx * ny, sizeof *t->v);
-    return t->v != NULL;
+    return (struct table){nx, ny, rc_store_zeros(own, nx * ny, sizeof(double))};
 }
 
 static double
@@ -77,20 +74,21 @@ lattice(const struct rc_sum *sum, const struct rc_mlms_axis axis[2])
  * the node itself. */
 static bool
 errors(const struct rc_mlms *m, const struct rc_sum *sum, const struct rc_mlms_axis axis[2],
-       size_t beyond, struct table error[4], double *about)
+       size_t beyond, struct rc_store *own, struct table error[4], double *about)
 {
     const struct rc_lattice nodes = lattice(sum, axis);
+    RC_ENDS(rc_store_free) struct rc_store passing = {0};
     size_t reach[2], more[2];
-    struct table k = {0}, kx = {0};
-    bool done = false;
+    struct table k, kx;
 
     for (int a = 0; a < 2; a++) {
         reach[a] = axis[a].reach + beyond + 1;
         more[a] = axis[a].halved ? 2 * m->d.t - 1 : 0;
     }
-    if (!table_new(&k, reach[RC_X] + more[RC_X], reach[RC_Y] + more[RC_Y]) ||
-        !table_new(&kx, reach[RC_X], k.ny))
-        goto done;
+    k = table_new(&passing, reach[RC_X] + more[RC_X], reach[RC_Y] + more[RC_Y]);
+    kx = table_new(&passing, reach[RC_X], k.ny);
+    if (passing.failed)
+        return false;
     sum->kernel.rows(sum->kernel.of, &nodes, k.nx, 0, k.ny, k.v);
     *about = 0;
     for (size_t l = 0; l <= axis[RC_Y].reach; l++)
@@ -100,8 +98,9 @@ errors(const struct rc_mlms *m, const struct rc_sum *sum, const struct rc_mlms_a
         size_t x = c & 1, y = c >> 1;
         if (x > axis[RC_X].halved || y > axis[RC_Y].halved)
             continue;
-        if (!table_new(&error[c], reach[RC_X], reach[RC_Y]))
-            goto done;
+        error[c] = table_new(own, reach[RC_X], reach[RC_Y]);
+        if (own->failed)
+            return false;
         if (x)
             interpolate(m, RC_X, &k, y ? &kx : &error[c]);
         if (y)
@@ -112,11 +111,7 @@ errors(const struct rc_mlms *m, const struct rc_sum *sum, const struct rc_mlms_a
                 *e = k.v[l * k.nx + i] - *e;
             }
     }
-    done = true;
-done:
-    free(k.v);
-    free(kx.v);
-    return done;
+    return true;
 }
 
 /* ---- neglected coefficients ---- */
@@ -150,13 +145,14 @@ left_out(const struct rc_mlms *m, const struct rc_sum *sum, const struct rc_mlms
     enum {
         BEYOND = 4 /* coefficients decrease fast with distance */
     };
+    RC_ENDS(rc_store_free) struct rc_store own = {0};
     struct table e[4] = {{0}};
     double largest = 0, most_of_all = 0, local = local_kernel(sum, axis), about = 0;
     size_t most[2];
 
     for (int a = 0; a < 2; a++)
         most[a] = axis[a].n - 1 + (axis[a].halved ? 2 * m->d.t : 0);
-    if (!errors(m, sum, axis, BEYOND, e, &about))
+    if (!errors(m, sum, axis, BEYOND, &own, e, &about))
         largest = INFINITY;
     for (size_t c = 1; c < 4; c++) {
         double together = 0;
@@ -172,8 +168,6 @@ left_out(const struct rc_mlms *m, const struct rc_sum *sum, const struct rc_mlms
         }
         most_of_all = fmax(most_of_all, together);
     }
-    for (size_t c = 0; c < 4; c++)
-        free(e[c].v);
     *one = fmax(*one, largest / local);
     *all = fmax(*all, most_of_all / (local + about));
 }
@@ -211,7 +205,7 @@ places(const struct rc_mlms_axis *a, ptrdiff_t delta, ptrdiff_t l, ptrdiff_t *fi
 
 /* Rows of all offsets, for single sources. */
 static bool
-unfold(struct rc_mlms_stencil *s, const struct rc_mlms *m, const struct rc_mlms_axis axis[2],
+unfold(struct rc_mlms_stencil *s, struct rc_mlms *m, const struct rc_mlms_axis axis[2],
        const struct rc_shape *shape, const struct table *e, const ptrdiff_t delta[2])
 {
     ptrdiff_t last_x, last_y, hx = (ptrdiff_t)axis[RC_X].halved, hy = (ptrdiff_t)axis[RC_Y].halved;
@@ -222,10 +216,9 @@ unfold(struct rc_mlms_stencil *s, const struct rc_mlms *m, const struct rc_mlms_
         return true;
     s->width = ((size_t)(last_x - s->first_x) + RC_SIMD_WIDTH) / RC_SIMD_WIDTH * RC_SIMD_WIDTH;
     s->rows = (size_t)(last_y - s->first_y) + 1;
-    s->sparse = aligned_alloc(64, s->width * s->rows * sizeof *s->sparse);
+    s->sparse = rc_store_zeros(&m->own, s->width * s->rows, sizeof *s->sparse);
     if (s->sparse == NULL)
         return false;
-    memset(s->sparse, 0, s->width * s->rows * sizeof *s->sparse);
     for (ptrdiff_t x = s->first_x; x <= last_x; x++)
         for (ptrdiff_t y = s->first_y; y <= last_y; y++) {
             ptrdiff_t k = (hx ? 2 * x : x) + delta[RC_X], l = (hy ? 2 * y : y) + delta[RC_Y];
@@ -239,7 +232,7 @@ unfold(struct rc_mlms_stencil *s, const struct rc_mlms *m, const struct rc_mlms_
 
 /* Goes from class source to class target with the table of errors e. */
 static bool
-stencil(struct rc_mlms_stencil *s, const struct rc_mlms *m, const struct rc_mlms_axis axis[2],
+stencil(struct rc_mlms_stencil *s, struct rc_mlms *m, const struct rc_mlms_axis axis[2],
         const struct rc_shape *shape, size_t target, size_t source, const struct table *e)
 {
     const struct rc_mlms_axis *x = &axis[RC_X], *y = &axis[RC_Y];
@@ -247,17 +240,18 @@ stencil(struct rc_mlms_stencil *s, const struct rc_mlms *m, const struct rc_mlms
                           (ptrdiff_t)(target >> 1) - (ptrdiff_t)(source >> 1)};
     size_t first = x->halved ? (size_t)labs(delta[RC_X]) : 0, by = 1 + x->halved;
     size_t length = 2 * y->margin + 3 + 2 * RC_BLOCK;
+    double *values;
 
     s->columns = x->reach >= first ? (x->reach - first) / by + 1 : 0;
     if (s->columns == 0)
         return true;
-    s->column = calloc(s->columns, sizeof *s->column);
-    s->values = calloc(s->columns * length, sizeof *s->values);
-    if (s->column == NULL || s->values == NULL)
+    s->column = rc_store_zeros(&m->own, s->columns, sizeof *s->column);
+    values = rc_store_zeros(&m->own, s->columns * length, sizeof *values);
+    if (m->own.failed)
         return false;
     for (size_t j = 0; j < s->columns; j++) {
         size_t k = first + j * by;
-        double *c = s->values + j * length + y->margin + 1 + RC_BLOCK;
+        double *c = values + j * length + y->margin + 1 + RC_BLOCK;
         struct rc_column *column = &s->column[j];
         places(y, delta[RC_Y],
                rc_mlms_extent(&m->d, shape, axis, k, delta[RC_X] != 0 && delta[RC_Y] != 0),
@@ -273,10 +267,11 @@ bool
 rc_mlms_stencils(struct rc_mlms *m, const struct rc_sum *sum, size_t level)
 {
     struct rc_mlms_level *l = &m->level[level];
+    RC_ENDS(rc_store_free) struct rc_store own = {0};
     struct table e[4] = {{0}};
     size_t classes[2] = {l->axis[RC_X].halved, l->axis[RC_Y].halved};
     double about;
-    bool done = errors(m, sum, l->axis, 0, e, &about);
+    bool done = errors(m, sum, l->axis, 0, &own, e, &about);
 
     for (size_t c = 1; done && c < 4; c++) {
         if (e[c].v == NULL)
@@ -286,25 +281,5 @@ rc_mlms_stencils(struct rc_mlms *m, const struct rc_sum *sum, size_t level)
             if ((s & 1) <= classes[RC_X] && s >> 1 <= classes[RC_Y])
                 done = stencil(&l->fine[c][s], m, l->axis, &sum->shape, c, s, &e[c]);
     }
-    for (size_t c = 0; c < 4; c++)
-        free(e[c].v);
     return done;
-}
-
-static void
-stencil_free(struct rc_mlms_stencil *s)
-{
-    free(s->column);
-    free(s->values);
-    free(s->sparse);
-}
-
-void
-rc_mlms_stencils_free(struct rc_mlms_level *l)
-{
-    for (size_t t = 0; t < 4; t++) {
-        stencil_free(&l->coarse[t]);
-        for (size_t s = 0; s < 4; s++)
-            stencil_free(&l->fine[t][s]);
-    }
 }
