@@ -18,11 +18,13 @@ void rc_state_finite(struct rc_state *s, size_t n, double *v);
 void rc_state_number(struct rc_state *s, double *v, double least);
 /* A size, at most `most`, as one number. */
 void rc_state_count(struct rc_state *s, size_t *n, size_t most);
-/* Members one after the other, each by its address: numbers, sizes of any value, booleans. */
+/* Members one after the other, each by its address: numbers, finite ones of at least 0, counts, booleans. */
 #define RC_STATE_NUMBERS(s, ...) rc_state_each_number(s, (double *const[]){__VA_ARGS__, NULL})
+#define RC_STATE_SIZES(s, ...) rc_state_each_size(s, (double *const[]){__VA_ARGS__, NULL})
 #define RC_STATE_COUNTS(s, ...) rc_state_each_count(s, (size_t *const[]){__VA_ARGS__, NULL})
 #define RC_STATE_FLAGS(s, ...) rc_state_each_flag(s, (bool *const[]){__VA_ARGS__, NULL})
 void rc_state_each_number(struct rc_state *s, double *const *v);
+void rc_state_each_size(struct rc_state *s, double *const *v);
 void rc_state_each_count(struct rc_state *s, size_t *const *n);
 void rc_state_each_flag(struct rc_state *s, bool *const *flag);
 /* A map: the n nodes of this rank. In a state all maps follow all numbers. Returns the place of the map in a
@@ -117,6 +119,10 @@ struct rc_model_row {
                            struct rc_expected *expected, struct rc_err *err);
     struct rc_solver *(*solver)(const struct rc_model *m);
 };
+/* In a row: the figures `sets`, and the functions of the file that have the names of their members. */
+#define RC_MODEL_VERBS                                                                             \
+    .figures = sets, .go = go, .step = step, .look = look, .fill = fill, .state = state,           \
+    .progress = progress
 
 struct rc_model {
     const struct rc_model_row *row;

@@ -137,6 +137,13 @@ rc_state_finite(struct rc_state *s, size_t n, double *v)
 }
 
 void
+rc_state_each_size(struct rc_state *s, double *const *v)
+{
+    for (; *v != NULL; v++)
+        rc_state_number(s, *v, 0);
+}
+
+void
 rc_state_number(struct rc_state *s, double *v, double least)
 {
     rc_state_finite(s, 1, v);

@@ -91,15 +91,6 @@ exchange_row(struct rc_state *s, size_t columns, size_t nx, struct rc_voxel_row 
 
 /* ---- figures ---- */
 
-static void
-flag(struct rc_state *s, bool *on)
-{
-    size_t v = *on;
-
-    rc_state_count(s, &v, 1);
-    *on = v > 0;
-}
-
 /* Exchanges a number of at least 0, or one that is not finite, for which `mark` is written. */
 static void
 number_or(struct rc_state *s, double *v, double mark, double unknown)
@@ -114,39 +105,23 @@ number_or(struct rc_state *s, double *v, double mark, double unknown)
 static void
 exchange_figures(struct rc_plastic *p, struct rc_state *s)
 {
-    const size_t many = SIZE_MAX / 4096;
     struct rc_plastic_figures *f = &p->figures;
 
     if (rc_state_reads(s))
         *f = (struct rc_plastic_figures){0};
-    rc_state_count(s, &p->increments, many);
+    RC_STATE_COUNTS(s, &p->increments);
     rc_state_count(s, &p->count, p->increments);
     rc_state_count(s, &p->increment, p->increments + 1);
-    rc_state_count(s, &p->trial, many);
-    rc_state_count(s, &p->taken, many);
-    rc_state_count(s, &f->applications, many);
-    flag(s, &p->elastic);
-    flag(s, &p->few);
-    flag(s, &p->once);
-    flag(s, &p->thorough);
-    flag(s, &p->follows);
-    flag(s, &p->alone);
-    flag(s, &p->stopped);
-    flag(s, &p->pressed);
-    rc_state_number(s, &p->start, 0);
-    rc_state_number(s, &p->low, 0);
+    RC_STATE_COUNTS(s, &p->trial, &p->taken, &f->applications);
+    RC_STATE_FLAGS(s, &p->elastic, &p->few, &p->once, &p->thorough, &p->follows, &p->alone,
+                   &p->stopped, &p->pressed);
+    RC_STATE_SIZES(s, &p->start, &p->low, &p->kept, &p->from, &p->to, &p->set, &p->worst, &f->lag,
+                   &f->iteration_error);
     rc_state_number(s, &p->high, p->low);
     rc_state_number(s, &p->tol, DBL_MIN);
-    rc_state_number(s, &p->kept, 0);
-    rc_state_number(s, &p->from, 0);
-    rc_state_number(s, &p->to, 0);
-    rc_state_number(s, &p->set, 0);
     number_or(s, &p->resistance, 0, INFINITY);
-    rc_state_number(s, &f->lag, 0);
-    rc_state_number(s, &f->iteration_error, 0);
     number_or(s, &f->increment_error, -1, NAN);
     number_or(s, &f->inherited_error, -1, NAN);
-    rc_state_number(s, &p->worst, 0);
 }
 
 /* ---- the state ---- */

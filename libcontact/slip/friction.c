@@ -147,18 +147,13 @@ same(const struct way *w, const struct rc_point *a, const struct rc_point *b)
 static enum rc_status
 lower_heights(struct friction *f, struct way *w, struct rc_err *err)
 {
-    double top = -INFINITY, less = -INFINITY;
-
     w->lowered = 0;
     if (apart(w))
         return rc_model_set_heights(w->inner, f->h, err);
     rc_slip_normal(w->slip, w->less);
-    for (size_t k = 0; k < f->n; k++) {
+    for (size_t k = 0; k < f->n; k++)
         w->less[k] = f->h[k] - w->less[k];
-        top = fmax(top, f->h[k]);
-        less = fmax(less, w->less[k]);
-    }
-    w->lowered = top - less;
+    w->lowered = rc_highest(f->h, f->n) - rc_highest(w->less, f->n);
     return rc_model_set_heights(w->inner, w->less, err);
 }
 
@@ -724,17 +719,11 @@ const struct rc_model_row rc_model_friction = {
     .summary = "friction over an inner model",
     .needs = 1u << RC_FORCE_X | 1u << RC_FORCE_Y,
     .takes = 1u << RC_FORCE_X | 1u << RC_FORCE_Y | 1u << RC_SHIFT_X | 1u << RC_SHIFT_Y,
-    .figures = sets,
+    RC_MODEL_VERBS,
     .frame = frames,
-    .go = go,
-    .step = step,
-    .look = look,
-    .fill = fill,
-    .state = state,
     .free = release,
     .keep = keep,
     .heights = set_heights,
-    .progress = progress,
 };
 
 /* ---- the maker ---- */

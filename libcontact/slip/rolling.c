@@ -771,17 +771,11 @@ const struct rc_model_row rc_model_rolling = {
     .summary = "rolling with creepage, over an inner model",
     .takes = 1u << RC_CREEP_X | 1u << RC_CREEP_Y | 1u << RC_SPIN | 1u << RC_FORCE_X |
              1u << RC_FORCE_Y | 1u << RC_POSITION,
-    .figures = sets,
+    RC_MODEL_VERBS,
     .frame = frames,
-    .go = go,
-    .step = step,
-    .look = look,
-    .fill = fill,
-    .state = state,
     .free = release,
     .keep = keep,
     .heights = set_heights,
-    .progress = progress,
     .plan = plan,
 };
 

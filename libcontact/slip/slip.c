@@ -206,10 +206,8 @@ rc_slip_history(struct rc_slip *s, struct rc_state *state)
 {
     double *maps[] = {s->origin[0], s->origin[1], s->old[0], s->old[1],
                       s->slip[0],   s->slip[1],   s->gap_old};
-    size_t has_gap = s->has_gap_old, apart = s->apart;
 
-    rc_state_count(state, &has_gap, 1);
-    rc_state_count(state, &apart, 1);
+    RC_STATE_FLAGS(state, &s->has_gap_old, &s->apart);
     for (size_t k = 0; k < sizeof maps / sizeof *maps; k++)
         rc_state_numbers(state, s->n, maps[k]);
     for (size_t k = 0; k < s->n; k++) {
@@ -221,8 +219,6 @@ rc_slip_history(struct rc_slip *s, struct rc_state *state)
     rc_state_numbers(state, 2, s->force_old);
     if (!rc_state_reads(state))
         return;
-    s->has_gap_old = has_gap;
-    s->apart = apart;
     s->asked = s->begun = s->done = s->tried = false;
     for (int c = 0; c < 2; c++)
         memcpy(s->discs->q[c], s->old[c], s->n * sizeof(double));

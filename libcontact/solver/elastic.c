@@ -50,7 +50,7 @@ const struct rc_figure rc_figures_elastic[] = {
     {FIGURE(method), NULL, "Method", .says = "by which the contact is iterated"},
     {0},
 };
-static const struct rc_figure_set figure_sets[] = {
+static const struct rc_figure_set sets[] = {
     {rc_figures_contact, offsetof(struct elastic, figures.contact)},
     {rc_figures_elastic, offsetof(struct elastic, figures)},
     {NULL, 0},
@@ -70,13 +70,8 @@ static const struct rc_frame_kind frames[] = {
 static double
 highest(const struct elastic *e)
 {
-    double top = -INFINITY;
-
-    if (e->solver != NULL)
-        return e->solver->posed.top;
-    for (size_t k = 0; k < e->n; k++)
-        top = fmax(top, e->given[k]);
-    return rc_ranks_most(e->problem.ranks, top);
+    return e->solver != NULL ? e->solver->posed.top
+                             : rc_ranks_most(e->problem.ranks, rc_highest(e->given, e->n));
 }
 
 /* Sets this load or approach; makes the solver at the first call. */
@@ -526,13 +521,8 @@ const struct rc_model_row rc_model_elastic = {
     .needs = 1u << RC_LOAD,
     .takes = 1u << RC_LOAD | 1u << RC_APPROACH,
     .forgets = true,
-    .figures = figure_sets,
+    RC_MODEL_VERBS,
     .frame = frames,
-    .go = go,
-    .step = step,
-    .look = look,
-    .fill = fill,
-    .state = state,
     .free = release,
     .keep = keep,
     .heights = set_heights,
@@ -540,7 +530,6 @@ const struct rc_model_row rc_model_elastic = {
     .accuracy = set_accuracy,
     .start = start,
     .respond = respond,
-    .progress = progress,
     .plan = plan,
     .solver = solver,
 };

@@ -217,11 +217,8 @@ go(struct rc_model *m, struct rc_err *err)
     v->taken = false;
     if (pose(v, err) != RC_OK || rc_model_go(m->inner, &inner, err) == RC_FAIL)
         return RC_FAIL;
-    if (m->inner->from.given == 0) {
-        v->first_top = -INFINITY;
-        for (size_t k = 0; k < v->n; k++)
-            v->first_top = fmax(v->first_top, v->h[k]);
-    }
+    if (m->inner->from.given == 0)
+        v->first_top = rc_highest(v->h, v->n);
     return start(v, err);
 }
 
@@ -334,15 +331,9 @@ const struct rc_model_row rc_model_travel = {
     .needs = 1u << RC_LOAD | 1u << RC_POSITION,
     .takes = 1u << RC_POSITION,
     .forgets = true, /* the pressures that it stores are only starts */
-    .figures = sets,
+    RC_MODEL_VERBS,
     .frame = frames,
-    .go = go,
-    .step = step,
-    .look = look,
-    .fill = fill,
-    .state = state,
     .keep = keep,
-    .progress = progress,
     .plan = plan,
 };
 

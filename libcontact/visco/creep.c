@@ -202,16 +202,6 @@ find_history(const struct creep *v, double *to)
 
 /* ---- a step ---- */
 
-static double
-highest(size_t n, const double *h)
-{
-    double top = -INFINITY;
-
-    for (size_t i = 0; i < n; i++)
-        top = fmax(top, h[i]);
-    return top;
-}
-
 static bool
 by_approach(const struct creep *v)
 {
@@ -291,7 +281,7 @@ start_step(struct creep *v, struct rc_err *err)
     find_history(v, v->posed);
     for (size_t i = 0; i < v->n; i++)
         v->posed[i] = (v->h[i] - v->posed[i]) / v->c;
-    v->posed_top = highest(v->n, v->posed);
+    v->posed_top = rc_highest(v->posed, v->n);
     at = target(v);
     if (rc_model_set_heights(v->base.inner, v->posed, err) != RC_OK)
         return RC_FAIL;
@@ -653,14 +643,8 @@ const struct rc_model_row rc_model_viscoelastic = {
     .summary = "viscoelastic bodies in time, over an elastic inner model",
     .needs = 1u << RC_LOAD | 1u << RC_TIME,
     .takes = 1u << RC_TIME,
-    .figures = sets,
+    RC_MODEL_VERBS,
     .frame = frames,
-    .go = go,
-    .step = step,
-    .look = look,
-    .fill = fill,
-    .state = state,
-    .progress = progress,
     .plan = plan,
 };
 
@@ -702,7 +686,7 @@ make(struct creep *v, const double *h, const struct rc_viscoelastic_problem *a, 
     v->problem.tol = a->tol > 0 ? a->tol : usual_tol;
     v->n = s->nx * s->ny;
     v->h = h;
-    v->top = highest(v->n, h);
+    v->top = rc_highest(h, v->n);
     v->good = true;
     v->slope = INFINITY;
     v->c = v->shrink = 1;

@@ -264,16 +264,6 @@ filter(struct slide *s, enum filter which, double *map)
 
 /* ---- elastic contacts ---- */
 
-static double
-highest(const struct slide *s, const double *h)
-{
-    double top = -INFINITY;
-
-    for (size_t k = 0; k < s->n; k++)
-        top = fmax(top, h[k]);
-    return top;
-}
-
 /* Gives the solver the heights in `room`, which have the shift of the sliding contact. */
 static enum rc_status
 pose(struct slide *s, struct rc_err *err)
@@ -284,8 +274,8 @@ pose(struct slide *s, struct rc_err *err)
     s->iterations += v->it.iterations;
     s->convolutions += rc_solver_convolutions(v);
     if (rc_point_has(to, RC_APPROACH))
-        v->load.target =
-            fmax(to->at[RC_APPROACH] + highest(s, s->room) - s->top, 1e-12 * to->at[RC_APPROACH]);
+        v->load.target = fmax(to->at[RC_APPROACH] + rc_highest(s->room, s->n) - s->top,
+                              1e-12 * to->at[RC_APPROACH]);
     return rc_solver_set_heights(v, s->room, err);
 }
 
@@ -545,8 +535,7 @@ state(struct rc_model *m, struct rc_state *x)
         return;
     rc_state_count(x, &s->contacts, MOST_CONTACTS);
     rc_state_count(x, &s->iterations, (size_t)1 << 40);
-    rc_state_number(x, &s->convolutions, 0);
-    rc_state_number(x, &s->tol, 0);
+    RC_STATE_SIZES(x, &s->convolutions, &s->tol);
     rc_state_map(x, s->n, s->g);
     if (rc_state_reads(x) && make_inner(s, m->to.at[RC_SPEED], &err) != RC_OK) {
         rc_state_refuse(x, err.text);
@@ -613,16 +602,10 @@ const struct rc_model_row rc_model_sliding = {
     .needs = 1u << RC_LOAD | 1u << RC_SPEED,
     .takes = 1u << RC_LOAD | 1u << RC_APPROACH | 1u << RC_SPEED,
     .forgets = true,
-    .figures = sets,
+    RC_MODEL_VERBS,
     .frame = frames,
-    .go = go,
-    .step = step,
-    .look = look,
-    .fill = fill,
-    .state = state,
     .free = release,
     .keep = keep,
-    .progress = progress,
     .plan = plan,
 };
 
@@ -704,6 +687,6 @@ rc_slide_new(const struct rc_shape *shape, const double *h, const struct rc_prob
     if (make_room(s, err) != RC_OK)
         return NULL;
     turn(shape, law->along_y, h, s->h);
-    s->top = highest(s, s->h);
+    s->top = rc_highest(s->h, s->n);
     return make_inner(s, 0, err) == RC_OK ? rc_give(&m) : NULL;
 }

@@ -55,7 +55,7 @@ struct sliding {
     double s, end, t;          /* m: distance slid, end of the leg, present step */
     double of_contacts;        /* m: errors of the contacts times their distances */
     double of_p;               /* relative: largest error of the two contacts at the point */
-    bool good, again, kept;    /* as in wear.c */
+    bool good, again;          /* as in wear.c */
     struct rc_wear_figures f;
 };
 static const struct rc_figure_set sets[] = {{rc_figures_wear, offsetof(struct sliding, f)},
@@ -117,16 +117,10 @@ pose(struct sliding *v, struct rc_err *err)
     return rc_model_set_heights(v->base.inner, v->p, err);
 }
 
-/* Keeps the contact of the inner model, once. */
 static enum rc_status
 keep(struct rc_model *m, struct rc_err *err)
 {
-    struct sliding *v = (struct sliding *)m;
-
-    if (!v->kept && rc_model_keep(m->inner, err) != RC_OK)
-        return RC_FAIL;
-    v->kept = true;
-    return RC_OK;
+    return rc_model_keep(m->inner, err);
 }
 
 /* Starts a contact. The last one had another alignment, so its pressure is not used. */
@@ -138,7 +132,6 @@ contact(struct sliding *v, size_t stage, struct rc_err *err)
 
     if (keep(&v->base, err) != RC_OK)
         return RC_FAIL;
-    v->kept = false;
     v->stage = stage;
     if (pose(v, err) != RC_OK || rc_model_go(inner, &to, err) == RC_FAIL)
         return RC_FAIL;
@@ -147,16 +140,6 @@ contact(struct sliding *v, size_t stage, struct rc_err *err)
 }
 
 /* ---- steps ---- */
-
-static double
-differ(const struct sliding *v, const double *a, const double *b)
-{
-    struct rc_total sum = {0};
-
-    for (size_t k = 0; k < v->n; k++)
-        rc_total_add(&sum, fabs(a[k] - b[k]));
-    return rc_total_value(&sum);
-}
 
 static void
 find_figures(struct sliding *v)
@@ -168,7 +151,7 @@ find_figures(struct sliding *v)
 
     for (int b = 0; b < 2; b++) {
         lost[b] = rc_sum(worn[b], v->n);
-        apart += differ(v, v->worn[COARSE][b], worn[b]);
+        apart += rc_distance(v->worn[COARSE][b], worn[b], v->n);
     }
     f->distance = v->s;
     f->wear_volume_1 = lost[0] * cell;
@@ -190,7 +173,8 @@ arrive(struct sliding *v)
     find_figures(v);
     v->again = false;
     f->pressure_spread = rc_wear_spread(v->p, v->n);
-    f->pressure_error = of_pressure * differ(v, v->p, v->other) / rc_sum(v->p, v->n) + v->of_p;
+    f->pressure_error =
+        of_pressure * rc_distance(v->p, v->other, v->n) / rc_sum(v->p, v->n) + v->of_p;
     f->converged = v->good && f->wear_error <= v->law.tol;
     return f->converged ? RC_OK : RC_SHORT;
 }
@@ -314,7 +298,7 @@ state(struct rc_model *m, struct rc_state *s)
     struct rc_err err;
 
     rc_state_count(s, &v->stage, REST);
-    RC_STATE_FLAGS(s, &v->good, &v->kept);
+    RC_STATE_FLAGS(s, &v->good);
     RC_STATE_COUNTS(s, &v->taken[0], &v->taken[1], &v->f.steps, &v->f.contacts);
     RC_STATE_NUMBERS(s, &v->s, &v->end, &v->t, &v->of_contacts, &v->of_p, &v->f.convolutions);
     for (int run = 0; run < RUNS; run++)
@@ -362,15 +346,9 @@ const struct rc_model_row rc_model_rubbing = {
     .summary = "two rough bodies that wear as they slide over each other, over an inner model",
     .needs = 1u << RC_LOAD | 1u << RC_DISTANCE,
     .takes = 1u << RC_DISTANCE,
-    .figures = sets,
+    RC_MODEL_VERBS,
     .frame = rc_wear_frames,
-    .go = go,
-    .step = step,
-    .look = look,
-    .fill = fill,
-    .state = state,
     .keep = keep,
-    .progress = progress,
     .plan = plan,
 };
 
@@ -395,7 +373,6 @@ make(struct sliding *v, const double *h, const struct rc_wear_problem *law, stru
     if (rc_model_set_compliance(v->base.inner, 1 / law->estar, NULL, 0, err) != RC_OK ||
         rc_model_set_compliance(v->base.inner, 0, NULL, 0, err) != RC_OK)
         return RC_FAIL;
-    v->kept = true;
     v->h = rc_store_copy(&v->base.own, v->n, sizeof *h, h);
     for (int run = 0; run < RUNS; run++)
         for (int b = 0; b < 2; b++)

@@ -223,16 +223,6 @@ contact(struct wear *v, enum stage stage, struct rc_err *err)
     return pose(v, err) == RC_OK ? rc_model_go(v->base.inner, &to, err) : RC_FAIL;
 }
 
-static double
-size_of(size_t n, const double *a)
-{
-    struct rc_total sum = {0};
-
-    for (size_t k = 0; k < n; k++)
-        rc_total_add(&sum, fabs(a[k]));
-    return rc_total_value(&sum);
-}
-
 /* The sum of W p. */
 static double
 rate(const struct wear *v, const double *p)
@@ -266,17 +256,7 @@ lasting(const struct wear *v, const double *e)
             weights += rc_in_contact(v->p1[k]) / part(v, k);
             count += rc_in_contact(v->p1[k]);
         }
-    return fmax(size_of(v->n, e), weights > 0 ? count / weights * weighted : 0);
-}
-
-static double
-distance(size_t n, const double *a, const double *b)
-{
-    struct rc_total sum = {0};
-
-    for (size_t k = 0; k < n; k++)
-        rc_total_add(&sum, fabs(a[k] - b[k]));
-    return rc_total_value(&sum);
+    return fmax(rc_distance(e, NULL, v->n), weights > 0 ? count / weights * weighted : 0);
 }
 
 /* ---- steps ---- */
@@ -446,7 +426,7 @@ respond(struct wear *v, double *sum, struct rc_err *err)
         return RC_FAIL;
     v->f.convolutions += 1;
     lose(v, -v->over, v->room, v->e, NULL);
-    *sum = size_of(v->n, v->room);
+    *sum = rc_distance(v->room, NULL, v->n);
     return RC_OK;
 }
 
@@ -454,8 +434,8 @@ respond(struct wear *v, double *sum, struct rc_err *err)
 static enum rc_status
 even(struct wear *v, double of_p1, struct rc_err *err)
 {
-    const double step = most_lost(v) * v->tried, sum = size_of(v->n, v->p1);
-    const double change = distance(v->n, v->p1, v->p0), *error = v->error;
+    const double step = most_lost(v) * v->tried, sum = rc_distance(v->p1, NULL, v->n);
+    const double change = rc_distance(v->p1, v->p0, v->n), *error = v->error;
     double z;
 
     if (respond(v, &z, err) != RC_OK)
@@ -482,7 +462,8 @@ due(const struct wear *v)
 static enum rc_status
 judge(struct wear *v, double of_p1, struct rc_err *err)
 {
-    const double step = most_lost(v) * v->tried, sum = size_of(v->n, v->p1), *error = v->error;
+    const double step = most_lost(v) * v->tried, sum = rc_distance(v->p1, NULL, v->n),
+                 *error = v->error;
     const double most = of_tol * v->law.tol * v->tried * due(v);
     double e, z = 0, contacts, factor;
 
@@ -556,7 +537,8 @@ find_wear_error(struct wear *v, double of_p1, struct rc_err *err)
         return RC_FAIL;
     for (size_t k = 0; k < v->n; k++)
         open += rc_in_contact(v->p1[k]) ? fabs(v->room[k]) : 0;
-    v->error[WEAR_P1] = fmin(of_p1, caution * open / (v->k * v->over * size_of(v->n, v->p1)));
+    v->error[WEAR_P1] =
+        fmin(of_p1, caution * open / (v->k * v->over * rc_distance(v->p1, NULL, v->n)));
     return RC_OK;
 }
 
@@ -648,7 +630,7 @@ fill(struct rc_model *m, size_t frame, double *to, struct rc_err *err)
 static enum rc_status
 find_approach(struct wear *v, double *approach, struct rc_err *err)
 {
-    double top = -INFINITY, shift;
+    double shift;
 
     if (rc_model_frame(v->base.inner, "displacement", v->room, err) != RC_OK)
         return RC_FAIL;
@@ -656,10 +638,8 @@ find_approach(struct wear *v, double *approach, struct rc_err *err)
     if (height_in(v, v->p1, err) != RC_OK || fill(&v->base, RC_WEAR_GAP, v->room, err) != RC_OK)
         return RC_FAIL;
     shift -= v->p1[0] + v->room[0];
-    for (size_t k = 0; k < v->n; k++)
-        top = fmax(top, v->p1[k]);
     if (!isnan(*approach))
-        *approach = shift + top;
+        *approach = shift + rc_highest(v->p1, v->n);
     return RC_OK;
 }
 
@@ -751,15 +731,9 @@ const struct rc_model_row rc_model_wear = {
     .summary = "bodies that wear as they slide, over an inner model",
     .needs = 1u << RC_LOAD | 1u << RC_DISTANCE,
     .takes = 1u << RC_DISTANCE,
-    .figures = sets,
+    RC_MODEL_VERBS,
     .frame = rc_wear_frames,
-    .go = go,
-    .step = step,
-    .look = look,
-    .fill = fill,
-    .state = state,
     .keep = keep,
-    .progress = progress,
     .plan = plan,
 };
 
