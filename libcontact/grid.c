@@ -95,46 +95,38 @@ struct rc_grid *
 rc_grid_new_part(const struct rc_shape *shape, size_t rows, const char *channel, const char *unit,
                  struct rc_err *err)
 {
-    struct rc_grid *g = NULL;
+    RC_OWN(rc_grid, g) = NULL;
     size_t bytes;
 
     if (rc_shape_check(shape, err) != RC_OK)
         return NULL;
     bytes = shape->nx * rows * sizeof(double);
     g = calloc(1, sizeof *g);
-    if (g == NULL || (g->v = rc_alloc(bytes, 1)) == NULL) {
-        rc_err_set(err, "out of memory for a map of %zu x %zu nodes (%zu bytes)", shape->nx,
-                   shape->ny, bytes);
-        goto fail;
-    }
+    if (g == NULL || (g->v = rc_alloc(bytes, 1)) == NULL)
+        return rc_err_null(err, "out of memory for a map of %zu x %zu nodes (%zu bytes)", shape->nx,
+                           shape->ny, bytes);
     g->nx = shape->nx;
     g->ny = shape->ny;
     g->elsewhere = shape->ny - rows;
     g->dx = shape->dx;
     g->dy = shape->dy;
     g->type = RC_F64;
-    if (rc_text_set(&g->channel, channel, err) != RC_OK ||
-        rc_text_set(&g->unit, unit, err) != RC_OK)
-        goto fail;
-    return g;
-fail:
-    rc_grid_free(g);
-    return NULL;
+    return rc_text_set(&g->channel, channel, err) == RC_OK &&
+                   rc_text_set(&g->unit, unit, err) == RC_OK
+               ? rc_give(&g)
+               : NULL;
 }
 
 struct rc_grid *
 rc_grid_like(const struct rc_grid *like, const char *channel, const char *unit, struct rc_err *err)
 {
     struct rc_shape shape = rc_grid_shape(like);
-    struct rc_grid *g = rc_grid_new_part(&shape, like->ny - like->elsewhere, channel, unit, err);
+    RC_OWN(rc_grid, g) = rc_grid_new_part(&shape, like->ny - like->elsewhere, channel, unit, err);
 
-    for (size_t k = 0; g != NULL && k < like->keys; k++) {
-        if (rc_grid_set(g, like->key[k].name, like->key[k].value, err) != RC_OK) {
-            rc_grid_free(g);
-            g = NULL;
-        }
-    }
-    return g;
+    for (size_t k = 0; g != NULL && k < like->keys; k++)
+        if (rc_grid_set(g, like->key[k].name, like->key[k].value, err) != RC_OK)
+            return NULL;
+    return rc_give(&g);
 }
 
 void

@@ -6,8 +6,6 @@
 #ifndef RC_QUADRATURE_H
 #define RC_QUADRATURE_H
 
-#include <stddef.h>
-
 /* Points of a rule on (-1, 1). */
 struct rc_gauss {
     double x, w;

@@ -21,8 +21,6 @@
 
 #include <stdlib.h>
 
-#include "libcontact/memory.h"
-
 const char *const rc_criterion_names[RC_FATIGUES] = {"crossland",  "dangvan",   "papadopoulos",
                                                      "findley",    "shakedown", "amplitude",
                                                      "plane-tilt", "plane-turn"};
@@ -122,13 +120,13 @@ enum {
 };
 
 struct rc_history *
-rc_history_new(size_t most)
+rc_history_new(struct rc_store *own, size_t most)
 {
-    RC_OWNED struct rc_history *w = calloc(1, sizeof *w);
+    struct rc_history *w = rc_store_zeros(own, 1, sizeof *w);
     const size_t line = (most + 7) / 8 * 8;
-    double *at;
+    double *at = rc_store_take(own, LINES * line, sizeof *at);
 
-    if (w == NULL || (at = rc_alloc(LINES * line, sizeof *at)) == NULL)
+    if (w == NULL || at == NULL)
         return NULL;
     for (size_t c = 0; c < RC_COMPONENTS; c++, at += line)
         w->s[c] = at;
@@ -138,15 +136,7 @@ rc_history_new(size_t most)
     w->u = at + line;
     w->v = at + 2 * line;
     w->room = at + 3 * line;
-    return rc_give(&w);
-}
-
-void
-rc_history_free(struct rc_history *w)
-{
-    if (w != NULL)
-        free(w->s[0]);
-    free(w);
+    return w;
 }
 
 RC_CLONES static void
@@ -481,13 +471,14 @@ rc_fatigue_history(unsigned wanted, const struct rc_fatigue_limits *limits, bool
 {
     struct rc_fatigue_rule rule;
     struct rc_fatigue_values all;
-    RC_OWN(rc_history, w) = NULL;
+    RC_ENDS(rc_store_free) struct rc_store own = {0};
+    struct rc_history *w;
 
     if (rc_fatigue_check_limits(wanted, limits, err) != RC_OK)
         return RC_FAIL;
     if (n == 0)
         return rc_err_set(err, "a history of 0 states");
-    if ((w = rc_history_new(n)) == NULL)
+    if ((w = rc_history_new(&own, n)) == NULL)
         return rc_err_set(err, "out of memory for a history of %zu states", n);
     rule = rc_fatigue_rule_of(wanted, full, limits);
     w->n = n;

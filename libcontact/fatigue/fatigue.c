@@ -11,7 +11,6 @@
 #include <string.h>
 
 #include "fatigue.h"
-#include "libcontact/memory.h"
 
 enum {
     WORST = 16, /* points of a depth whose sampling error is measured          */
@@ -176,7 +175,6 @@ allocate(struct rc_fatigue *f, struct rc_err *err)
     const struct rc_fatigue_problem *p = &f->problem;
     const size_t n = f->shape.nx * f->shape.ny, points = f->result.nx * f->result.ny;
     const size_t layers = p->stress.body.layers;
-    bool good = true;
 
     for (int c = 0; c < RC_COMPONENTS; c++)
         f->map[c] = rc_store_take(&f->own, n, sizeof(double));
@@ -189,10 +187,10 @@ allocate(struct rc_fatigue *f, struct rc_err *err)
         f->layer = rc_store_take(&f->own, layers + 1, sizeof *f->layer);
     for (size_t k = 0; f->layer != NULL && k <= layers; k++)
         f->layer[k] = k < layers ? p->stress.residual[k] : 0;
-    f->work = calloc((size_t)f->threads, sizeof(struct rc_history *));
+    f->work = rc_store_take(&f->own, (size_t)f->threads, sizeof *f->work);
     for (int k = 0; f->work != NULL && k < f->threads; k++)
-        good = (f->work[k] = rc_history_new(f->states)) != NULL && good;
-    return good && !f->own.failed && f->work != NULL
+        f->work[k] = rc_history_new(&f->own, f->states);
+    return !f->own.failed
                ? RC_OK
                : rc_err_set(err, "out of memory for histories of %zu states at %zu points",
                             f->states, points);
@@ -235,11 +233,8 @@ rc_fatigue_free(struct rc_fatigue *f)
 {
     if (f == NULL)
         return;
-    for (int k = 0; f->work != NULL && k < f->threads; k++)
-        rc_history_free(f->work[k]);
     rc_stress_free(f->stress);
     rc_store_free(&f->own);
-    free(f->work);
     free(f);
 }
 

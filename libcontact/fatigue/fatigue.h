@@ -5,6 +5,7 @@
 #define RC_FATIGUE_H
 
 #include "libcontact/common.h"
+#include "libcontact/memory.h"
 
 /* ---- ball.c ---- */
 
@@ -38,9 +39,8 @@ struct rc_history {
     double *x[RC_BALL_MOST], *h; /* deviator, whose square is J2; hydrostatic stress */
     double *u, *v, *room;
 };
-struct rc_history *rc_history_new(size_t most); /* NULL: memory is short */
-void rc_history_free(struct rc_history *history);
-RC_OWNER(rc_history)
+/* For at most so many states, in memory of `own`; NULL when that is short. */
+struct rc_history *rc_history_new(struct rc_store *own, size_t most);
 
 struct rc_fatigue_values {
     double of[RC_FATIGUES];

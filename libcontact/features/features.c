@@ -141,8 +141,8 @@ rc_features(const struct rc_shape *shape, const double *h, const struct rc_surfa
             struct rc_features *a, struct rc_err *err)
 {
     struct rc_field f = {.h = h, .wraps = options->boundary == RC_PERIODIC};
+    RC_ENDS(rc_store_free) struct rc_store own = {0};
     struct figures hills = {0, NAN, NAN, NAN}, dales = {0, NAN, NAN, NAN};
-    enum rc_status status = RC_FAIL;
     double mean;
 
     *a = (struct rc_features){NAN, NAN, NAN, NAN, NAN, NAN, NAN, NAN};
@@ -154,22 +154,19 @@ rc_features(const struct rc_shape *shape, const double *h, const struct rc_surfa
         return RC_OK;
     f.least = prune * f.range;
     f.threads = rc_useful_threads(shape, options->threads);
-    f.mark = rc_alloc(shape->nx * shape->ny, sizeof *f.mark);
-    f.hill = rc_alloc(shape->nx * shape->ny, sizeof *f.hill);
-    if (f.mark != NULL && f.hill != NULL && measure(&f, 1, mean, &hills) == RC_OK)
-        status = measure(&f, -1, mean, &dales);
-    if (status == RC_OK)
-        *a = (struct rc_features){.spd = hills.density,
-                                  .svd = dales.density,
-                                  .spc = hills.curvature,
-                                  .s5p = hills.five,
-                                  .s5v = dales.five,
-                                  .s10z = hills.five + dales.five,
-                                  .sha = hills.area,
-                                  .sda = dales.area};
-    else
-        rc_err_set(err, "out of memory for the hills of %zu x %zu nodes", shape->nx, shape->ny);
-    free(f.mark);
-    free(f.hill);
-    return status;
+    f.mark = rc_store_take(&own, shape->nx * shape->ny, sizeof *f.mark);
+    f.hill = rc_store_take(&own, shape->nx * shape->ny, sizeof *f.hill);
+    if (own.failed || measure(&f, 1, mean, &hills) != RC_OK ||
+        measure(&f, -1, mean, &dales) != RC_OK)
+        return rc_err_set(err, "out of memory for the hills of %zu x %zu nodes", shape->nx,
+                          shape->ny);
+    *a = (struct rc_features){.spd = hills.density,
+                              .svd = dales.density,
+                              .spc = hills.curvature,
+                              .s5p = hills.five,
+                              .s5v = dales.five,
+                              .s10z = hills.five + dales.five,
+                              .sha = hills.area,
+                              .sda = dales.area};
+    return RC_OK;
 }

@@ -131,13 +131,12 @@ enum rc_status
 rc_blocks_fill(const struct rc_passage *a, const struct rc_levels *levels, struct rc_err *err)
 {
     size_t nodes = (size_t)a->nodes;
-    int32_t *list = malloc(nodes * sizeof *list);
-    bool *seen = calloc(nodes, sizeof *seen);
-    enum rc_status status = RC_OK;
+    RC_OWNED int32_t *list = malloc(nodes * sizeof *list);
+    RC_OWNED bool *seen = calloc(nodes, sizeof *seen);
 
     if (list == NULL || seen == NULL)
-        status = rc_err_set(err, "out of memory for the channels of %zu x %zu nodes", a->nx, a->ny);
-    for (int32_t k = 0; status == RC_OK && k < a->nodes; k++) {
+        return rc_err_set(err, "out of memory for the channels of %zu x %zu nodes", a->nx, a->ny);
+    for (int32_t k = 0; k < a->nodes; k++) {
         double shared;
         if (a->state[k] == RC_DRY)
             levels->p[k] = NAN;
@@ -146,7 +145,5 @@ rc_blocks_fill(const struct rc_passage *a, const struct rc_levels *levels, struc
         for (int32_t n = pool_of(a, k, levels, list, seen, &shared); n > 0; n--)
             levels->p[list[n - 1]] = shared;
     }
-    free(list);
-    free(seen);
-    return status;
+    return RC_OK;
 }

@@ -10,9 +10,6 @@
  */
 #include "leak.h"
 
-#include <math.h>
-#include <stdlib.h>
-
 #include "libcontact/common.h"
 #include "libcontact/memory.h"
 

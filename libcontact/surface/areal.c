@@ -10,15 +10,34 @@ enum {
     PIECE = 4096 /* values of a sum that needs no compensation */
 };
 
+/* Sums of `sums` numbers over rows, or pieces, of the map. */
+static enum rc_status
+sum_up(struct rc_relief *r, rc_sums_work *work, size_t rows, size_t sums, double *total,
+       struct rc_err *err)
+{
+    struct rc_sums s;
+
+    if (rc_sums_new(&s, rows, sums, 0, r->threads) != RC_OK)
+        return rc_err_set(err, "out of memory for the figures of %zu x %zu nodes", r->shape.nx,
+                          r->shape.ny);
+    rc_sums_rows(&s, work, r, total);
+    free(s.row);
+    return RC_OK;
+}
+
 /* ---- heights ---- */
 
-/* Sums of the powers of d = v - mean, and of |d|. */
-struct moments {
-    double first, size, second, third, fourth;
+enum { /* sums of the powers of d = v - mean, and of |d| */
+    FIRST,
+    SIZE,
+    SECOND,
+    THIRD,
+    FOURTH,
+    MOMENTS
 };
 
-RC_CLONES static struct moments
-moments_of(const double *v, size_t n, double mean)
+RC_CLONES static void
+add_moments(const double *v, size_t n, double mean, double *sums)
 {
     double first = 0, size = 0, second = 0, third = 0, fourth = 0;
 
@@ -31,7 +50,20 @@ moments_of(const double *v, size_t n, double mean)
         third += d2 * d;
         fourth += d2 * d2;
     }
-    return (struct moments){first, size, second, third, fourth};
+    sums[FIRST] = first;
+    sums[SIZE] = size;
+    sums[SECOND] = second;
+    sums[THIRD] = third;
+    sums[FOURTH] = fourth;
+}
+
+static void
+moments_of_piece(void *of, size_t k, double *sums)
+{
+    const struct rc_relief *r = of;
+    const size_t left = r->shape.nx * r->shape.ny - k * PIECE;
+
+    add_moments(r->h + k * PIECE, left < PIECE ? left : PIECE, r->mean, sums);
 }
 
 static void
@@ -47,42 +79,41 @@ measure_extent(struct rc_relief *r)
     r->mean = fmin(fmax(s.mean, s.minimum), s.maximum);
 }
 
-static void
-measure_heights(const struct rc_relief *r, struct moments *piece, size_t pieces, struct rc_areal *a)
+static enum rc_status
+measure_heights(struct rc_relief *r, struct rc_areal *a, struct rc_err *err)
 {
-    size_t n = r->shape.nx * r->shape.ny;
-    double there = (double)r->there, variance, left;
-    struct rc_total sum[5] = {{0}};
+    const double there = (double)r->there;
+    double sum[MOMENTS], variance, left;
 
-#pragma omp parallel for num_threads(r->threads) schedule(static)
-    for (size_t k = 0; k < pieces; k++)
-        piece[k] = moments_of(r->h + k * PIECE, k + 1 < pieces ? PIECE : n - k * PIECE, r->mean);
-    for (size_t k = 0; k < pieces; k++) {
-        const struct moments *m = &piece[k];
-        rc_total_add(&sum[0], m->first);
-        rc_total_add(&sum[1], m->size);
-        rc_total_add(&sum[2], m->second);
-        rc_total_add(&sum[3], m->third);
-        rc_total_add(&sum[4], m->fourth);
-    }
-    left = rc_total_value(&sum[0]) / there; /* the mean itself is rounded */
-    variance = fmax(0, rc_total_value(&sum[2]) / there - left * left);
+    if (sum_up(r, moments_of_piece, (r->shape.nx * r->shape.ny - 1) / PIECE + 1, MOMENTS, sum,
+               err) != RC_OK)
+        return RC_FAIL;
+    left = sum[FIRST] / there; /* the mean itself is rounded */
+    variance = fmax(0, sum[SECOND] / there - left * left);
     a->sq = sqrt(variance);
-    a->sa = rc_total_value(&sum[1]) / there;
+    a->sa = sum[SIZE] / there;
     if (variance > 0) {
-        a->ssk = rc_total_value(&sum[3]) / there / (variance * a->sq);
-        a->sku = rc_total_value(&sum[4]) / there / (variance * variance);
+        a->ssk = sum[THIRD] / there / (variance * a->sq);
+        a->sku = sum[FOURTH] / there / (variance * variance);
     }
     a->sp = r->maximum - r->mean;
     a->sv = r->mean - r->minimum;
     a->sz = r->maximum - r->minimum;
+    return RC_OK;
 }
 
 /* ---- slopes ---- */
 
-/* Sums and counts over pairs along x and y, and over triangles. */
-struct slopes {
-    double x2, x_pairs, y2, y_pairs, excess, triangles, curved2, curved;
+enum { /* sums and counts over pairs along x and y, over triangles, and over nodes */
+    X2,
+    X_PAIRS,
+    Y2,
+    Y_PAIRS,
+    EXCESS,
+    TRIANGLES,
+    CURVED2,
+    CURVED,
+    SLOPES
 };
 
 /* The increase of an area or a length by a slope, over its projection; g2 is the squared slope. */
@@ -94,7 +125,7 @@ excess(double g2)
 
 /* Adds the squared slopes of the steps from v[i] to next[i], for n nodes, and their number. */
 RC_CLONES static void
-add_steps(const double *v, const double *next, size_t n, double per, double *squares, double *pairs)
+add_steps(const double *v, const double *next, size_t n, double per, double *sums)
 {
     double sum = 0, count = 0;
 
@@ -105,15 +136,15 @@ add_steps(const double *v, const double *next, size_t n, double per, double *squ
         sum += is ? g * g : 0;
         count += is ? 1 : 0;
     }
-    *squares += sum;
-    *pairs += count;
+    sums[0] += sum;
+    sums[1] += count;
 }
 
 /* The four triangles of each four neighbouring nodes: both halves along either diagonal, each with a side
  * along x and one along y. NaN in a corner makes its triangles NaN. */
 RC_CLONES static void
 add_triangles(const double *v, const double *below, size_t n, double per_dx, double per_dy,
-              struct slopes *to)
+              double *sums)
 {
     double sum = 0, count = 0;
 
@@ -132,25 +163,25 @@ add_triangles(const double *v, const double *below, size_t n, double per_dx, dou
         count += bl <= DBL_MAX ? 1 : 0;
         count += br <= DBL_MAX ? 1 : 0;
     }
-    to->excess += sum;
-    to->triangles += count;
+    sums[EXCESS] += sum;
+    sums[TRIANGLES] += count;
 }
 
 /* On a profile segments replace triangles. */
 static void
-add_segment(double from, double to_next, double per, struct slopes *to)
+add_segment(double from, double to_next, double per, double *sums)
 {
     double g = (to_next - from) * per, g2 = g * g;
 
     if (!(g2 <= DBL_MAX))
         return;
-    to->excess += excess(g2);
-    to->triangles++;
+    sums[EXCESS] += excess(g2);
+    sums[TRIANGLES]++;
 }
 
 /* Mean curvatures of row j; on a periodic map neighbours wrap. */
 static void
-add_curvatures(const struct rc_relief *r, size_t j, struct slopes *to)
+add_curvatures(const struct rc_relief *r, size_t j, double *sums)
 {
     size_t nx = r->shape.nx, ny = r->shape.ny, edge = r->boundary == RC_PERIODIC ? 0 : 1;
     double part = nx > 1 && ny > 1 ? 0.5 : 1;
@@ -167,60 +198,48 @@ add_curvatures(const struct rc_relief *r, size_t j, struct slopes *to)
         c += ny > 1 ? yy * (above[i] - 2 * v[i] + below[i]) : 0;
         if (!isfinite(c))
             continue;
-        to->curved2 += c * c;
-        to->curved++;
+        sums[CURVED2] += c * c;
+        sums[CURVED]++;
     }
-}
-
-static struct slopes
-slopes_of_row(const struct rc_relief *r, size_t j)
-{
-    size_t nx = r->shape.nx, ny = r->shape.ny;
-    double per_dx = 1 / r->shape.dx, per_dy = 1 / r->shape.dy;
-    const double *v = r->h + j * nx, *below = v + nx;
-    struct slopes s = {0};
-
-    add_curvatures(r, j, &s);
-    add_steps(v, v + 1, nx - 1, per_dx, &s.x2, &s.x_pairs);
-    for (size_t i = 0; ny == 1 && i + 1 < nx; i++)
-        add_segment(v[i], v[i + 1], per_dx, &s);
-    if (j + 1 == ny)
-        return s;
-    add_steps(v, below, nx, per_dy, &s.y2, &s.y_pairs);
-    if (nx == 1)
-        add_segment(v[0], below[0], per_dy, &s);
-    else
-        add_triangles(v, below, nx - 1, per_dx, per_dy, &s);
-    return s;
 }
 
 static void
-measure_slopes(const struct rc_relief *r, struct slopes *row, struct rc_areal *a)
+slopes_of_row(void *of, size_t j, double *sums)
 {
-    struct rc_total sum[8] = {{0}};
-    double x, y;
+    const struct rc_relief *r = of;
+    size_t nx = r->shape.nx, ny = r->shape.ny;
+    double per_dx = 1 / r->shape.dx, per_dy = 1 / r->shape.dy;
+    const double *v = r->h + j * nx, *below = v + nx;
 
-#pragma omp parallel for num_threads(r->threads) schedule(static)
-    for (size_t j = 0; j < r->shape.ny; j++)
-        row[j] = slopes_of_row(r, j);
-    for (size_t j = 0; j < r->shape.ny; j++) {
-        rc_total_add(&sum[0], row[j].x2);
-        rc_total_add(&sum[1], row[j].x_pairs);
-        rc_total_add(&sum[2], row[j].y2);
-        rc_total_add(&sum[3], row[j].y_pairs);
-        rc_total_add(&sum[4], row[j].excess);
-        rc_total_add(&sum[5], row[j].triangles);
-        rc_total_add(&sum[6], row[j].curved2);
-        rc_total_add(&sum[7], row[j].curved);
-    }
+    add_curvatures(r, j, sums);
+    add_steps(v, v + 1, nx - 1, per_dx, sums + X2);
+    for (size_t i = 0; ny == 1 && i + 1 < nx; i++)
+        add_segment(v[i], v[i + 1], per_dx, sums);
+    if (j + 1 == ny)
+        return;
+    add_steps(v, below, nx, per_dy, sums + Y2);
+    if (nx == 1)
+        add_segment(v[0], below[0], per_dy, sums);
+    else
+        add_triangles(v, below, nx - 1, per_dx, per_dy, sums);
+}
+
+static enum rc_status
+measure_slopes(struct rc_relief *r, struct rc_areal *a, struct rc_err *err)
+{
+    double sum[SLOPES], x, y;
+
+    if (sum_up(r, slopes_of_row, r->shape.ny, SLOPES, sum, err) != RC_OK)
+        return RC_FAIL;
     /* 0/0 = NAN along a side of several nodes without a pair */
-    x = r->shape.nx > 1 ? rc_total_value(&sum[0]) / rc_total_value(&sum[1]) : 0;
-    y = r->shape.ny > 1 ? rc_total_value(&sum[2]) / rc_total_value(&sum[3]) : 0;
-    if (r->shape.nx * r->shape.ny > 1)
+    x = r->shape.nx > 1 ? sum[X2] / sum[X_PAIRS] : 0;
+    y = r->shape.ny > 1 ? sum[Y2] / sum[Y_PAIRS] : 0;
+    if (r->shape.nx * r->shape.ny > 1) {
         a->sdq = sqrt(x + y);
-    if (r->shape.nx * r->shape.ny > 1)
-        a->rms_curvature = sqrt(rc_total_value(&sum[6]) / rc_total_value(&sum[7]));
-    a->sdr = rc_total_value(&sum[4]) / rc_total_value(&sum[5]);
+        a->rms_curvature = sqrt(sum[CURVED2] / sum[CURVED]);
+    }
+    a->sdr = sum[EXCESS] / sum[TRIANGLES];
+    return RC_OK;
 }
 
 /* ---- all parameters ---- */
@@ -244,9 +263,6 @@ rc_areal(const struct rc_shape *shape, const double *h, const struct rc_surface_
          struct rc_areal *a, struct rc_err *err)
 {
     struct rc_relief r = {.h = h, .boundary = options->boundary};
-    RC_OWNED struct moments *piece = NULL;
-    RC_OWNED struct slopes *row = NULL;
-    size_t pieces;
 
     *a = (struct rc_areal){NAN, NAN, NAN, NAN, NAN, NAN, NAN, NAN, NAN, NAN, NAN, NAN,
                            NAN, NAN, NAN, NAN, NAN, NAN, NAN, NAN, NAN, NAN, NAN};
@@ -254,18 +270,11 @@ rc_areal(const struct rc_shape *shape, const double *h, const struct rc_surface_
         return RC_FAIL;
     r.shape = *shape;
     r.threads = rc_useful_threads(shape, options->threads);
-    pieces = (shape->nx * shape->ny - 1) / PIECE + 1;
-    piece = malloc(pieces * sizeof *piece);
-    row = malloc(shape->ny * sizeof *row);
-    if (piece == NULL || row == NULL)
-        return rc_err_set(err, "out of memory for the figures of %zu x %zu nodes", shape->nx,
-                          shape->ny);
     measure_extent(&r);
     if (r.there == 0)
         return RC_OK;
-    measure_heights(&r, piece, pieces, a);
-    measure_slopes(&r, row, a);
-    if (r.maximum > r.minimum && rc_texture(&r, a, err) != RC_OK)
+    if (measure_heights(&r, a, err) != RC_OK || measure_slopes(&r, a, err) != RC_OK ||
+        (r.maximum > r.minimum && rc_texture(&r, a, err) != RC_OK))
         return RC_FAIL;
     return rc_material_ratio(&r, a, err);
 }

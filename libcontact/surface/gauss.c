@@ -46,6 +46,13 @@ struct sums {
     double *w;
 };
 
+static struct sums
+sums_new(struct rc_store *own, size_t out, size_t taps, size_t step, size_t phases, ptrdiff_t start)
+{
+    return (struct sums){out,    taps,  step,
+                         phases, start, rc_store_take(own, taps * phases, sizeof(double))};
+}
+
 /* The sums along one direction: down to the coarse nodes and up again; if `two` is false, `down` is the whole
  * filter. */
 struct way {
@@ -66,6 +73,7 @@ struct gauss {
     double *room;       /* memory for each thread: lines, rows of sums and their weights */
     const double **row; /* for each thread: addresses of the rows to add */
     size_t per_thread, rows_per_thread;
+    struct rc_store own;
 };
 
 static size_t
@@ -74,88 +82,64 @@ smaller(size_t a, size_t b)
     return a < b ? a : b;
 }
 
-static size_t
-larger(size_t a, size_t b)
-{
-    return a > b ? a : b;
-}
-
 /* ---- sums along a line ---- */
 
+/* `w` may be NULL: memory is short. */
 static void
 fill_gaussian(double *w, size_t taps, double first, double step, double width)
 {
-
-    for (size_t t = 0; t < taps; t++) {
+    for (size_t t = 0; t < taps && w != NULL; t++) {
         double u = (first + (double)t * step) / width;
         w[t] = exp(-RC_PI * u * u);
     }
 }
 
-static bool
-sums_new(struct sums *s, size_t out, size_t taps, size_t phases)
-{
-    s->out = out;
-    s->taps = taps;
-    s->phases = phases;
-    s->w = rc_alloc(taps * phases, sizeof *s->w);
-    return s->w != NULL;
-}
-
 /* A width given in nodes. */
-static bool
-way_direct(struct way *way, double width)
+static void
+way_direct(struct way *way, struct rc_store *own, double width)
 {
     size_t half = (size_t)ceil(reach * width);
 
     way->m = way->n;
     way->pad = half;
-    way->down = (struct sums){.step = 1, .start = -(ptrdiff_t)half};
-    if (!sums_new(&way->down, way->n, 2 * half + 1, 1))
-        return false;
+    way->down = sums_new(own, way->n, 2 * half + 1, 1, 1, -(ptrdiff_t)half);
     fill_gaussian(way->down.w, way->down.taps, -(double)half, 1, width);
-    return true;
 }
 
 /* Coarse node c is at the fine place (c - before) step; includes those within reach of the ends of the
  * line. */
-static bool
-way_coarse(struct way *way, double width, size_t step)
+static void
+way_coarse(struct way *way, struct rc_store *own, double width, size_t step)
 {
     double half_width = width / sqrt(2);
     size_t half = (size_t)ceil(reach * half_width), before = (half + step - 1) / step;
 
     way->two = true;
     way->m = (way->n - 1) / step + 2 * before + 2;
-    way->down = (struct sums){.step = step, .start = -(ptrdiff_t)(before * step + half)};
-    way->up = (struct sums){.step = 1};
     way->pad = before * step + half + 2 * step;
-    if (!sums_new(&way->down, way->m, 2 * half + 1, 1) ||
-        !sums_new(&way->up, way->n, 2 * before + 2, step))
-        return false;
+    way->down = sums_new(own, way->m, 2 * half + 1, step, 1, -(ptrdiff_t)(before * step + half));
+    way->up = sums_new(own, way->n, 2 * before + 2, 1, step, 0);
     fill_gaussian(way->down.w, way->down.taps, -(double)half, 1, half_width);
-    for (size_t p = 0; p < step; p++)
+    for (size_t p = 0; p < step && way->up.w != NULL; p++)
         fill_gaussian(way->up.w + p * way->up.taps, way->up.taps, (double)(p + before * step),
                       -(double)step, half_width);
-    return true;
 }
 
 /* `width` of the Gaussian in nodes; a line of one node is not filtered. */
-static bool
-way_new(struct way *way, size_t n, double width)
+static void
+way_new(struct way *way, struct rc_store *own, size_t n, double width)
 {
     size_t step = (size_t)(width / coarse_per_width);
 
-    *way = (struct way){.n = n};
+    *way = (struct way){.n = n, .m = 1};
     if (n == 1) {
-        way->m = 1;
-        way->down = (struct sums){.step = 1};
-        if (!sums_new(&way->down, 1, 1, 1))
-            return false;
-        way->down.w[0] = 1;
-        return true;
+        way->down = sums_new(own, 1, 1, 1, 1, 0);
+        fill_gaussian(way->down.w, 1, 0, 1, 1);
+    } else if (step < 2) {
+        way_direct(way, own, width);
+    } else {
+        way_coarse(way, own, width, step);
     }
-    return step < 2 ? way_direct(way, width) : way_coarse(way, width, step);
 }
 
 /* First input of sum k. */
@@ -299,19 +283,6 @@ add_rows(size_t rows, const double *const *row, const double *w, size_t first, s
 
 /* ---- the plan ---- */
 
-static void
-gauss_free(struct gauss *g)
-{
-    free(g->x.down.w);
-    free(g->x.up.w);
-    free(g->y.down.w);
-    free(g->y.up.w);
-    free(g->mid);
-    free(g->low);
-    free(g->room);
-    free(g->row);
-}
-
 /* Number of rows used by TOGETHER sums. */
 static size_t
 rows_of(const struct sums *s)
@@ -326,42 +297,30 @@ line_room(const struct way *way)
     return (way->n + 2 * way->pad + WIDE - 1) / WIDE * WIDE;
 }
 
-/* The sums and their memory. */
-static bool
-plan(struct gauss *g, double cutoff)
-{
-    double width = sqrt(log(2) / RC_PI) * cutoff;
-
-    if (!way_new(&g->x, g->shape->nx, width / g->shape->dx) ||
-        !way_new(&g->y, g->shape->ny, width / g->shape->dy))
-        return false;
-    /* a row fills whole cache lines; one more line keeps rows out of the same cache sets */
-    g->stride = (g->x.m + WIDE - 1) / WIDE * WIDE + WIDE;
-    g->rows_per_thread = larger(rows_of(&g->y.down), g->y.two ? rows_of(&g->y.up) : 0);
-    g->per_thread = 2 * line_room(&g->x) + 2 * TOGETHER * g->stride +
-                    (TOGETHER * g->rows_per_thread + WIDE - 1) / WIDE * WIDE;
-    return true;
-}
-
-static size_t
-low_numbers(const struct gauss *g)
-{
-    return g->y.two ? g->y.m * 2 * g->stride : 0;
-}
-
 static enum rc_status
 gauss_new(struct gauss *g, const struct rc_shape *shape, const struct rc_filter *what,
           struct rc_err *err)
 {
+    const double width = sqrt(log(2) / RC_PI) * what->cutoff;
+    size_t low, down, up;
+
     *g = (struct gauss){.shape = shape, .periodic = what->periodic};
     g->threads = rc_useful_threads(shape, what->threads);
-    if (plan(g, what->cutoff)) {
-        g->mid = rc_alloc(shape->ny, 2 * g->stride * sizeof *g->mid);
-        g->low = rc_alloc(low_numbers(g), sizeof *g->low);
-        g->room = rc_alloc((size_t)g->threads, g->per_thread * sizeof *g->room);
-        g->row = rc_alloc((size_t)g->threads, g->rows_per_thread * sizeof *g->row);
-    }
-    if (g->mid == NULL || g->low == NULL || g->room == NULL || g->row == NULL)
+    way_new(&g->x, &g->own, shape->nx, width / shape->dx);
+    way_new(&g->y, &g->own, shape->ny, width / shape->dy);
+    /* a row fills whole cache lines; one more line keeps rows out of the same cache sets */
+    g->stride = (g->x.m + WIDE - 1) / WIDE * WIDE + WIDE;
+    low = g->y.two ? g->y.m * 2 * g->stride : 0;
+    down = rows_of(&g->y.down);
+    up = g->y.two ? rows_of(&g->y.up) : 0;
+    g->rows_per_thread = down > up ? down : up;
+    g->per_thread = 2 * line_room(&g->x) + 2 * TOGETHER * g->stride +
+                    (TOGETHER * g->rows_per_thread + WIDE - 1) / WIDE * WIDE;
+    g->mid = rc_store_take(&g->own, shape->ny, 2 * g->stride * sizeof *g->mid);
+    g->low = rc_store_take(&g->own, low, sizeof *g->low);
+    g->room = rc_store_take(&g->own, (size_t)g->threads, g->per_thread * sizeof *g->room);
+    g->row = rc_store_take(&g->own, (size_t)g->threads, g->rows_per_thread * sizeof *g->row);
+    if (g->own.failed)
         return rc_err_set(err, "out of memory for a filter of %zu x %zu nodes", shape->nx,
                           shape->ny);
     return RC_OK;
@@ -579,16 +538,17 @@ enum rc_status
 rc_filter(const struct rc_shape *shape, const struct rc_filter *what, double *h, struct rc_err *err)
 {
     size_t n = shape->nx * shape->ny;
-    RC_ENDS(gauss_free) struct gauss g = {0};
     struct rc_statistics s;
     enum rc_status status;
-    RC_OWNED double *r = NULL;
+    struct gauss g;
+    double *r;
 
     rc_measure(shape, h, &s);
     if (check(shape, what, &s, err) != RC_OK)
         return RC_FAIL;
     status = gauss_new(&g, shape, what, err);
-    if (status == RC_OK && what->robust && (r = rc_alloc(n, sizeof *r)) == NULL)
+    r = what->robust ? rc_store_take(&g.own, n, sizeof *r) : NULL;
+    if (status == RC_OK && g.own.failed)
         status = rc_err_set(err, "out of memory for the residuals of %zu heights", n);
     if (status == RC_OK && !what->robust)
         pass(&g, &(struct weighted){.h = h, .mean = s.mean}, !what->high, h);
@@ -597,5 +557,6 @@ rc_filter(const struct rc_shape *shape, const struct rc_filter *what, double *h,
         for (size_t k = 0; k < n; k++)
             h[k] = what->high ? r[k] : h[k] - r[k];
     }
+    rc_store_free(&g.own);
     return status;
 }

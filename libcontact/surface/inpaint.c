@@ -8,7 +8,6 @@
 #include "libcontact/memory.h"
 
 #include <math.h>
-#include <stdlib.h>
 
 enum {
     LEFT = 1, /* the neighbour on this side is missing too */
@@ -29,26 +28,19 @@ struct equations {
     double *x, *r, *z, *d, *q; /* solution, residual, preconditioned, direction, A direction     */
 };
 
-static void
-equations_free(struct equations *e)
-{
-    free(e->sides);
-    free(e->above);
-    free(e->diagonal);
-}
-
 static enum rc_status
-equations_new(struct equations *e, const struct rc_shape *shape, size_t n, struct rc_err *err)
+equations_new(struct equations *e, struct rc_store *own, const struct rc_shape *shape, size_t n,
+              struct rc_err *err)
 {
     size_t bytes;
 
     *e = (struct equations){.n = n, .wx = shape->dy / shape->dx, .wy = shape->dx / shape->dy};
     if (rc_size_mul(n, VECTORS * sizeof *e->diagonal + sizeof *e->above + 1, &bytes, err) != RC_OK)
         return RC_FAIL;
-    e->sides = calloc(n, 1);
-    e->above = malloc(n * sizeof *e->above);
-    e->diagonal = calloc(VECTORS * n, sizeof *e->diagonal);
-    if (e->sides == NULL || e->above == NULL || e->diagonal == NULL)
+    e->sides = rc_store_zeros(own, n, 1);
+    e->above = rc_store_take(own, n, sizeof *e->above);
+    e->diagonal = rc_store_zeros(own, VECTORS * n, sizeof *e->diagonal);
+    if (own->failed)
         return rc_err_set(err, "out of memory to fill %zu missing values (%zu bytes)", n, bytes);
     e->pivot = e->diagonal + n;
     e->x = e->pivot + n;
@@ -210,7 +202,8 @@ solve(struct equations *e, struct rc_err *err)
 enum rc_status
 rc_inpaint(const struct rc_shape *shape, double *h, size_t *filled, struct rc_err *err)
 {
-    RC_ENDS(equations_free) struct equations e = {0};
+    RC_ENDS(rc_store_free) struct rc_store own = {0};
+    struct equations e;
     struct rc_statistics s;
     size_t nodes = shape->nx * shape->ny;
 
@@ -225,7 +218,7 @@ rc_inpaint(const struct rc_shape *shape, double *h, size_t *filled, struct rc_er
                           s.infinite, nodes);
     if (s.missing == nodes)
         return rc_err_set(err, "all %zu values are missing: nothing to fill them from", nodes);
-    if (equations_new(&e, shape, s.missing, err) != RC_OK)
+    if (equations_new(&e, &own, shape, s.missing, err) != RC_OK)
         return RC_FAIL;
     set_up(&e, shape, h, s.mean);
     factor(&e);
