@@ -66,6 +66,8 @@ static const struct {
     [UNIT_DIFFUSIVITY] = {"m2/s", "mm2/s m2/s", NULL},
     [UNIT_HEAT] = {"J/m3K", "kJ/m3K MJ/m3K", NULL},
     [UNIT_HZ] = {"Hz", "Hz kHz", NULL},
+    [UNIT_W_MK] = {"W/mK or S/m", "W/mK", NULL},
+    [UNIT_S_M] = {"W/mK or S/m", "S/m", NULL},
 };
 
 const char *
@@ -175,10 +177,12 @@ static const struct quotient {
     int exponent; /* of the unit above */
     int power;    /* of ten: size of the quotient in SI, times `over` */
     double over;
+    bool metre; /* below comes a metre with its prefix, and then `below` */
 } quotients[] = {
-    {UNIT_SPEED, "m", "s", 1, 0, 1},    {UNIT_SPEED, "m", "min", 1, 0, 60},
-    {UNIT_SPEED, "m", "h", 1, 0, 3600}, {UNIT_DIFFUSIVITY, "m", "s", 2, 0, 1},
-    {UNIT_HEAT, "J", "m3K", 1, 0, 1},   {UNIT_HEAT, "J", "cm3K", 1, 6, 1},
+    {UNIT_SPEED, "m", "s", 1, 0, 1, false},    {UNIT_SPEED, "m", "min", 1, 0, 60, false},
+    {UNIT_SPEED, "m", "h", 1, 0, 3600, false}, {UNIT_DIFFUSIVITY, "m", "s", 2, 0, 1, false},
+    {UNIT_HEAT, "J", "m3K", 1, 0, 1, false},   {UNIT_HEAT, "J", "cm3K", 1, 6, 1, false},
+    {UNIT_W_MK, "W", "K", 1, 0, 1, true},      {UNIT_S_M, "S", "", 1, 0, 1, true},
 };
 
 /* The letters and digits of text[0..n). */
@@ -199,7 +203,7 @@ apply_quotient(const char *digits, size_t length, const char *suffix, size_t n, 
 {
     const char *slash = memchr(suffix, '/', n);
     char above[16], below[16];
-    int power;
+    int power, metre = 0;
 
     if (slash == NULL)
         return false;
@@ -208,10 +212,13 @@ apply_quotient(const char *digits, size_t length, const char *suffix, size_t n, 
     for (size_t k = 0; k < sizeof quotients / sizeof *quotients; k++) {
         const struct quotient *q = &quotients[k];
         const size_t tail = q->exponent > 1 ? 1 : 0, used = strlen(above);
-        if (q->unit != unit || strcmp(q->below, below) != 0 || used <= tail ||
+        const size_t before = strlen(below) - strlen(q->below);
+        if (q->unit != unit || strlen(below) < strlen(q->below) ||
+            strcmp(q->below, below + before) != 0 ||
+            !(q->metre ? unit_power(below, before, UNIT_M, &metre) : before == 0) || used <= tail ||
             (tail > 0 && above[used - 1] != '0' + q->exponent) ||
             !power_of(above, used - tail, q->above, &power) ||
-            !shift(digits, length, q->exponent * power + q->power, value))
+            !shift(digits, length, q->exponent * power + q->power - metre, value))
             continue;
         *value /= q->over;
         return true;
@@ -534,74 +541,23 @@ unit_decimal_comma(const char *text)
 
 /* ---- conductivities ---- */
 
-/* Units of conductivity and what they conduct: "45W/mK", "45 W/(m K)" and "45W/m/K" are the same. */
-static const struct conductivity {
-    const char *above, *below; /* the slash: "W" and "K" besides the metre */
-    const char *conductance;
-} conductivities[] = {
-    {"W", "K", "W/K"},
-    {"S", "", "S"},
-};
-
-/* Applies suffix[0..n) to the number digits[0..length); NULL: no such unit. */
-static const struct conductivity *
-apply_conductivity(const char *digits, size_t length, const char *suffix, size_t n, double *value)
-{
-    const char *slash = memchr(suffix, '/', n);
-    char below[32];
-    size_t used;
-    int up, down;
-
-    if (slash == NULL)
-        return NULL;
-    bare(slash, (size_t)(suffix + n - slash), below, sizeof below);
-    used = strlen(below);
-    for (size_t k = 0; k < sizeof conductivities / sizeof *conductivities; k++) {
-        const struct conductivity *c = &conductivities[k];
-        size_t tail = strlen(c->below);
-        if (used > tail && memcmp(below + used - tail, c->below, tail) == 0 &&
-            power_of(suffix, (size_t)(slash - suffix), c->above, &up) &&
-            unit_power(below, used - tail, UNIT_M, &down) &&
-            shift(digits, length, up - down, value))
-            return c;
-    }
-    return NULL;
-}
-
-static enum rc_status
-read_conductivity(const char *text, size_t n, double *value, const char **conductance,
-                  struct rc_err *err)
-{
-    const char *stop = text + n, *end = n == 0 ? NULL : rc_number_read(text, false, value), *suffix;
-    const struct conductivity *kind = NULL;
-
-    if (end == NULL || end > stop)
-        return rc_err_set(err, "'%.*s' is not a number", (int)n, text);
-    for (suffix = end; suffix < stop && *suffix == ' ';)
-        suffix++;
-    if (suffix < stop && (kind = apply_conductivity(text, (size_t)(end - text), suffix,
-                                                    (size_t)(stop - suffix), value)) == NULL)
-        return rc_err_set(err,
-                          "unknown unit '%.*s': W/mK or S/m is expected, with prefixes or without",
-                          (int)(stop - suffix), suffix);
-    if (!(*value > 0) || !isfinite(*value))
-        return rc_err_set(err, "%.*s: it must be above 0 and finite", (int)n, text);
-    *conductance = kind == NULL ? NULL : kind->conductance;
-    return RC_OK;
-}
-
 enum rc_status
 unit_conductivities(const char *text, double k[2], const char **conductance, struct rc_err *err)
 {
-    const char *comma = strchr(text, ','), *of[2];
+    const bool heat = strchr(text, 'W') != NULL, current = strchr(text, 'S') != NULL;
+    struct numbers list;
 
-    if (comma == NULL || strchr(comma + 1, ',') != NULL)
-        return rc_err_set(err, "it must be K1,K2, one for each body, as in 45W/mK,16W/mK");
-    if (read_conductivity(text, (size_t)(comma - text), &k[0], &of[0], err) != RC_OK ||
-        read_conductivity(comma + 1, strlen(comma + 1), &k[1], &of[1], err) != RC_OK)
-        return RC_FAIL;
-    if (of[0] != of[1])
+    if (heat && current)
         return rc_err_set(err, "give both in W/mK or both in S/m, or both without a unit");
-    *conductance = of[0];
+    if (unit_numbers(text, current ? UNIT_S_M : UNIT_W_MK, &list, err) != RC_OK)
+        return RC_FAIL;
+    for (size_t b = 0; b < 2; b++)
+        k[b] = list.n == 2 ? list.v[b] : NAN;
+    free(list.v);
+    if (isnan(k[0]))
+        return rc_err_set(err, "it must be K1,K2, one for each body, as in 45W/mK,16W/mK");
+    if (!(fmin(k[0], k[1]) > 0))
+        return rc_err_set(err, "%g: it must be above 0", fmin(k[0], k[1]));
+    *conductance = heat ? "W/K" : current ? "S" : NULL;
     return RC_OK;
 }

@@ -23,6 +23,8 @@ enum unit {
     UNIT_DIFFUSIVITY, /* square metres per second          */
     UNIT_HEAT,        /* joules per cubic metre and kelvin */
     UNIT_HZ,          /* per second                        */
+    UNIT_W_MK,        /* watts per metre and kelvin        */
+    UNIT_S_M,         /* siemens per metre                 */
 };
 
 struct numbers {
