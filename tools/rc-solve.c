@@ -1,10 +1,7 @@
 /* Contact of a height map with an elastic half-space. */
-#include <errno.h>
 #include <math.h>
-#include <stdlib.h>
 #include <string.h>
 
-#include "libcontact/contact.h"
 #include "tools/cli/cli.h"
 #include "tools/solve/solve.h"
 

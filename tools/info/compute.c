@@ -75,10 +75,7 @@ find_areal(const struct info_wanted *w, struct tool *t, const struct rc_grid *g,
 {
     const struct rc_surface_options options = {.boundary = map_boundary(g), .threads = t->threads};
     const struct rc_shape shape = rc_grid_shape(g);
-    size_t missing = 0;
 
-    for (size_t k = 0; k < rc_grid_nodes(g); k++)
-        missing += isfinite(g->v[k]) ? 0 : 1;
     f->areal = tool_room(t, 1, sizeof *f->areal, "the parameters of a map");
     tool_must(t, g, rc_areal(&shape, g->v, &options, f->areal, &t->err));
     find_smr(w, g, f);

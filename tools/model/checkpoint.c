@@ -127,8 +127,7 @@ checkpoint_open(struct tool *t, const char *name, bool resume, double interval)
 
     if (name == NULL)
         return NULL;
-    if ((c = calloc(1, sizeof *c)) == NULL)
-        tool_die(t, "out of memory");
+    c = tool_room(t, 1, sizeof *c, "a checkpoint");
     c->t = t;
     c->wait = interval;
     journal_open(&c->journal, t, name, resume, &found);

@@ -48,8 +48,7 @@ make_points(struct drive *d)
         if (a->list->n > longest->list->n)
             longest = a;
     d->points = longest->list->n;
-    if ((d->point = calloc(d->points + 1, sizeof *d->point)) == NULL)
-        tool_die(&d->t, "out of memory for %zu points", d->points);
+    d->point = tool_room(&d->t, d->points, sizeof *d->point, "the points");
     for (const struct drive_axis *a = d->axes; a->list != NULL; a++) {
         if (a->list->n > 1 && a->list->n < d->points)
             tool_usage(

@@ -4,7 +4,6 @@
 #include "render.h"
 
 #include <math.h>
-#include <stdlib.h>
 
 void
 view_read(struct tool *t, const char *text, struct view *view)

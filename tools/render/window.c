@@ -4,7 +4,6 @@
 #include "render.h"
 
 #include <math.h>
-#include <stdlib.h>
 #include <string.h>
 
 /* ---- position ---- */

@@ -202,15 +202,13 @@ new_model(struct slip_run *run)
 {
     struct rc_friction_problem law = run->law;
     const double tol = law.slip.tol;
-    struct rc_model *m;
 
     for (size_t j = 0; j < law.fewer && run->alternates; j++)
         law.inner_of_fewer[j] =
             tool_made(&run->d.t, run->p, new_contact(run, tol / 10, &run->d.t.err));
-    m = tool_made(&run->d.t, run->p,
-                  rc_friction_new(new_contact(run, tol, &run->d.t.err),
-                                  run->solves ? run->height->v : NULL, &law, &run->d.t.err));
-    return m;
+    return tool_made(&run->d.t, run->p,
+                     rc_friction_new(new_contact(run, tol, &run->d.t.err),
+                                     run->solves ? run->height->v : NULL, &law, &run->d.t.err));
 }
 
 /* Adds the straight way of slip from the last corner to this one. */
@@ -219,14 +217,13 @@ add_slip(struct slip_run *run, struct rc_model *m)
 {
     const size_t n = rc_grid_nodes(run->p);
     double *x = run->slipped, *y = x + n, *way = y + n, *now;
-    struct rc_err err = {""};
+    struct tool *t = &run->d.t;
 
     if (x == NULL)
         return;
-    if ((now = malloc(2 * n * sizeof *now)) == NULL ||
-        rc_model_frame(m, "slip-x", now, &err) != RC_OK ||
-        rc_model_frame(m, "slip-y", now + n, &err) != RC_OK)
-        tool_refuse(&run->d.t, run->p, "%s", now == NULL ? "out of memory for the slip" : err.text);
+    now = tool_room(t, 2 * n, sizeof *now, "the slip");
+    tool_must(t, run->p, rc_model_frame(m, "slip-x", now, &t->err));
+    tool_must(t, run->p, rc_model_frame(m, "slip-y", now + n, &t->err));
     for (size_t k = 0; k < n; k++)
         way[k] += hypot(now[k] - x[k], now[n + k] - y[k]);
     memcpy(x, now, 2 * n * sizeof *now);
@@ -280,9 +277,9 @@ follow(struct slip_run *run)
 {
     struct drive *d = &run->d;
 
-    if (run->args->output >> SLIP_LENGTH & 1 &&
-        (run->slipped = calloc(3 * rc_grid_nodes(run->p), sizeof *run->slipped)) == NULL)
-        tool_refuse(&d->t, run->p, "out of memory for the slip");
+    if (run->args->output >> SLIP_LENGTH & 1)
+        run->slipped =
+            tool_room(&d->t, 3 * rc_grid_nodes(run->p), sizeof *run->slipped, "the slip");
     run->state = (struct slip_state){.dissipated_total = 0};
     d->frame = slip_frame;
     d->unit = "m";
@@ -291,8 +288,7 @@ follow(struct slip_run *run)
     d->all_keys = set_keys;
     d->row = slip_report;
     d->points = run->corners;
-    if ((d->point = malloc(run->corners * sizeof *d->point)) == NULL)
-        tool_die(&d->t, "out of memory for a path");
+    d->point = tool_room(&d->t, run->corners, sizeof *d->point, "a path");
     for (size_t k = 0; k < run->corners; k++)
         d->point[k] = slip_point(&run->corner[k]);
     drive_points(d, run->p, new_model(run));

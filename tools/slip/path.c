@@ -42,11 +42,8 @@ read_corner(const char *text, struct slip_corner *c, struct rc_err *err)
 static void
 add_corner(struct slip_run *run, const struct slip_corner *c)
 {
-    struct slip_corner *more = realloc(run->given, (run->givens + 1) * sizeof *more);
-
-    if (more == NULL)
-        tool_die(&run->d.t, "out of memory for a path");
-    run->given = more;
+    run->given =
+        tool_grown(&run->d.t, run->given, run->givens, &run->room, sizeof *run->given, "a path");
     run->given[run->givens++] = *c;
 }
 
@@ -116,10 +113,8 @@ static void
 set_history(struct slip_run *run, struct slip_args *args)
 {
     size_t most = run->givens * 3 * (RC_NUMBER_SIZE + 1) + 1, n = 0;
-    char *text = malloc(most), number[3][RC_NUMBER_SIZE];
+    char *text = tool_room(&run->d.t, most, 1, "a path"), number[3][RC_NUMBER_SIZE];
 
-    if (text == NULL)
-        tool_die(&run->d.t, "out of memory for a path");
     for (size_t k = 0; k < run->givens; k++) {
         const struct slip_corner *c = &run->given[k];
         n += (size_t)snprintf(
@@ -239,9 +234,7 @@ slip_plan_path(struct slip_run *run)
     run->alternates = run->bodies.beta != 0 && run->coupling == RC_COUPLING_FULL;
     run->solves = run->alternates;
     run->corners = 0;
-    run->corner = malloc((run->givens + 2) * sizeof *run->corner);
-    if (run->corner == NULL)
-        tool_die(&run->d.t, "out of memory for a path");
+    run->corner = tool_room(&run->d.t, run->givens + 2, sizeof *run->corner, "a path");
     if (run->given == NULL)
         press_and_move(run);
     for (size_t k = 0; k < run->givens; k++) {

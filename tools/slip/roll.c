@@ -124,11 +124,10 @@ new_model(struct slip_run *run)
                                            .force = forced(run),
                                            .path = !run->args->steady,
                                            .known = &run->known};
-    struct rc_model *m = tool_made(&run->d.t, run->p,
-                                   rc_rolling_new(rc_elastic_new(rc_shape_of(run->p), run->p->v,
-                                                                 &contact, NULL, &run->d.t.err),
-                                                  &law, &run->d.t.err));
-    return m;
+    return tool_made(&run->d.t, run->p,
+                     rc_rolling_new(rc_elastic_new(rc_shape_of(run->p), run->p->v, &contact, NULL,
+                                                   &run->d.t.err),
+                                    &law, &run->d.t.err));
 }
 
 /* The model of a path serves all its cases, which differ in pressure and position only. */

@@ -59,8 +59,8 @@ struct slip_run {
     struct drive d;
     const struct slip_args *args;
     struct slip_corner *given; /* --path, --history; NULL: neither */
-    size_t givens;
-    size_t increments; /* 0: auto */
+    size_t givens, room;       /* room: for as many there is memory */
+    size_t increments;         /* 0: auto */
     enum rc_coupling coupling;
     size_t number; /* number of the written case */
     /* frames of the input case; gap and height may be NULL */

@@ -208,11 +208,9 @@ look_at_contact(struct run *run, const struct rc_grid *g, const double *touch, s
 static void
 look_at_closed_gap(struct run *run, const struct rc_grid *g, struct rc_model *m, struct solution *s)
 {
-    RC_OWNED double *touch = malloc(rc_grid_nodes(g) * sizeof *touch);
-    struct rc_err err = {"out of memory for a map"};
+    RC_OWNED double *touch = tool_room(&run->d.t, rc_grid_nodes(g), sizeof *touch, "a map");
 
-    if (touch == NULL || rc_model_frame(m, CONTACT_CHANNEL, touch, &err) != RC_OK)
-        tool_refuse(&run->d.t, g, "%s", err.text);
+    tool_must(&run->d.t, g, rc_model_frame(m, CONTACT_CHANNEL, touch, &run->d.t.err));
     look_at_contact(run, g, touch, s);
 }
 
@@ -239,15 +237,17 @@ static void
 find_stiffness(struct run *run, const struct rc_grid *g, struct rc_solver *solver,
                struct solution *s)
 {
-    if (run->conductance && rc_solver_conductance(solver, run->k[0], run->k[1], &s->conductance,
-                                                  &run->d.t.err) != RC_OK)
-        tool_refuse(&run->d.t, g, "%s", run->d.t.err.text);
+    struct tool *t = &run->d.t;
+
+    if (run->conductance)
+        tool_must(t, g,
+                  rc_solver_conductance(solver, run->k[0], run->k[1], &s->conductance, &t->err));
     if (!run->stiffness)
         return;
     if (run->conductance && s->contact.plastic_nodes == 0)
         s->stiffness = s->conductance.stiffness;
-    else if (rc_solver_stiffness(solver, &s->stiffness, &run->d.t.err) != RC_OK)
-        tool_refuse(&run->d.t, g, "%s", run->d.t.err.text);
+    else
+        tool_must(t, g, rc_solver_stiffness(solver, &s->stiffness, &t->err));
 }
 
 /* Finds the figures of this load, and warns. */
@@ -382,8 +382,7 @@ make_points(struct run *run)
                 : run->relaxing.wanted ? relax_points(run)
                 : run->sliding.wanted  ? slide_points(run)
                                        : run->steps->n + run->args->pull_off;
-    if ((d->point = calloc(d->points, sizeof *d->point)) == NULL)
-        tool_die(&d->t, "out of memory for %zu loads", d->points);
+    d->point = tool_room(&d->t, d->points, sizeof *d->point, "the loads");
     for (size_t k = 0; k < d->points; k++) {
         const size_t step = run->relaxing.wanted  ? relax_step(run, k)
                             : run->sliding.wanted ? slide_step(run, k)

@@ -144,7 +144,6 @@ travel_model(struct run *run, struct rc_model *inner)
                                         .repeats = run->args->physics.periodic ||
                                                    map_says(g, "periodic", "yes"),
                                         .ratio = run->args->counter_travel};
-    struct rc_model *m;
 
     if (other != NULL) {
         problem.counter = rc_grid_shape(other);
@@ -153,8 +152,7 @@ travel_model(struct run *run, struct rc_model *inner)
     }
     if (!isnan(run->args->physics.radius))
         problem.radius = run->args->physics.radius;
-    m = tool_made(&run->d.t, g, rc_travel_new(inner, &problem, &run->d.t.err));
-    return m;
+    return tool_made(&run->d.t, g, rc_travel_new(inner, &problem, &run->d.t.err));
 }
 
 size_t

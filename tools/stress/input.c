@@ -226,12 +226,9 @@ stress_depths_read(struct tool *t, const struct rc_grid *p, struct rc_stress_opt
 static bool
 transforms(const char *engine)
 {
-    const struct rc_engine_info *e;
+    const struct rc_engine_info *e = engine == NULL ? NULL : words_engine_named(engine);
 
-    for (size_t k = 0; engine != NULL && (e = rc_engine_info(k)) != NULL; k++)
-        if (strcmp(e->name, engine) == 0)
-            return e->mixed || e->precise;
-    return true;
+    return e == NULL || e->mixed || e->precise;
 }
 
 /* The index: free, periodic. */

@@ -33,12 +33,6 @@ keep(struct tool *t, struct stress_strain *s, struct rc_grid *g, size_t part)
     s->map[k] = g->v;
 }
 
-static bool
-same_grid(const struct rc_grid *a, const struct rc_grid *b)
-{
-    return a->nx == b->nx && a->ny == b->ny && a->dx == b->dx && a->dy == b->dy;
-}
-
 /* Allocates the strain when a key of the pressure announces it. */
 static bool
 begin(struct tool *t, const struct rc_grid *p, struct stress_strain *s)
@@ -68,8 +62,7 @@ stress_strain_take(struct tool *t, const struct rc_grid *p, struct rc_grid *g,
         part++;
     if (part == PARTS || !begin(t, p, s))
         return false;
-    if (!same_grid(g, p))
-        tool_refuse(t, g, "it is not on the grid of the pressure");
+    tool_demand_grid_of(t, g, p);
     keep(t, s, g, part);
     return true;
 }
