@@ -224,13 +224,6 @@ rc_adhesion_check(const struct rc_shape *shape, const struct rc_adhesion_problem
     return attraction_of(shape, problem, &law, scales, err);
 }
 
-static struct rc_operator_options
-operator_options(const struct rc_problem *c)
-{
-    return (struct rc_operator_options){
-        .boundary = c->boundary, .pair = &c->pair, .threads = c->threads};
-}
-
 static enum rc_status
 check_heights(const struct rc_adhesion *a, const double *h, struct rc_err *err)
 {
@@ -253,17 +246,6 @@ take_heights(struct rc_adhesion *a, const double *h, const double *dent)
     for (size_t k = 0; k < n; k++)
         a->h[k] = (h[k] - top) / a->whole->length;
     a->mean_h = rc_sum(a->h, n) / (double)n;
-}
-
-static double *
-heights_new(const struct rc_adhesion *a, struct rc_err *err)
-{
-    double *h = rc_alloc(a->shape.nx * a->shape.ny, sizeof *h);
-
-    if (h == NULL)
-        rc_err_set(err, "out of memory for the adhesion of %zu x %zu nodes", a->shape.nx,
-                   a->shape.ny);
-    return h;
 }
 
 static enum rc_status
@@ -320,7 +302,8 @@ path_new(const struct rc_shape *shape, const struct rc_adhesion_problem *problem
          struct rc_err *err)
 {
     const struct rc_problem *c = &problem->contact;
-    struct rc_operator_options options = operator_options(c);
+    const struct rc_operator_options options = {
+        .boundary = c->boundary, .pair = &c->pair, .threads = c->threads};
     struct rc_adhesion_scales scales;
     struct rc_attraction law;
     struct rc_adhesion *a;
@@ -329,8 +312,9 @@ path_new(const struct rc_shape *shape, const struct rc_adhesion_problem *problem
     if (attraction_of(shape, problem, &law, &scales, err) != RC_OK)
         return NULL;
     a = calloc(1, sizeof *a);
-    if (a == NULL) {
+    if (a == NULL || (a->h = rc_alloc(shape->nx * shape->ny, sizeof *a->h)) == NULL) {
         rc_err_set(err, "out of memory for the adhesion of %zu x %zu nodes", shape->nx, shape->ny);
+        free(a);
         return NULL;
     }
     a->shape = *shape;
@@ -339,7 +323,7 @@ path_new(const struct rc_shape *shape, const struct rc_adhesion_problem *problem
     a->max_iterations =
         c->max_iterations > 0 ? c->max_iterations : 100 + (size_t)(10 * sqrt(nodes));
     if ((a->whole = rc_whole_new(shape, &options, err)) == NULL ||
-        (a->h = heights_new(a, err)) == NULL || take_hardness(a, c, &hard, &hards, err) != RC_OK ||
+        take_hardness(a, c, &hard, &hards, err) != RC_OK ||
         rc_gap_new(&a->gap, a->whole, &law, a->h, hard, hards, err) != RC_OK) {
         rc_adhesion_free(a);
         return NULL;
@@ -726,8 +710,7 @@ place_of(struct rc_adhesion *a)
                                         .load = f->load / unit,
                                         .attraction = f->attractive_load / unit,
                                         .radius = sqrt(f->contact_area / RC_PI) / length,
-                                        .mean_gap = f->mean_gap / length,
-                                        .jumps = f->jumps};
+                                        .mean_gap = f->mean_gap / length};
 }
 
 static void
@@ -1118,8 +1101,8 @@ rc_adhesion_start(struct rc_adhesion *a, const double *pressure, double approach
 
 /* The displacement and the pressure stay; the gap changes by the change of the heights. */
 enum rc_status
-rc_adhesion_set_dented(struct rc_adhesion *a, const double *h, const double *dent,
-                       struct rc_err *err)
+rc_adhesion_set_heights(struct rc_adhesion *a, const double *h, const double *dent,
+                        struct rc_err *err)
 {
     struct rc_gap *g = &a->gap;
     const double c = a->past.begun ? rc_gap_shift(g) : 0;
@@ -1144,12 +1127,6 @@ rc_adhesion_set_dented(struct rc_adhesion *a, const double *h, const double *den
     hold(a, c);
     g->mode.known = false;
     return RC_OK;
-}
-
-enum rc_status
-rc_adhesion_set_heights(struct rc_adhesion *a, const double *h, struct rc_err *err)
-{
-    return rc_adhesion_set_dented(a, h, NULL, err);
 }
 
 void

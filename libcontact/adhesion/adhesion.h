@@ -19,9 +19,6 @@ struct rc_adhesion_past {
 };
 struct rc_adhesion_past *rc_adhesion_past(struct rc_adhesion *a);
 double rc_adhesion_approach(const struct rc_adhesion *a);
-/* Does the same as rc_adhesion_set_heights, for heights of undeformed bodies plus `dent`. */
-enum rc_status rc_adhesion_set_dented(struct rc_adhesion *a, const double *h, const double *dent,
-                                      struct rc_err *err);
 
 /* ---- a path of states ---- */
 
@@ -42,9 +39,11 @@ enum rc_status rc_adhesion_pull_off(struct rc_adhesion *a, struct rc_err *err);
  * same problem. The next state starts there. RC_FAIL when a value is not finite. */
 enum rc_status rc_adhesion_start(struct rc_adhesion *a, const double *pressure, double approach,
                                  struct rc_err *err);
-/* Other heights (nx ny m, copied): the next state starts with the displacement of the last one, and its load
- * or approach must be set. RC_FAIL when one is not a finite number, which leaves all as it was. */
-enum rc_status rc_adhesion_set_heights(struct rc_adhesion *a, const double *h, struct rc_err *err);
+/* Other heights (nx ny m, copied), which include the dents (NULL: none): the next state starts with the
+ * displacement of the last one, and its load or approach must be set. RC_FAIL when one is not a finite
+ * number, which leaves all as it was. */
+enum rc_status rc_adhesion_set_heights(struct rc_adhesion *a, const double *h, const double *dent,
+                                       struct rc_err *err);
 /* One step of the gap, or of the eigenvector. RC_MORE until the state is found, then RC_OK. RC_SHORT if it
  * stopped short of tol or the bodies separate. RC_FAIL when no load or approach is set. */
 enum rc_status rc_adhesion_step(struct rc_adhesion *a, struct rc_err *err);

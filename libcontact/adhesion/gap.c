@@ -38,12 +38,6 @@ height_row(const struct rc_gap *g, size_t j)
     return g->h + j * g->nx;
 }
 
-static size_t
-on_map(const struct rc_gap *g, size_t j)
-{
-    return rc_gap_on_map(g, j);
-}
-
 static double
 hard_at(const struct rc_gap *g, size_t j, size_t i)
 {
@@ -90,7 +84,7 @@ u_in(void *ctx, size_t j, void *to)
 
     for (size_t i = 0; i < g->px; i++)
         row[i] = g->x[j * g->px + i] + c;
-    for (size_t i = 0; i < on_map(g, j); i++)
+    for (size_t i = 0; i < rc_gap_on_map(g, j); i++)
         row[i] += height_row(g, j)[i];
     return true;
 }
@@ -134,12 +128,6 @@ find_au(struct rc_gap *g)
 
 /* ---- residual ---- */
 
-static double
-added(const struct rc_gap *g)
-{
-    return (g->control == RC_GAP_LOAD ? g->given : 0) - g->level;
-}
-
 /* Computes r = A u + S + sigma and its sum over open nodes. Also computes the stiffness that the traction
  * subtracts from the softest mode of the last state. */
 static void
@@ -150,7 +138,7 @@ residual_row(void *ctx, size_t j, double *sums)
     const double load = g->control == RC_GAP_LOAD ? g->given : 0;
     const float *soft = g->mode.e[0] + j * g->px;
     double *r = g->r + j * g->px;
-    size_t m = on_map(g, j);
+    size_t m = rc_gap_on_map(g, j);
 
     for (size_t i = 0; i < m; i += LINE) {
         size_t n = m - i < LINE ? m - i : LINE;
@@ -181,7 +169,7 @@ hold_row(void *ctx, size_t j, double *sums)
     const double *x = g->x + j * g->px;
     double *r = g->r + j * g->px;
     unsigned char *off = g->off + j * g->px;
-    size_t m = on_map(g, j);
+    size_t m = rc_gap_on_map(g, j);
 
     for (size_t i = 0; i < g->px; i++) {
         double at = r[i] - g->level;
@@ -285,7 +273,7 @@ direction_row(void *ctx, size_t j, double *sums)
 {
     const struct by *c = ctx;
     struct rc_gap *g = c->g;
-    size_t m = on_map(g, j);
+    size_t m = rc_gap_on_map(g, j);
 
     for (size_t i = 0; i < g->px; i++) {
         size_t at = j * g->px + i;
@@ -305,7 +293,7 @@ level_row(void *ctx, size_t j, double *sums)
 {
     const struct by *c = ctx;
     struct rc_gap *g = c->g;
-    size_t m = on_map(g, j);
+    size_t m = rc_gap_on_map(g, j);
 
     for (size_t i = 0; i < g->px; i++) {
         size_t at = j * g->px + i;
@@ -353,16 +341,16 @@ ad_out(void *ctx, size_t j, void *from)
 {
     struct rc_gap *g = ctx;
     const float *row = from;
-    const double *d = g->d + j * g->px, *au = g->au + j * g->px;
-    double *ad = g->ad + j * g->px, *sums = rc_sums_of(&g->sums, j), plus = added(g);
+    const double *d = g->d + j * g->px;
+    double *ad = g->ad + j * g->px, *sums = rc_sums_of(&g->sums, j);
     float *az = g->mode.e[RC_GAP_AZ] + j * g->px;
-    size_t m = on_map(g, j);
+    size_t m = rc_gap_on_map(g, j);
 
     for (size_t i = 0; i < g->px; i++) {
         double is = (double)row[i] * g->way.unit;
         if (i < m) {
             sums[0] += fabs(is - g->way.beta * ad[i]);
-            sums[1] += fabs(au[i] + plus);
+            sums[1] += fabs(rc_gap_pressure_at(g, j * g->px + i));
             sums[6] += fabs(is);
         }
         sums[2] += is * d[i];
@@ -381,7 +369,7 @@ mark_row(void *ctx, size_t j, double *sums)
     struct rc_gap *g = ctx;
     float *mark = g->told.at_mark + j * g->px;
 
-    for (size_t i = 0; i < on_map(g, j); i++) {
+    for (size_t i = 0; i < rc_gap_on_map(g, j); i++) {
         float p = (float)rc_gap_pressure_at(g, j * g->px + i);
         sums[0] += fabs((double)p - (double)mark[i]);
         mark[i] = p;
@@ -430,9 +418,9 @@ forget_error(struct rc_gap *g)
     g->told.vanishes = false;
 }
 
-/* Returns d'A d, and finds the error. */
+/* Returns d'A d; finds the error and the mean of d. */
 static double
-find_ad(struct rc_gap *g, double *mean_d)
+find_ad(struct rc_gap *g)
 {
     double sums[RC_GAP_SUMS], mean;
 
@@ -446,7 +434,7 @@ find_ad(struct rc_gap *g, double *mean_d)
     g->told.moves = sums[6];
     g->told.change = sums[0];
     find_error(g);
-    *mean_d = sums[4] / (double)g->n;
+    g->way.mean = sums[4] / (double)g->n;
     return fmax(sums[2] - mean * sums[4], single * sums[5]);
 }
 
@@ -459,7 +447,7 @@ line_row(void *ctx, size_t j, double *sums)
     const struct by *c = ctx;
     const struct rc_gap *g = c->g;
     const double *x = g->x + j * g->px, *d = g->d + j * g->px, a = c->a;
-    size_t m = on_map(g, j);
+    size_t m = rc_gap_on_map(g, j);
 
     for (size_t i = 0; i < m; i += LINE) {
         size_t n = m - i < LINE ? m - i : LINE;
@@ -484,7 +472,7 @@ clip_row(void *ctx, size_t j, double *sums)
 {
     const struct by *c = ctx;
     struct rc_gap *g = c->g;
-    size_t m = on_map(g, j);
+    size_t m = rc_gap_on_map(g, j);
 
     for (size_t i = 0; i < g->px; i++) {
         size_t at = j * g->px + i;
@@ -546,7 +534,7 @@ step_row(void *ctx, size_t j, double *sums)
     const struct rc_gap *g = ctx;
     const double *step = g->step + j * g->px, *au = g->au + j * g->px;
     const double *to = g->a_step + j * g->px;
-    size_t m = on_map(g, j);
+    size_t m = rc_gap_on_map(g, j);
 
     for (size_t i = 0; i < g->px; i++) {
         sums[0] += step[i] * to[i] / 2;
@@ -575,7 +563,7 @@ step_law_row(void *ctx, size_t j, double *sums)
 {
     const struct rc_gap *g = ctx;
     const double *x = g->x + j * g->px, *step = g->step + j * g->px;
-    size_t m = on_map(g, j);
+    size_t m = rc_gap_on_map(g, j);
 
     for (size_t i = 0; i < m; i += LINE) {
         size_t n = m - i < LINE ? m - i : LINE;
@@ -615,26 +603,22 @@ rise(struct rc_gap *g, bool known, double *least)
     return sums[0] - mean * sums[3] / 2 + sums[1] + load * sums[3] + law[0];
 }
 
-static void
-take_step_row(void *ctx, size_t j, double *sums)
-{
-    struct rc_gap *g = ctx;
-    (void)sums;
-    for (size_t k = j * g->px; k < (j + 1) * g->px; k++) {
-        g->x[k] += g->step[k];
-        g->au[k] += g->a_step[k];
-    }
-}
+/* `a` times a step, with A times it. */
+struct taken {
+    struct rc_gap *g;
+    double a;
+    const double *step, *a_step;
+};
 
 static void
-take_whole_row(void *ctx, size_t j, double *sums)
+take_row(void *ctx, size_t j, double *sums)
 {
-    const struct by *c = ctx;
-    struct rc_gap *g = c->g;
+    const struct taken *t = ctx;
+    struct rc_gap *g = t->g;
     (void)sums;
     for (size_t k = j * g->px; k < (j + 1) * g->px; k++) {
-        g->x[k] += c->a * g->d[k];
-        g->au[k] += c->a * g->ad[k];
+        g->x[k] += t->a * t->step[k];
+        g->au[k] += t->a * t->a_step[k];
     }
 }
 
@@ -709,7 +693,7 @@ go(struct rc_gap *g, struct line *l, double a)
                 look(g, l, by.a);
             g->from.fall -= l->phi;
             g->told.drift += float_rounding * by.a * g->told.moves;
-            rows(g, take_whole_row, &by, sums);
+            rows(g, take_row, &(struct taken){g, by.a, g->d, g->ad}, sums);
             return;
         }
         g->way.restart = sums[0] > clipped_anew * (double)g->free;
@@ -721,7 +705,7 @@ go(struct rc_gap *g, struct line *l, double a)
             g->from.fall -= up;
             g->told.drift += float_rounding * g->told.moves + g->told.cut;
             g->told.cuts += g->told.cut;
-            rows(g, take_step_row, g, sums);
+            rows(g, take_row, &(struct taken){g, 1, g->step, g->a_step}, sums);
             return;
         }
         g->way.restart = true;
@@ -729,24 +713,21 @@ go(struct rc_gap *g, struct line *l, double a)
     g->stuck = true;
 }
 
+/* The largest values of |d|, of the step after which an open node reaches 0, and of -x. */
 static void
 largest_row(void *ctx, size_t j, double *sums)
 {
     const struct rc_gap *g = ctx;
-    for (size_t i = 0; i < on_map(g, j); i++)
-        sums[RC_GAP_MOST] = fmax(sums[RC_GAP_MOST], fabs(g->d[j * g->px + i]));
-}
-
-/* The largest step before an open node reaches 0. */
-static void
-reach_row(void *ctx, size_t j, double *sums)
-{
-    const struct rc_gap *g = ctx;
     const double *x = g->x + j * g->px, *d = g->d + j * g->px;
+    double *most = sums + RC_GAP_MOST;
 
-    for (size_t i = 0; i < on_map(g, j); i++)
+    most[2] = -INFINITY;
+    for (size_t i = 0; i < rc_gap_on_map(g, j); i++) {
+        most[0] = fmax(most[0], fabs(d[i]));
         if (x[i] > 0 && d[i] < 0)
-            sums[RC_GAP_MOST] = fmax(sums[RC_GAP_MOST], -x[i] / d[i]);
+            most[1] = fmax(most[1], -x[i] / d[i]);
+        most[2] = fmax(most[2], -x[i]);
+    }
 }
 
 /* The longest step under a given load, where a uniform motion has no other bound. If the bodies separate,
@@ -757,35 +738,12 @@ longest(struct rc_gap *g)
 {
     double sums[RC_GAP_SUMS];
 
-    if (g->control != RC_GAP_LOAD || g->way.mean == 0)
-        return INFINITY;
-    if (g->way.mean < 0) {
-        rows(g, reach_row, g, sums);
-        return sums[RC_GAP_MOST] > 0 ? sums[RC_GAP_MOST] : INFINITY;
-    }
-    if (g->given >= 0)
+    if (g->control != RC_GAP_LOAD || g->way.mean == 0 || (g->way.mean > 0 && g->given >= 0))
         return INFINITY;
     rows(g, largest_row, g, sums);
+    if (g->way.mean < 0)
+        return sums[RC_GAP_MOST + 1] > 0 ? sums[RC_GAP_MOST + 1] : INFINITY;
     return 4 * g->law.range / sums[RC_GAP_MOST];
-}
-
-static void
-nearest_row(void *ctx, size_t j, double *sums)
-{
-    const struct rc_gap *g = ctx;
-
-    sums[RC_GAP_MOST] = -INFINITY;
-    for (size_t i = 0; i < on_map(g, j); i++)
-        sums[RC_GAP_MOST] = fmax(sums[RC_GAP_MOST], -g->x[j * g->px + i]);
-}
-
-static double
-nearest(struct rc_gap *g)
-{
-    double sums[RC_GAP_SUMS];
-
-    rows(g, nearest_row, g, sums);
-    return -sums[RC_GAP_MOST];
 }
 
 void
@@ -865,7 +823,7 @@ rc_gap_look(struct rc_gap *g)
     g->way.restart = false;
     g->iterations++;
     if (g->way.rd > 0) {
-        g->way.dad = find_ad(g, &g->way.mean);
+        g->way.dad = find_ad(g);
         measure_ratio(g);
         if (!g->mode.known && g->told.error < linear)
             rc_gap_track(g, g->control == RC_GAP_MEAN ? sum_z / (double)g->free : 0);
@@ -887,6 +845,7 @@ void
 rc_gap_move(struct rc_gap *g)
 {
     struct line line = {.rd = g->way.rd, .q = g->way.dad};
+    double sums[RC_GAP_SUMS];
 
     if (g->stuck || !(g->way.rd > 0))
         return;
@@ -896,8 +855,10 @@ rc_gap_move(struct rc_gap *g)
         g->way.restart = true;
         g->stuck = false;
     }
-    g->parting = g->control == RC_GAP_LOAD && g->given < 0 && g->way.mean > 0 &&
-                 nearest(g) > 20 * g->law.range;
+    if (g->control != RC_GAP_LOAD || g->given >= 0 || !(g->way.mean > 0))
+        return;
+    rows(g, largest_row, g, sums);
+    g->parting = -sums[RC_GAP_MOST + 2] > 20 * g->law.range;
 }
 
 /* ---- states ---- */
@@ -906,7 +867,7 @@ static void
 mean_row(void *ctx, size_t j, double *sums)
 {
     const struct rc_gap *g = *(const struct rc_gap *const *)ctx;
-    size_t m = on_map(g, j);
+    size_t m = rc_gap_on_map(g, j);
 
     for (size_t i = 0; i < g->px; i++)
         sums[0] += g->x[j * g->px + i];
@@ -945,7 +906,7 @@ shift_row(void *ctx, size_t j, double *sums)
 {
     const struct by *c = ctx;
     struct rc_gap *g = c->g;
-    size_t m = on_map(g, j);
+    size_t m = rc_gap_on_map(g, j);
 
     for (size_t i = 0; i < g->px; i++) {
         double *x = g->x + j * g->px + i;
@@ -1105,16 +1066,16 @@ rc_gap_aim(struct rc_gap *g, double rd)
     g->way.beta = g->way.rz = 0;
     g->way.dwd = NAN;
     g->way.rd = rd;
-    g->way.dad = find_ad(g, &g->way.mean);
+    g->way.dad = find_ad(g);
 }
 
 void
 rc_gap_down(struct rc_gap *g, double first)
 {
     struct line line = {0}, other = {0};
-    double a = first, mean_d;
+    double a = first;
 
-    line.q = other.q = find_ad(g, &mean_d);
+    line.q = other.q = find_ad(g);
     look(g, &line, a);
     look(g, &other, -a);
     if (other.phi < line.phi) {

@@ -53,7 +53,7 @@ pass_heights(struct adhesive *a, struct rc_err *err)
     if (a->path == NULL)
         return RC_OK;
     past = *rc_adhesion_past(a->path);
-    if (rc_adhesion_set_dented(a->path, a->h, a->dent, err) != RC_OK)
+    if (rc_adhesion_set_heights(a->path, a->h, a->dent, err) != RC_OK)
         return RC_FAIL;
     *rc_adhesion_past(a->path) = past;
     return RC_OK;

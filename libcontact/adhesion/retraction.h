@@ -20,7 +20,6 @@ struct rc_retraction_state {
     double c, load, attraction;
     double radius;   /* radius of a circle with the area of the contact */
     double mean_gap; /* mean gap over the map */
-    size_t jumps;    /* jumps counted on the step to it */
     double slope,
         rate; /* slopes of load and attraction over c on the step to it; after a jump, the slopes
                  before it */

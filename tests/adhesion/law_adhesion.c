@@ -790,9 +790,9 @@ heights_change(void **state)
             if (begun)
                 (void)adhesion_to_approach(a, deep / 2);
             other[5] = NAN;
-            assert_int_equal(rc_adhesion_set_heights(a, other, &adhesion_err), RC_FAIL);
+            assert_int_equal(rc_adhesion_set_heights(a, other, NULL, &adhesion_err), RC_FAIL);
             other[5] = was;
-            assert_int_equal(rc_adhesion_set_heights(a, other, &adhesion_err), RC_OK);
+            assert_int_equal(rc_adhesion_set_heights(a, other, NULL, &adhesion_err), RC_OK);
             assert_int_equal(rc_adhesion_step(a, &adhesion_err), RC_FAIL); /* no load is set */
             assert_true(adhesion_to_approach(a, deep)->converged);
             (void)adhesion_to_approach(b, deep);
