@@ -12,8 +12,11 @@ static struct args {
 
 /* The step of an option, applied to each map in the order of the command line. */
 struct work {
-    enum rc_status (*run)(struct tool *t, struct rc_grid *g, double value, struct rc_err *err);
-    bool fits; /* a fit: --robust applies to it */
+    enum rc_status (*run)(struct tool *t, struct rc_grid *g, const struct step *step,
+                          struct rc_err *err);
+    struct rc_form form; /* of remove_form; the value of the step is added to its degree */
+    bool high;           /* of filter: short waves are kept                              */
+    bool fits;           /* a fit: --robust applies to it                                */
 };
 
 /* fraction of filled points above which a warning is given */
@@ -32,11 +35,13 @@ end_period(struct tool *t, struct rc_grid *g, struct rc_err *err)
 }
 
 static enum rc_status
-remove_form(struct tool *t, struct rc_grid *g, struct rc_form form, struct rc_err *err)
+remove_form(struct tool *t, struct rc_grid *g, const struct step *step, struct rc_err *err)
 {
+    struct rc_form form = ((const struct work *)step->opt->of)->form;
     const char *where = tool_where(t, g);
     double radius;
 
+    form.degree += (size_t)step->value;
     form.robust = args.robust;
     form.threads = t->threads;
     if (rc_detrend_form(rc_shape_of(g), &form, g->v, &radius, err) != RC_OK)
@@ -51,64 +56,27 @@ remove_form(struct tool *t, struct rc_grid *g, struct rc_form form, struct rc_er
     return form.kind == RC_POLYNOMIAL && form.degree == 0 ? RC_OK : end_period(t, g, err);
 }
 
-static enum rc_status
-plane(struct tool *t, struct rc_grid *g, double value, struct rc_err *err)
-{
-    (void)value;
-    return remove_form(t, g, (struct rc_form){.degree = 1}, err);
-}
-
-static enum rc_status
-poly(struct tool *t, struct rc_grid *g, double degree, struct rc_err *err)
-{
-    return remove_form(t, g, (struct rc_form){.degree = (size_t)degree}, err);
-}
-
 /* Levelling rows keeps a period along x; removing slopes of rows does not. */
 static enum rc_status
-rows(struct tool *t, struct rc_grid *g, double degree, struct rc_err *err)
+rows(struct tool *t, struct rc_grid *g, const struct step *step, struct rc_err *err)
 {
+    const double degree = step->value;
+
     if (rc_detrend_rows(rc_shape_of(g), (size_t)degree, args.robust, g->v, err) != RC_OK)
         return RC_FAIL;
     return degree > 0 ? end_period(t, g, err) : RC_OK;
 }
 
 static enum rc_status
-sphere(struct tool *t, struct rc_grid *g, double value, struct rc_err *err)
+filter(struct tool *t, struct rc_grid *g, const struct step *step, struct rc_err *err)
 {
-    (void)value;
-    return remove_form(t, g, (struct rc_form){.kind = RC_SPHERE}, err);
-}
-
-static enum rc_status
-cylinder(struct tool *t, struct rc_grid *g, double value, struct rc_err *err)
-{
-    (void)value;
-    return remove_form(t, g, (struct rc_form){.kind = RC_CYLINDER}, err);
-}
-
-static enum rc_status
-filter(struct tool *t, struct rc_grid *g, double cutoff, bool high, struct rc_err *err)
-{
-    const struct rc_filter what = {.cutoff = cutoff,
-                                   .high = high,
+    const struct rc_filter what = {.cutoff = step->value,
+                                   .high = ((const struct work *)step->opt->of)->high,
                                    .robust = args.robust,
                                    .periodic = map_says(g, "periodic", "yes"),
                                    .threads = t->threads};
 
     return rc_filter(rc_shape_of(g), &what, g->v, err);
-}
-
-static enum rc_status
-lowpass(struct tool *t, struct rc_grid *g, double cutoff, struct rc_err *err)
-{
-    return filter(t, g, cutoff, false, err);
-}
-
-static enum rc_status
-highpass(struct tool *t, struct rc_grid *g, double cutoff, struct rc_err *err)
-{
-    return filter(t, g, cutoff, true, err);
 }
 
 /* Adds to a key that counts over all steps, including those of earlier commands. */
@@ -123,8 +91,9 @@ add_to_key(struct rc_grid *g, const char *key, size_t count, struct rc_err *err)
 }
 
 static enum rc_status
-outliers(struct tool *t, struct rc_grid *g, double times, struct rc_err *err)
+outliers(struct tool *t, struct rc_grid *g, const struct step *step, struct rc_err *err)
 {
+    const double times = step->value;
     size_t count, nodes = g->nx * g->ny;
     const char *where = tool_where(t, g);
 
@@ -143,12 +112,12 @@ outliers(struct tool *t, struct rc_grid *g, double times, struct rc_err *err)
 
 /* In a large contact the tapered edges at the mean height carry load. */
 static enum rc_status
-taper(struct tool *t, struct rc_grid *g, double width, struct rc_err *err)
+taper(struct tool *t, struct rc_grid *g, const struct step *step, struct rc_err *err)
 {
     struct rc_shape shape = rc_grid_shape(g);
     struct rc_statistics was, is;
     size_t columns, rows;
-    double inside, widest;
+    double inside, widest, width = step->value;
 
     rc_measure(&shape, g->v, &was);
     if (rc_taper(&shape, width, g->v, err) != RC_OK)
@@ -180,14 +149,14 @@ multiply_key(struct rc_grid *g, const char *key, double times, struct rc_err *er
 }
 
 static enum rc_status
-mirror(struct tool *t, struct rc_grid *g, double value, struct rc_err *err)
+mirror(struct tool *t, struct rc_grid *g, const struct step *step, struct rc_err *err)
 {
     struct rc_shape from = rc_grid_shape(g), to = rc_reflect_shape(&from);
     double times = (double)(to.nx / from.nx) * (double)(to.ny / from.ny);
     size_t nodes, bytes;
     double *v;
 
-    (void)t, (void)value;
+    (void)t, (void)step;
     if (rc_grid_get(g, "section") != NULL || strcmp(rc_grid_dunit(g), "m") != 0)
         return rc_err_set(err, "--mirror: the frame is not a map of places: leave it out, with "
                                "rc-pick --channel");
@@ -242,11 +211,11 @@ warn_of_holes(struct tool *t, const struct rc_grid *g, size_t missing, struct rc
 }
 
 static enum rc_status
-fill(struct tool *t, struct rc_grid *g, double value, struct rc_err *err)
+fill(struct tool *t, struct rc_grid *g, const struct step *step, struct rc_err *err)
 {
     size_t filled, nodes = g->nx * g->ny, missing = count_missing(g);
 
-    (void)value;
+    (void)step;
     if (warn_of_holes(t, g, missing, err) != RC_OK)
         return RC_FAIL;
     if (rc_inpaint(rc_shape_of(g), g->v, &filled, err) != RC_OK)
@@ -274,7 +243,7 @@ detrend(struct tool *t, struct rc_grid *g)
     for (size_t k = 0; k < args.steps.n; k++) {
         const struct step *step = &args.steps.step[k];
         const struct work *work = step->opt->of;
-        if (work->run(t, g, step->value, &t->err) != RC_OK)
+        if (work->run(t, g, step, &t->err) != RC_OK)
             failed(t, g, step, &t->err);
     }
     tool_sign(t, g);
@@ -291,7 +260,7 @@ passing(struct tool *t, struct rc_grid *g)
         const struct work *work = args.steps.step[k].opt->of;
         if (work->run != mirror)
             continue;
-        tool_must(t, g, mirror(t, g, 0, &t->err));
+        tool_must(t, g, mirror(t, g, &args.steps.step[k], &t->err));
         tool_must(t, g, rc_grid_history(g, step, &t->err));
     }
 }
@@ -313,44 +282,35 @@ check_steps(struct tool *t)
 
 /* ---- options ---- */
 
+#define STEP(word, ...)                                                                            \
+    .name = word, .type = OPT_STEP, .at = offsetof(struct args, steps), .result = true,            \
+    .of = &(const struct work)                                                                     \
+    {                                                                                              \
+        __VA_ARGS__                                                                                \
+    }
+#define ABOVE_0 .max = INFINITY, .above = true
 /* clang-format off */
 static const struct opt opts[] = {
-    {.name = "plane", .type = OPT_STEP, .at = offsetof(struct args, steps), .result = true,
-     .of = &(const struct work){.run = plane, .fits = true},
+    {STEP("plane", .run = remove_form, .form.degree = 1, .fits = true),
      .help = "subtract the least-squares plane"},
-    {.name = "poly", .type = OPT_STEP, .at = offsetof(struct args, steps), .max = RC_DEGREE_MAX,
-     .result = true, .arg = "N", .of = &(const struct work){.run = poly, .fits = true},
+    {STEP("poly", .run = remove_form, .fits = true), .max = RC_DEGREE_MAX, .arg = "N",
      .help = "subtract the polynomial of degree N (0: the mean)"},
-    {.name = "rows", .type = OPT_STEP, .at = offsetof(struct args, steps), .result = true,
-     .arg = "offset|tilt|bow", .of = &(const struct work){.run = rows, .fits = true},
+    {STEP("rows", .run = rows, .fits = true), .arg = "offset|tilt|bow",
      .help = "subtract the median, straight line or parabola of each row"},
-    {.name = "sphere", .type = OPT_STEP, .at = offsetof(struct args, steps), .result = true,
-     .of = &(const struct work){.run = sphere, .fits = true},
+    {STEP("sphere", .run = remove_form, .form.kind = RC_SPHERE, .fits = true),
      .help = "subtract the best sphere, and print its radius"},
-    {.name = "cylinder", .type = OPT_STEP, .at = offsetof(struct args, steps), .result = true,
-     .of = &(const struct work){.run = cylinder, .fits = true},
+    {STEP("cylinder", .run = remove_form, .form.kind = RC_CYLINDER, .fits = true),
      .help = "subtract the best cylinder, of any direction and tilt"},
-    {.name = "lowpass", .type = OPT_STEP, .unit = UNIT_M, .at = offsetof(struct args, steps),
-     .max = INFINITY, .above = true, .result = true, .arg = "L",
-     .of = &(const struct work){.run = lowpass, .fits = true},
+    {STEP("lowpass", .run = filter, .fits = true), .unit = UNIT_M, ABOVE_0, .arg = "L",
      .help = "keep waves longer than L (Gaussian filter, 50 % at L)"},
-    {.name = "highpass", .type = OPT_STEP, .unit = UNIT_M, .at = offsetof(struct args, steps),
-     .max = INFINITY, .above = true, .result = true, .arg = "L",
-     .of = &(const struct work){.run = highpass, .fits = true},
+    {STEP("highpass", .run = filter, .high = true, .fits = true), .unit = UNIT_M, ABOVE_0, .arg = "L",
      .help = "keep waves shorter than L: the input minus its low-pass"},
-    {.name = "outliers", .type = OPT_STEP, .at = offsetof(struct args, steps), .real = true,
-     .max = INFINITY, .above = true, .result = true, .arg = "T",
-     .of = &(const struct work){.run = outliers},
+    {STEP("outliers", .run = outliers), .real = true, ABOVE_0, .arg = "T",
      .help = "drop points that differ by T deviations from the median of their neighbours"},
-    {.name = "fill", .type = OPT_STEP, .at = offsetof(struct args, steps), .result = true,
-     .of = &(const struct work){.run = fill},
-     .help = "fill missing points smoothly from the points around them"},
-    {.name = "taper", .type = OPT_STEP, .unit = UNIT_M, .at = offsetof(struct args, steps),
-     .max = INFINITY, .above = true, .result = true, .arg = "W",
-     .of = &(const struct work){.run = taper},
+    {STEP("fill", .run = fill), .help = "fill missing points smoothly from the points around them"},
+    {STEP("taper", .run = taper), .unit = UNIT_M, ABOVE_0, .arg = "W",
      .help = "blend a frame of width W into the mean height, so that the map repeats"},
-    {.name = "mirror", .type = OPT_STEP, .at = offsetof(struct args, steps), .result = true,
-     .of = &(const struct work){.run = mirror},
+    {STEP("mirror", .run = mirror),
      .help = "add the mirror images about two edges, so that the map repeats"},
     {.name = "robust", .type = OPT_FLAG, .at = offsetof(struct args, robust), .result = true,
      .help = "robust forms and filters, insensitive to outliers"},
