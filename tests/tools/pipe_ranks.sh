@@ -193,13 +193,20 @@ claim "failed runs leave no file" bash -c '! ls no.rcg* 2>/dev/null'
 # If processes are ended from outside, the existing file remains and no part of a new one is left.
 rc-synth selfaffine --nx 1600 --ny 1600 --dx 1um --hurst 0.8 --rms-slope 0.1 --short-cut 8um --seed 3 -o long.rcg
 lasting="rc-solve --periodic --estar 1GPa --method pk99 --tol 1e-30 --progress line -o killed.rcg long.rcg"
-# begin COMMAND...: starts two processes in the background: $launcher, and $victim the second of them.
+# begin RANK COMMAND...: starts two processes in the background: $launcher, and $victim the one with this rank.
 begin() {
+    local rank=$1 child
+    shift
+    victim=
     echo old >killed.rcg
     $MPIRUN -n 2 "$@" >/dev/null 2>killed.err &
     launcher=$!
-    until victim=$(pgrep -P "$launcher" -x rc-solve) || ! kill -0 "$launcher"; do sleep 0.02; done
-    victim=${victim##*$'\n'}
+    while [ -z "$victim" ] && kill -0 "$launcher"; do
+        for child in $(pgrep -P "$launcher" -x rc-solve); do
+            ! grep -zqx "\(OMPI_COMM_WORLD\|PMI\)_RANK=$rank" "/proc/$child/environ" || victim=$child
+        done
+        sleep 0.02
+    done
     [ -n "$victim" ]
 }
 # iterates N: waits until the run has told its progress N times.
@@ -214,7 +221,7 @@ nothing_half() {
     [ $? = 3 ] && [ "$1" != killed ]
 }
 killed() {
-    begin $lasting --load 12N || return
+    begin 1 $lasting --load 12N || return
     iterates 1
     kill -KILL "$victim"
     wait "$launcher" && return 1
@@ -222,17 +229,18 @@ killed() {
 }
 claim "a killed process leaves no file" killed
 killed_writing() {
-    begin $lasting --tol 1e-2 --load 0.4N:16N:400 || return
+    begin "$1" $lasting --tol 1e-2 --load 0.4N:16N:400 || return
     until ls killed.rcg.?????? >/dev/null 2>&1 || ! kill -0 "$launcher"; do sleep 0.01; done
     kill -KILL "$victim"
     wait "$launcher" && return 1
     nothing_half killed
 }
-claim "a process killed during writing leaves none either" killed_writing
+claim "the first process, killed as it writes, leaves none either" killed_writing 0
+claim "nor does the second" killed_writing 1
 # Another run tries to write to the checkpoint of a running one, which already has a frame.
 adding() {
     local status
-    begin $lasting --load 12N --checkpoint adding.rcg --interval 0.01 || return
+    begin 1 $lasting --load 12N --checkpoint adding.rcg --interval 0.01 || return
     until [ "$(stat -c %s adding.rcg 2>/dev/null || echo 0)" -gt 6000000 ] || ! kill -0 "$launcher"; do sleep 0.01; done
     $solve --load 12N --checkpoint adding.rcg --resume -o no.rcg long.rcg 2>adding.err
     status=$?
@@ -247,7 +255,7 @@ shorter=${lasting/long.rcg/shorter.rcg}
 # signalled SIGNAL N: sends the signal to mpirun, after N lines of progress. mpirun ends its processes, and kills
 # them some time later.
 signalled() {
-    begin $shorter --load 3N || return
+    begin 1 $shorter --load 3N || return
     iterates "$2"
     kill -"$1" "$launcher"
     wait "$launcher" && return 1
@@ -261,7 +269,7 @@ for signal in TERM INT; do
     done
 done
 patient() {
-    begin $shorter --load 3N || return
+    begin 1 $shorter --load 3N || return
     iterates 8
     kill -TERM $(pgrep -P "$launcher" -x rc-solve) # like a launcher that gives them more time
     wait "$launcher" && return 1

@@ -120,21 +120,26 @@ demand_shared_file(struct tool *t)
     tool_demand_writable(t, "-o", t->out_name);
 }
 
-/* The first process makes the file, and all open it. */
+/* The first process makes the file, and all open it. All know its name before it exists: if one process is
+ * killed, the others remove it. */
 static void
 open_shared(struct tool *t)
 {
-    char name[WHOLE_PATH];
+    char name[WHOLE_PATH] = "";
+    FILE *file;
 
     if (ranks_speak(t)) {
-        FILE *file = whole_file_open(&output, t->out_name);
-        if (file == NULL || fclose(file) != 0)
+        if (!whole_file_choose(&output, t->out_name))
             tool_die(t, "-o %s: %s", t->out_name, strerror(errno));
         snprintf(name, sizeof name, "%s", whole_file_name(&output));
     }
     ranks_share(t, 0, name, sizeof name);
     if (!ranks_speak(t))
-        whole_file_share(&output, name); /* the last process removes it */
+        whole_file_share(&output, name);
+    ranks_wait(t);
+    if (ranks_speak(t) && ((file = whole_file_create(&output)) == NULL || fclose(file) != 0))
+        tool_die(t, "-o %s: %s", t->out_name, strerror(errno));
+    ranks_wait(t);
     t->output.share = ranks_write(t, name);
     t->output.writer = tool_made(t, NULL, rc_writer_new_shared(t->output.share, 0, &t->err));
 }

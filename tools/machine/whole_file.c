@@ -4,6 +4,7 @@
 #include <signal.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/random.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -83,51 +84,55 @@ free_slot(void)
     return slot < SLOTS ? slot : -1;
 }
 
-/* Creates the file and notes its name while signals are blocked. */
-static int
-make(struct whole_file *w)
+/* Notes the name of a half-written file: a signal finds all of it or nothing. */
+static void
+note(int slot, const char *name)
 {
     sigset_t all, before;
-    int slot = free_slot(), fd;
 
-    if (slot < 0) {
-        errno = EMFILE;
-        return -1;
-    }
     sigfillset(&all);
     sigprocmask(SIG_BLOCK, &all, &before);
-    snprintf(half[slot], WHOLE_PATH, "%.*s.XXXXXX", WHOLE_PATH - 8, w->destination);
-    if ((fd = mkstemp(half[slot])) < 0)
-        half[slot][0] = '\0';
+    snprintf(half[slot], WHOLE_PATH, "%s", name);
     sigprocmask(SIG_SETMASK, &before, NULL);
-    w->slot = slot;
-    return fd;
+}
+
+bool
+whole_file_choose(struct whole_file *w, const char *name)
+{
+    char chosen[WHOLE_PATH];
+    unsigned drawn;
+
+    *w = (struct whole_file){.slot = -1};
+    if (!whole_file_place(name, w->destination) || getentropy(&drawn, sizeof drawn) != 0)
+        return false;
+    if ((w->slot = free_slot()) < 0) {
+        errno = EMFILE;
+        return false;
+    }
+    snprintf(chosen, sizeof chosen, "%.*s.%06x", WHOLE_PATH - 8, w->destination, drawn & 0xffffff);
+    note(w->slot, chosen);
+    return true;
+}
+
+FILE *
+whole_file_create(struct whole_file *w)
+{
+    FILE *file = fopen(half[w->slot], "wbx");
+
+    if (file == NULL)
+        half[w->slot][0] = '\0'; /* a file of another process may have this name */
+    return file;
 }
 
 FILE *
 whole_file_open(struct whole_file *w, const char *name)
 {
     struct stat st;
-    mode_t mask = umask(0);
-    FILE *file;
-    int fd, why;
 
-    umask(mask);
     *w = (struct whole_file){.slot = -1};
     if (stat(name, &st) == 0 && !S_ISREG(st.st_mode))
         return fopen(name, "wb");
-    if (!whole_file_place(name, w->destination))
-        return NULL;
-    if ((fd = make(w)) < 0)
-        return NULL;
-    if (fchmod(fd, 0666 & ~mask) == 0 && (file = fdopen(fd, "wb")) != NULL)
-        return file;
-    why = errno;
-    close(fd);
-    unlink(half[w->slot]);
-    half[w->slot][0] = '\0';
-    errno = why;
-    return NULL;
+    return whole_file_choose(w, name) ? whole_file_create(w) : NULL;
 }
 
 bool
@@ -149,7 +154,7 @@ whole_file_share(struct whole_file *w, const char *name)
         w->slot = free_slot();
     snprintf(w->destination, sizeof w->destination, "%s", name);
     if (w->slot >= 0)
-        snprintf(half[w->slot], WHOLE_PATH, "%s", name);
+        note(w->slot, name);
 }
 
 bool

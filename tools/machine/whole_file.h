@@ -21,6 +21,10 @@ bool whole_file_place(const char *name, char place[WHOLE_PATH]);
 /* Opens a file for writing; a device or a FIFO directly. Follows symbolic links, so that a link stays a link.
  * NULL with errno. At most four files can be half-written at a time. */
 FILE *whole_file_open(struct whole_file *w, const char *name);
+/* The two steps of this, for a regular file: chooses the name until it is complete, false with errno; creates
+ * it under this name. In between other processes can be told the name, so that each of them can remove it. */
+bool whole_file_choose(struct whole_file *w, const char *name);
+FILE *whole_file_create(struct whole_file *w);
 /* True if it is half-written and not yet renamed. */
 bool whole_file_is_half(const struct whole_file *w);
 /* Its name until then. */
