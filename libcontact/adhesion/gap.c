@@ -32,12 +32,6 @@ enum {
 
 /* ---- rows ---- */
 
-static const double *
-height_row(const struct rc_gap *g, size_t j)
-{
-    return g->h + j * g->nx;
-}
-
 static double
 hard_at(const struct rc_gap *g, size_t j, size_t i)
 {
@@ -85,7 +79,7 @@ u_in(void *ctx, size_t j, void *to)
     for (size_t i = 0; i < g->px; i++)
         row[i] = g->x[j * g->px + i] + c;
     for (size_t i = 0; i < rc_gap_on_map(g, j); i++)
-        row[i] += height_row(g, j)[i];
+        row[i] += g->h[j * g->nx + i];
     return true;
 }
 
@@ -872,7 +866,7 @@ mean_row(void *ctx, size_t j, double *sums)
     for (size_t i = 0; i < g->px; i++)
         sums[0] += g->x[j * g->px + i];
     for (size_t i = 0; i < m; i++)
-        sums[0] += height_row(g, j)[i];
+        sums[0] += g->h[j * g->nx + i];
 }
 
 double
@@ -893,7 +887,7 @@ rc_gap_apart(struct rc_gap *g, double clearance)
     for (size_t j = 0; j < g->py; j++)
         for (size_t i = 0; i < g->px; i++) {
             bool map = j < g->ny && i < g->nx;
-            g->x[j * g->px + i] = clearance - (map ? height_row(g, j)[i] : 0);
+            g->x[j * g->px + i] = clearance - (map ? g->h[j * g->nx + i] : 0);
         }
     g->control = g->whole->boundary == RC_FREE ? RC_GAP_SHIFT : RC_GAP_MEAN;
     g->given = -clearance;
