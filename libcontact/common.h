@@ -101,9 +101,9 @@ rc_sums_of(const struct rc_sums *s, size_t j)
     return s->row + j * (s->sums + s->mosts);
 }
 void rc_sums_clear(const struct rc_sums *s);
-/* As totals, which ranks may then add up, and the largest numbers. */
+/* Totals of the `sums` numbers, for ranks to add to theirs, and the `mosts` largest numbers. */
 void rc_sums_add(const struct rc_sums *s, struct rc_total *total, double *most);
-/* `sums` sums and `mosts` largest numbers. */
+/* The totals as numbers, followed by the largest numbers. */
 void rc_sums_total(const struct rc_sums *s, double *total);
 /* Clears the sums, calls the function of each row, and totals the sums. */
 typedef void rc_sums_work(void *ctx, size_t j, double *sums);

@@ -103,8 +103,9 @@ enum rc_face_rule {
 double rc_face(const struct rc_passage *a, enum rc_face_rule rule, int32_t k, int32_t other,
                enum rc_direction d);
 
-/* The flow per width and U/2 that a face of speed U drags from node k to the next one, at equal fluid
- * pressure: <g^-2>/<g^-3> along a path with harmonic gaps. The unit is the largest gap. */
+/* The flow per width from node k to the next one that a moving face drags along, where both nodes have the
+ * same fluid pressure: <g^-2>/<g^-3> along the path between them. Its unit is half the speed of the face
+ * times the largest gap. */
 double rc_face_drag(const struct rc_passage *a, int32_t k, int32_t other);
 
 /* ---- percolation.c ---- */

@@ -74,8 +74,8 @@ void rc_steady_begin(struct rc_steady *d);
 enum rc_status rc_steady_step(struct rc_steady *d, struct rc_err *err);
 /* One step of rolling in time from q, which never increases the distance to the solution. */
 enum rc_status rc_steady_roll(struct rc_steady *d, struct rc_err *err);
-/* Begins a step of a path, from q, after the map has moved by these columns; then one step of its iteration,
- * with a status as above; then the end of the step becomes the start of the next one. */
+/* A step of a path in three calls. The first begins it from q, after the map has moved by these columns. The
+ * second is one iteration, with a status as above. The third makes its end the start of the next step. */
 enum rc_status rc_steady_set_out(struct rc_steady *d, size_t columns, struct rc_err *err);
 enum rc_status rc_steady_follow(struct rc_steady *d);
 void rc_steady_arrive(struct rc_steady *d);

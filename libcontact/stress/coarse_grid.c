@@ -65,8 +65,9 @@ coarse_nodes(size_t n, size_t s)
     return s == 1 ? n : (n - 1) / s + ORDER;
 }
 
-/* The largest of 1, 2, 3, 4, 6, 8, 12, ... for which so many d are at most `spacing` and the axis becomes
- * shorter. Slices of similar depths share a grid. */
+/* The spacing of the coarse nodes of an axis, as a multiple of d: the largest of 1, 2, 3, 4, 6, 8, 12, ...
+ * that is at most `spacing` and leaves fewer nodes. With so few choices slices of similar depths share a
+ * grid. */
 static size_t
 step(size_t n, double d, double spacing)
 {

@@ -164,7 +164,7 @@ find_figures(struct sliding *v)
     f->wear_error = v->s > 0 ? caution * apart / (lost[0] + lost[1]) + v->of_contacts / v->s : 0;
 }
 
-/* Ends at a point, when both runs have its pressure. */
+/* The figures of a point of the history: both runs are there and have solved its contact. */
 static enum rc_status
 arrive(struct sliding *v)
 {

@@ -175,7 +175,7 @@ objects_of(struct part stream)
 
 /* ---- packed arrays ---- */
 
-/* The bytes that a packed array says it has, as elements of the map's points and `border` around them. */
+/* The number at the start of a packed array: its bytes when unpacked; 0 if the array is shorter. */
 static uint64_t
 bytes_said(struct part p)
 {

@@ -1,7 +1,7 @@
 /*
  * Keyence ZON (macroscopes VR): KPK0 or KPK1, the length of a picture (u32), the picture, and a ZIP archive
  * whose members have numbers for names. One member is XML with the metres per pixel and per count, and one
- * has the heights. One has a byte a point with the quality of the height. Such arrays begin with columns,
+ * has the heights. A third one has the quality of each height, in one byte. Such arrays begin with columns,
  * rows, bytes of an element and bytes of a row (i32 each), little-endian; row 0 is the first. A height is
  * int32 * metres per count; if one of the two lowest bits of the byte is set, the point is missing or
  * excluded.

@@ -233,7 +233,7 @@ put(struct text *t, const char *word, char end)
 }
 
 /* Puts a row of numbers behind a text in its first column, the corner of positions. False where the row above
- * the block is no such row, or memory is short. */
+ * the block is different, or memory is short. */
 static bool
 put_positions(const struct rc_workbook *w, const struct block *b, struct text *t)
 {
