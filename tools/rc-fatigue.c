@@ -436,8 +436,6 @@ report_depth(struct run *run, const struct rc_fatigue *f, double depth, double *
 
     for (int c = 0; c <= RC_CRITERIA; c++)
         by_depth[c][k] = at->largest[c].value;
-    if (!report_wanted(&run->by_depth))
-        return;
     begin_row(run, &run->by_depth);
     report_number(&run->by_depth, "depth", depth, "m");
     report_count(&run->by_depth, "material", rc_body_material(&run->options.body, depth) + 1, NULL);
@@ -452,8 +450,6 @@ report_all(struct run *run, const struct rc_fatigue *f, double **by_depth, doubl
 {
     struct report *out = &run->report;
 
-    if (!report_wanted(out))
-        return;
     begin_row(run, out);
     report_text(out, "dangvan_compression", args.dangvan);
     report_text(out, "residual", args.residual);

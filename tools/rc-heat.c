@@ -304,8 +304,6 @@ put_report(struct run *run, const struct rc_grid *g, const struct rc_heat_figure
 {
     struct report *r = &run->report;
 
-    if (!report_wanted(r))
-        return;
     report_begin(r);
     report_map(r, g, rc_grid_case(g));
     report_text(r, "boundary", run->problem.boundary == RC_PERIODIC ? "periodic" : "free");
@@ -376,7 +374,7 @@ show_plan(struct run *run, const struct rc_grid *g)
         below += args.depths.v[k] > 0;
     tool_must(&run->t, g,
               rc_heat_expect(rc_shape_of(g), &run->problem, below, &expected, &run->t.err));
-    course_show(&run->t, g, expected);
+    course_show(&run->t, g, expected, 1, "");
     free(run->touch);
     run->touch = NULL;
 }

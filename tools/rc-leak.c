@@ -175,7 +175,7 @@ show_plan(struct run *run, const struct leak_case *c)
 {
     const double fluid = (isnan(c->contact) ? 1 : 1 - c->contact) * (double)rc_grid_nodes(c->gap);
 
-    course_show(&run->t, c->gap, rc_leak_expect((size_t)fluid, run->t.threads));
+    course_show(&run->t, c->gap, rc_leak_expect((size_t)fluid, run->t.threads), 1, "");
 }
 
 static void

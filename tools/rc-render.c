@@ -428,7 +428,7 @@ set_panels(struct tool *t, const struct args *a, const struct frames *frames,
     f->at.down = panel[0].figure.at.down;
     f->at.section = panel[0].figure.at.section;
     look_aspect(t, frames->grid[0], f);
-    if (sheet_one_body(frames)) {
+    if (subtitle_same(frames->grid, frames->n, "layers")) { /* one legend for all */
         f->medium = panel[0].figure.medium;
         f->media = panel[0].figure.media;
     }

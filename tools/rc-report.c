@@ -399,8 +399,6 @@ expand(const struct run *run, struct command *c, const char *word)
 static void
 write_command(const struct run *run, const struct command *c)
 {
-    static const char plain[] = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789"
-                                "%+,-./:=@_";
     FILE *out = run->commands.file;
 
     for (size_t k = 0; k < c->n; k++) {
@@ -410,14 +408,7 @@ write_command(const struct run *run, const struct command *c)
             putc(' ', out);
         if (word == run->file && *word == '-')
             fputs("./", out);
-        if (*word != '\0' && word[strspn(word, plain)] == '\0') {
-            fputs(word, out);
-            continue;
-        }
-        putc('\'', out);
-        for (; *word != '\0'; word++)
-            fputs(*word == '\'' ? "'\\''" : (const char[]){*word, '\0'}, out);
-        putc('\'', out);
+        shown_shell_word(out, word);
     }
     putc('\n', out);
 }

@@ -255,7 +255,7 @@ do_depth(struct run *run, struct rc_stress *stress, size_t k)
     for (int c = 0; c < RC_STRESSES; c++)
         if (wanted(c))
             s[c] = run->frame[c]->v + (plane ? k * run->frame[c]->nx : 0);
-    stress_report_start(&run->report);
+    run->report.depth_began = tool_now();
     tool_must(&run->t, NULL, rc_stress_slice(stress, run->depths.v[k], s, &run->t.err));
     stress_report_depth(&run->report, &run->t, k, rc_stress_values(stress), s);
     for (int c = 0; c < RC_STRESSES && !plane; c++) {
@@ -286,7 +286,7 @@ do_case(struct run *run, const struct rc_grid *p)
                                   report_wanted(&run->out), &run->t.err));
     tool_demand_memory(&run->t, p, memory_for(run, p));
     stress = tool_made(&run->t, p, rc_stress_new(rc_shape_of(p), p->v, &run->options, &run->t.err));
-    stress_report_ready(&run->report);
+    run->report.setup = tool_now() - run->report.began;
     for (int c = 0; c < RC_STRESSES; c++)
         if (wanted(c))
             run->frame[c] = new_frame(run, p, c);
@@ -299,8 +299,7 @@ do_case(struct run *run, const struct rc_grid *p)
         rc_grid_free(run->frame[c]);
         run->frame[c] = NULL;
     }
-    if (report_wanted(&run->out))
-        stress_report_write(&run->report, &run->out, stress);
+    stress_report_write(&run->report, &run->out, stress);
     stress_report_free(&run->report);
     rc_stress_free(stress);
 }

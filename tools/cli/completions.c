@@ -374,7 +374,7 @@ json_list(struct json *json, const char *name, const char *words)
 {
     char word[64];
 
-    json_array(json, name);
+    json_begin(json, name, ']');
     for (size_t n; *words != '\0'; words += n + (words[n] != '\0')) {
         n = strcspn(words, " |");
         snprintf(word, sizeof word, "%.*s", (int)n, words);
@@ -391,7 +391,7 @@ json_words(struct json *json, const struct opt *o)
     char text[64];
     size_t n;
 
-    json_array(json, "words");
+    json_begin(json, "words", ']');
     if (has_words(o)) {
         for (size_t k = 0; (word = option_word(o, k, &n)) != NULL; k++) {
             snprintf(text, sizeof text, "%.*s", (int)n, word);
@@ -412,7 +412,7 @@ json_option(struct json *json, const struct opt *o)
         [OPT_WORDS] = "words", [OPT_NUMBERS] = "numbers", [OPT_STEP] = "step",
         [OPT_TEXTS] = "texts"};
 
-    json_object(json, NULL);
+    json_begin(json, NULL, '}');
     json_text(json, "name", o->name);
     json_text(json, "alias", o->alias);
     json_text(json, "type", types[o->type]);
@@ -446,7 +446,7 @@ table_print(const struct tool *t)
     json_list(&json, "operand_words", operand_words(t->info) == NULL ? "" : t->info->operands);
     json_text(&json, "reads", reads[t->info->reads]);
     json_text(&json, "writes", writes[t->info->writes]);
-    json_array(&json, "options");
+    json_begin(&json, "options", ']');
     for (size_t k = 0; (o = row_at(t, k)) != NULL; k++)
         json_option(&json, o);
     json_end(&json, ']');

@@ -8,6 +8,7 @@
 #include <strings.h>
 
 #include "formats/core/core.h"
+#include "tools/machine/machine.h"
 #include "ranks.h"
 
 /* ---- the file ---- */
@@ -203,7 +204,7 @@ begin_inside(struct report *r, const char *name, char bracket)
     if (r->name == NULL)
         return;
     if (!r->separator)
-        (bracket == '}' ? json_object : json_array)(&r->json, name);
+        json_begin(&r->json, name, bracket);
     assert(r->depth < REPORT_DEPTH);
     r->bracket[r->depth++] = bracket;
 }
@@ -443,7 +444,7 @@ report_map(struct report *r, const struct rc_grid *g, size_t number)
 void
 report_memory(struct report *r)
 {
-    const double peak = ranks_most(r->tool, (double)tool_peak_memory());
+    const double peak = ranks_most(r->tool, (double)memory_peak());
     const double counted = ranks_most(r->tool, (double)tool_counted_memory(r->tool));
 
     report_count(r, "peak_memory", (size_t)peak, "B");

@@ -150,9 +150,3 @@ tool_memory_beside(struct tool *t, size_t bytes, size_t counted)
     t->room.children = both > t->room.children ? both : t->room.children;
     t->room.counted = count > t->room.counted ? count : t->room.counted;
 }
-
-size_t
-tool_peak_memory(void)
-{
-    return memory_peak();
-}

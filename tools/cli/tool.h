@@ -355,7 +355,5 @@ double tool_now(void);
 /* Reports the peak, in bytes, of a process that this one started and that has ended: the kernel's, and the
  * counted one (0: counted here). */
 void tool_memory_beside(struct tool *tool, size_t bytes, size_t counted);
-/* The peak memory of this process so far, in bytes. */
-size_t tool_peak_memory(void);
 
 #endif

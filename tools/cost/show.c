@@ -333,24 +333,11 @@ cost_report(const struct cost_case *c, struct report *out)
 
 /* ---- the command ---- */
 
-/* Prints a word quoted for a shell. */
 static void
 put_word(FILE *out, const char *word)
 {
-    const char *plain = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-./,:+@%=";
-
     fputc(' ', out);
-    if (word[0] != '\0' && strspn(word, plain) == strlen(word)) {
-        fputs(word, out);
-        return;
-    }
-    fputc('\'', out);
-    for (; *word != '\0'; word++)
-        if (*word == '\'')
-            fputs("'\\''", out);
-        else
-            fputc(*word, out);
-    fputc('\'', out);
+    shown_shell_word(out, word);
 }
 
 static void

@@ -34,8 +34,6 @@ leak_report(struct report *r, const struct leak_case *c)
     const char direction[2] = {c->direction, '\0'};
     double load;
 
-    if (!report_wanted(r))
-        return;
     report_begin(r);
     report_map(r, g, rc_grid_case(g));
     report_text(r, "boundary", rc_grid_get(g, "boundary"));

@@ -151,16 +151,17 @@ course_seconds(const struct tool *t, const struct rc_grid *g, double seconds, si
 }
 
 void
-course_show(struct tool *t, const struct rc_grid *g, struct rc_expected expected)
+course_show(struct tool *t, const struct rc_grid *g, struct rc_expected expected, size_t points,
+            const char *what)
 {
     const size_t memory = course_peak(expected.memory);
     char work[64] = "";
 
     if (!isnan(expected.convolutions))
         snprintf(work, sizeof work, "%.0f convolutions, ", expected.convolutions);
-    fprintf(t->out, "%s: %zu x %zu nodes\n  about %s%zu MiB, %.2g s with %zu threads\n",
-            tool_where(t, g), g->nx, g->ny, work, (memory >> 20) + 1,
-            course_seconds(t, g, expected.seconds, 1), t->threads);
+    fprintf(t->out, "%s: %zu x %zu nodes%s\n  about %s%zu MiB, %.2g s with %zu threads\n",
+            tool_where(t, g), g->nx, g->ny, what, work, (memory >> 20) + 1,
+            course_seconds(t, g, expected.seconds, points), t->threads);
 }
 
 enum rc_status

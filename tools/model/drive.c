@@ -416,15 +416,11 @@ plan_of(struct drive *d, const struct rc_grid *g, const struct rc_model *m)
 static void
 print_plan(struct drive *d, const struct rc_grid *g, const struct rc_model *m)
 {
-    const struct rc_expected e = plan_of(d, g, m);
-    const size_t memory = course_peak(e.memory);
+    char what[128];
 
-    fprintf(d->t.out, "%s: %zu x %zu nodes, %zu %s of the %s model\n", tool_where(&d->t, g), g->nx,
-            g->ny, d->points, d->points == 1 ? "point" : "points", rc_model_name(m));
-    if (!isnan(e.convolutions))
-        fprintf(d->t.out, "  about %.0f convolutions, %zu MiB, %.2g s with %zu threads\n",
-                e.convolutions, (memory >> 20) + 1, course_seconds(&d->t, g, e.seconds, d->points),
-                d->t.threads);
+    snprintf(what, sizeof what, ", %zu %s of the %s model", d->points,
+             d->points == 1 ? "point" : "points", rc_model_name(m));
+    course_show(&d->t, g, plan_of(d, g, m), d->points, what);
 }
 
 /* Warns of what the model found, in the way of all tools. */

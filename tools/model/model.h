@@ -86,8 +86,10 @@ size_t course_peak(size_t bytes);
  * times the measured over the expected seconds of a small contact; with files, figures and frames of the
  * points. */
 double course_seconds(const struct tool *t, const struct rc_grid *g, double seconds, size_t points);
-/* Prints the plan of a map that takes so much; convolutions NAN: it has none. */
-void course_show(struct tool *t, const struct rc_grid *g, struct rc_expected expected);
+/* Prints the plan of a map that takes so much for so many points; convolutions NAN: it has none; what: more
+ * about the map. */
+void course_show(struct tool *t, const struct rc_grid *g, struct rc_expected expected,
+                 size_t points, const char *what);
 
 /* ---- again.c ---- */
 

@@ -757,7 +757,7 @@ add_law(struct curves *c)
 
     if (c->columns > 2 || !law_knows(law, x, y))
         tool_usage(c->tool, "--law %s relates %s%s, which --curve does not draw", law,
-                   law_quantities(law), c->columns > 2 ? ", one at a time" : "");
+                   law_named(law)->says, c->columns > 2 ? ", one at a time" : "");
     settle_given(c);
     if (law_needs_area(law, &c->given, x, y) && isnan(c->given.area))
         tool_die(c->tool,
@@ -782,8 +782,11 @@ add_law(struct curves *c)
         c->law_y[k] = law_value(law, &c->given, x, c->law_x[k], y);
     }
     s = new_series(c);
-    *s = (struct graph_series){
-        .name = law_title(law), .kind = GRAPH_LAW, .x = c->law_x, .y = c->law_y, .n = SAMPLES};
+    *s = (struct graph_series){.name = law_named(law)->title,
+                               .kind = GRAPH_LAW,
+                               .x = c->law_x,
+                               .y = c->law_y,
+                               .n = SAMPLES};
 }
 
 /* ---- the whole ---- */

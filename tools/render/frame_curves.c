@@ -354,7 +354,7 @@ add_distribution(struct set *s, double mean, double lo, double hi)
     if ((lacks = law_lacks("persson", &given)) != NULL)
         tool_usage(s->tool, "--law persson needs %s: give it", lacks);
     set_series(s, s->n, GRAPH_LAW, LAW);
-    s->series[s->n].name = law_title("persson");
+    s->series[s->n].name = law_named("persson")->title;
     s->series[0].name = "pressures of the map";
     for (size_t k = 0; k < LAW; k++) {
         s->x[s->n][k] = lo + (hi - lo) * (double)k / (LAW - 1);

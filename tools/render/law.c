@@ -90,12 +90,7 @@ law_pressure_density(const struct law_given *g, double mean, double p)
 
 /* ---- the table ---- */
 
-static const struct law {
-    const char *name, *title, *x, *y; /* x and y: names between blanks */
-    const char *says;                 /* the same for a message        */
-    bool radius, rms_slope;           /* needed beside E*              */
-    double (*value)(const struct law_given *given, const char *x, double value, const char *y);
-} laws[] = {
+static const struct law laws[] = {
     {"hertz", "Hertz (Johnson 1985, eqs. 4.22 to 4.24)",
      " load mean_pressure approach contact_area contact_fraction max_pressure stiffness ",
      " load mean_pressure approach contact_area contact_fraction max_pressure stiffness ",
@@ -113,8 +108,8 @@ law_word(size_t k)
     return k < sizeof laws / sizeof *laws ? laws[k].name : NULL;
 }
 
-static const struct law *
-find(const char *name)
+const struct law *
+law_named(const char *name)
 {
     for (size_t k = 0; k < sizeof laws / sizeof *laws; k++)
         if (strcmp(laws[k].name, name) == 0)
@@ -123,15 +118,9 @@ find(const char *name)
 }
 
 const char *
-law_title(const char *name)
-{
-    return find(name)->title;
-}
-
-const char *
 law_lacks(const char *name, const struct law_given *g)
 {
-    const struct law *law = find(name);
+    const struct law *law = law_named(name);
 
     if (!(g->estar > 0))
         return "--estar";
@@ -154,21 +143,15 @@ is_one_of(const char *names, const char *name)
 bool
 law_knows(const char *name, const char *x, const char *y)
 {
-    const struct law *law = find(name);
+    const struct law *law = law_named(name);
 
     return is_one_of(law->x, x) && is_one_of(law->y, y);
-}
-
-const char *
-law_quantities(const char *name)
-{
-    return find(name)->says;
 }
 
 double
 law_value(const char *name, const struct law_given *g, const char *x, double value, const char *y)
 {
-    return law_knows(name, x, y) ? find(name)->value(g, x, value, y) : NAN;
+    return law_knows(name, x, y) ? law_named(name)->value(g, x, value, y) : NAN;
 }
 
 bool

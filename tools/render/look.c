@@ -203,7 +203,7 @@ look_section(struct tool *t, const struct args *a, const struct rc_grid *g, stru
     struct layers layers;
     struct rc_grid *even;
 
-    media_read(t, g, &layers);
+    tool_must(t, g, layers_read(g, &layers, &t->err));
     media_set(t, &layers, f);
     section_range(t, a->depths, g, depth, &f->at.top, &f->at.bottom);
     f->at.across = strcmp(rc_grid_get(g, "section"), "x") == 0 ? "y" : "x";

@@ -7,12 +7,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-void
-media_read(struct tool *t, const struct rc_grid *g, struct layers *c)
-{
-    tool_must(t, g, layers_read(g, c, &t->err));
-}
-
 static void
 write_text(struct medium *m, const struct rc_layer *of, double residual)
 {

@@ -101,8 +101,6 @@ enum {
     MEDIA_NAME = 32
 };
 
-/* From the key `layers`; ends the tool if the key is invalid. */
-void media_read(struct tool *tool, const struct rc_grid *grid, struct layers *layers);
 /* The media in the figure of a section; the caller frees `medium`. */
 void media_set(struct tool *tool, const struct layers *layers, struct figure *figure);
 /* "layer 2" or "substrate": the place of a slice of stresses; NULL: unknown. */
@@ -246,15 +244,19 @@ struct law_given {
     double area;                     /* area of the map, m2 */
 };
 
+struct law {
+    const char *name, *title, *x, *y; /* x and y: names between blanks */
+    const char *says;                 /* the same for a message        */
+    bool radius, rms_slope;           /* needed beside E*              */
+    double (*value)(const struct law_given *given, const char *x, double value, const char *y);
+};
+
 const char *law_word(size_t k);
-/* Name of the law in a legend, with its source. */
-const char *law_title(const char *law);
+const struct law *law_named(const char *name);
 /* The missing values that it needs, as options; NULL: none. */
 const char *law_lacks(const char *law, const struct law_given *given);
 /* True if it relates the two quantities, named as in reports of rc-solve. */
 bool law_knows(const char *law, const char *x, const char *y);
-/* Names of the quantities that it relates. */
-const char *law_quantities(const char *law);
 /* True if it needs the area of the map. */
 bool law_needs_area(const char *law, const struct law_given *given, const char *x, const char *y);
 /* The value of y for the other quantity x, SI; NAN: undefined. */
@@ -342,8 +344,6 @@ void sheet_check_alike(struct tool *tool, const struct rc_grid *first,
                        const struct figure *figure);
 /* Statistics of all values; ends the tool if a frame has no finite one. */
 void sheet_survey(struct tool *tool, const struct frames *frames, struct survey *all);
-/* True if all have the same materials, so that one legend is enough. */
-bool sheet_one_body(const struct frames *frames);
 /* "a) load 10 N"; after z) comes aa). */
 void sheet_label(struct panel *panel, const struct frames *frames, size_t k);
 

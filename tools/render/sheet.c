@@ -64,12 +64,6 @@ sheet_survey(struct tool *t, const struct frames *frames, struct survey *all)
     }
 }
 
-bool
-sheet_one_body(const struct frames *frames)
-{
-    return subtitle_same(frames->grid, frames->n, "layers");
-}
-
 void
 sheet_label(struct panel *panel, const struct frames *frames, size_t k)
 {

@@ -121,8 +121,10 @@ set_keys(struct drive *d, const struct rc_model *m, struct rc_grid *g)
     tool_set_number(&d->t, g, "hardening", yields ? yield_law_hardening(law) : NAN);
     adhesion_set_key(run, g, c);
     travel_set_keys(run, g);
-    relax_set_keys(run, g);
-    slide_set_keys(run, g);
+    if (run->relaxing.wanted)
+        tool_set_number(&d->t, g, "time", run->relaxing.found->time);
+    if (run->sliding.wanted)
+        tool_set_number(&d->t, g, "speed", slide_speed(run, d->at));
 }
 
 /* Values that are not those of a frame of the model. The frames from `plastic` on have the error of the

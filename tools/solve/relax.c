@@ -267,13 +267,6 @@ relax_warn_of_end(struct run *run, const char *where, const struct rc_contact *c
 }
 
 void
-relax_set_keys(struct run *run, struct rc_grid *as)
-{
-    if (run->relaxing.wanted)
-        tool_set_number(&run->d.t, as, "time", run->relaxing.found->time);
-}
-
-void
 relax_report(struct report *r, const struct run *run)
 {
     const struct relaxing *x = &run->relaxing;

@@ -200,13 +200,6 @@ slide_warn(struct run *run, const char *where)
 }
 
 void
-slide_set_keys(struct run *run, struct rc_grid *as)
-{
-    if (run->sliding.wanted)
-        tool_set_number(&run->d.t, as, "speed", slide_speed(run, run->d.at));
-}
-
-void
 slide_report(struct report *r, const struct run *run)
 {
     const struct figures from[] = {{rc_figures("slide"), run->sliding.found}, {NULL, NULL}};

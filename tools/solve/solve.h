@@ -245,7 +245,6 @@ bool relax_look(struct run *run, const struct rc_model *m);
 /* Sets the parts of the error. */
 void relax_parts(const struct run *run, struct solution *solution);
 bool relax_warn_of_end(struct run *run, const char *where, const struct rc_contact *contact);
-void relax_set_keys(struct run *run, struct rc_grid *as);
 void relax_report(struct report *report, const struct run *run);
 const char *relax_state(const struct run *run);
 
@@ -262,7 +261,6 @@ void slide_mark(struct run *run, char *value, size_t size);
 /* Takes the figures of a case. */
 void slide_look(struct run *run, const struct rc_model *m, struct rc_contact *contact);
 void slide_warn(struct run *run, const char *where);
-void slide_set_keys(struct run *run, struct rc_grid *as);
 void slide_report(struct report *report, const struct run *run);
 const char *slide_state(const struct run *run);
 

@@ -34,18 +34,6 @@ stress_report_begin(struct stress_report *r, const struct rc_grid *p,
     return RC_OK;
 }
 
-void
-stress_report_ready(struct stress_report *r)
-{
-    r->setup = tool_now() - r->began;
-}
-
-void
-stress_report_start(struct stress_report *r)
-{
-    r->depth_began = tool_now();
-}
-
 /* Value k of a slice or of a line, and its position. */
 static struct stress_place
 place(const struct stress_report *r, size_t k, double depth, double value)

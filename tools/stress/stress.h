@@ -36,10 +36,7 @@ struct stress_report {
 enum rc_status stress_report_begin(struct stress_report *report, const struct rc_grid *p,
                                    const struct rc_stress_options *options,
                                    const struct numbers *depths, bool extremes, struct rc_err *err);
-/* Three calls: when the plan is ready, when a depth begins, and when depth k with n values per channel is
- * done. */
-void stress_report_ready(struct stress_report *report);
-void stress_report_start(struct stress_report *report);
+/* When depth k, begun at depth_began, with n values per channel is done. */
 void stress_report_depth(struct stress_report *report, const struct tool *tool, size_t k, size_t n,
                          double *const *s);
 /* Writes the row of the case. */

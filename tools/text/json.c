@@ -71,18 +71,10 @@ json_bool(struct json *j, const char *name, bool value)
 }
 
 void
-json_object(struct json *j, const char *name)
+json_begin(struct json *j, const char *name, char bracket)
 {
     name_of(j, name);
-    putc('{', j->file);
-    j->follows = false;
-}
-
-void
-json_array(struct json *j, const char *name)
-{
-    name_of(j, name);
-    putc('[', j->file);
+    putc(bracket == '}' ? '{' : '[', j->file);
     j->follows = false;
 }
 

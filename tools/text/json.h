@@ -18,9 +18,9 @@ void json_plain(struct json *json, const char *name,
 void json_number(struct json *json, const char *name, double value); /* NaN and infinity: null */
 void json_text(struct json *json, const char *name, const char *value); /* NULL: null */
 void json_bool(struct json *json, const char *name, bool value);
-void json_object(struct json *json, const char *name);
-void json_array(struct json *json, const char *name);
-void json_end(struct json *json, char bracket); /* '}' or ']' */
+/* An object or an array; bracket: its last one, '}' or ']'. */
+void json_begin(struct json *json, const char *name, char bracket);
+void json_end(struct json *json, char bracket);
 /* Ends the outermost object and the line, and flushes. */
 void json_close(struct json *json);
 

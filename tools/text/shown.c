@@ -83,3 +83,19 @@ shown_area_to(char text[SHOWN_NUMBER], double area)
     snprintf(text, SHOWN_NUMBER, "%.*g %s", DIGITS, area / unit[k].size, unit[k].name);
     return text;
 }
+
+void
+shown_shell_word(FILE *out, const char *word)
+{
+    static const char plain[] = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789"
+                                "%+,-./:=@_";
+
+    if (*word != '\0' && word[strspn(word, plain)] == '\0') {
+        fputs(word, out);
+        return;
+    }
+    putc('\'', out);
+    for (; *word != '\0'; word++)
+        fputs(*word == '\'' ? "'\\''" : (const char[]){*word, '\0'}, out);
+    putc('\'', out);
+}

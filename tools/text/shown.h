@@ -20,6 +20,8 @@ const char *shown_in_unit_to(char text[SHOWN_NUMBER], double value, const char *
 #define shown_in_unit(value, unit) shown_in_unit_to((char[SHOWN_NUMBER]){""}, value, unit)
 /* Text from a file, up to n bytes, without control characters of a terminal. */
 void shown_words(FILE *out, const char *text, size_t n);
+/* A word of a command, in quotes for a shell if it needs them. */
+void shown_shell_word(FILE *out, const char *word);
 /* "37 MiB", "7.4 MiB": in the largest unit not above it, with one decimal below 10. */
 const char *shown_bytes_to(char text[SHOWN_NUMBER], double bytes);
 #define shown_bytes(bytes) shown_bytes_to((char[SHOWN_NUMBER]){""}, bytes)
