@@ -27,22 +27,36 @@ rc_format_named(const char *name)
     return NULL;
 }
 
-int
-rc_format_score(const struct rc_format *f, const struct rc_file *file)
+static bool
+matches(const struct rc_format *f, const struct rc_file *file)
 {
     bool is = f->is != NULL && f->is(file);
 
-    if (f->score != NULL)
-        return f->score(file);
     for (size_t k = 0; k < sizeof f->magic / sizeof *f->magic; k++)
         is = is || (f->magic[k].n > 0 && rc_file_holds(file, 0, f->magic[k].bytes, f->magic[k].n));
-    return !is ? 0 : f->sure > 0 ? f->sure : 95;
+    return is;
+}
+
+int
+rc_format_score(const struct rc_format *f, const struct rc_file *file)
+{
+    if (f->score != NULL)
+        return f->score(file);
+    return !matches(f, file) ? 0 : f->sure > 0 ? f->sure : 95;
+}
+
+static enum rc_status
+check(const struct rc_format *f, const struct rc_file *file, struct rc_err *err)
+{
+    return f->refusal == NULL || matches(f, file) ? RC_OK : rc_err_set(err, "%s", f->refusal);
 }
 
 size_t
 rc_format_list(const struct rc_format *f, const struct rc_file *file, const struct rc_wish *wish,
                struct rc_channel *channel, size_t most, struct rc_err *err)
 {
+    if (check(f, file, err) != RC_OK)
+        return 0;
     return (f->sandboxed ? rc_sandbox_list : rc_maps_list)(f->find, file, wish, channel, most, err);
 }
 
@@ -50,6 +64,8 @@ struct rc_grid *
 rc_format_read(const struct rc_format *f, const struct rc_file *file, const struct rc_wish *wish,
                size_t index, struct rc_notes *notes, struct rc_err *err)
 {
+    if (check(f, file, err) != RC_OK)
+        return NULL;
     return (f->sandboxed ? rc_sandbox_read : rc_maps_read)(f->find, file, wish, index, notes, err);
 }
 

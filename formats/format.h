@@ -5,7 +5,7 @@
  *
  * Every reader
  *
- *     1. checks the magic again, because the user may force a format;
+ *     1. checks the magic again unless its row has it, because the user may force a format;
  *     2. checks each size against the bytes of the file before allocating;
  *     3. refuses a spacing that is zero, negative, NaN or infinite, and never repairs one;
  *     4. reads numbers with a point in every locale;
@@ -29,13 +29,14 @@ struct rc_format {
     const char *suffixes; /* ".x3p": suffixes, separated by spaces */
     const char *summary;  /* one line                                                            */
     /* A file of this format begins with one of these bytes, or has other bytes elsewhere; then `sure` (0: 95)
-     * is its score. */
+     * is its score. Another file is refused with this reason, because the user may force a format. */
     struct {
         const char *bytes;
         size_t n;
-    } magic[2];
+    } magic[3];
     bool (*is)(const struct rc_file *file);
     int sure;
+    const char *refusal;
     /* For other formats: the certainty that the file has this format, 0 to 100, first by content, then by
      * name. */
     int (*score)(const struct rc_file *file);

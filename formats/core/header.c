@@ -23,6 +23,12 @@ same(const char *a, const char *b, size_t n)
     return n == 0;
 }
 
+struct rc_piece
+rc_piece_of(const char *word)
+{
+    return (struct rc_piece){word, strlen(word)};
+}
+
 bool
 rc_piece_begins(struct rc_piece piece, const char *word)
 {

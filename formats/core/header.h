@@ -12,6 +12,8 @@ struct rc_piece {
     size_t n;
 };
 
+/* The piece of a word that ends in NUL. */
+struct rc_piece rc_piece_of(const char *word);
 /* True if the piece is one of the words, separated by '|', in upper or lower case of ASCII. */
 bool rc_piece_is(struct rc_piece piece, const char *words);
 /* True if it begins with the word, in either case. */

@@ -7,26 +7,26 @@
 #include "units.h"
 
 struct rc_map *
-rc_maps_add(struct rc_maps *maps, const char *name, size_t n)
+rc_maps_add(struct rc_maps *maps, struct rc_piece name)
 {
     struct rc_map *map = maps->n < RC_MAPS_MOST ? &maps->map[maps->n] : &maps->spare;
 
     maps->n++;
     *map = (struct rc_map){
         .si = 1, .scale = 1, .dx = NAN, .dy = NAN, .missing_from = NAN, .missing_to = NAN};
-    rc_text_clean(map->name, sizeof map->name, name, n);
+    rc_text_clean(map->name, sizeof map->name, name.text, name.n);
     return map;
 }
 
 void
-rc_maps_key(struct rc_maps *maps, const char *key, const char *text, size_t n)
+rc_maps_key(struct rc_maps *maps, const char *key, struct rc_piece text)
 {
     for (size_t k = 0; k < maps->keys; k++)
         if (strcmp(maps->key[k].name, key) == 0)
             return;
     if (maps->keys == RC_KEYS_MOST)
         return;
-    rc_text_clean(maps->key[maps->keys].value, sizeof maps->key->value, text, n);
+    rc_text_clean(maps->key[maps->keys].value, sizeof maps->key->value, text.text, text.n);
     if (maps->key[maps->keys].value[0] != '\0')
         strcpy(maps->key[maps->keys++].name, key);
 }
@@ -37,23 +37,24 @@ rc_maps_keep(struct rc_maps *maps, const struct rc_keep *keep, size_t n, struct 
 {
     for (size_t k = 0; k < n; k++)
         if (rc_piece_is(name, keep[k].name))
-            rc_maps_key(maps, keep[k].key, value.text, value.n);
+            rc_maps_key(maps, keep[k].key, value);
 }
 
 void
-rc_map_unit(struct rc_map *map, const char *text, size_t n)
+rc_map_unit(struct rc_map *map, struct rc_piece unit)
 {
     static const char *const bases[] = {"V", "A", "N", "Pa", "Hz", "s", "rad", "W", "J", "F"};
     size_t length;
     int power;
 
-    rc_trim(&text, &n);
+    unit = rc_piece_trim(unit);
     map->si = 1;
-    if (rc_length_unit(text, n, &map->si)) {
+    if (rc_length_unit(unit.text, unit.n, &map->si)) {
         strcpy(map->unit, "m");
         return;
     }
-    rc_text_clean(map->unit, sizeof map->unit, text, n); /* in Latin-1 the micro sign is one byte */
+    rc_text_clean(map->unit, sizeof map->unit, unit.text,
+                  unit.n); /* in Latin-1 the micro sign is one byte */
     length = strlen(map->unit);
     for (size_t k = 0; k < sizeof bases / sizeof *bases; k++) {
         size_t tail = strlen(bases[k]);
@@ -99,6 +100,24 @@ rc_map_count(const char *what, double number, size_t *count, struct rc_err *err)
                           rc_number(number));
     *count = (size_t)number;
     return RC_OK;
+}
+
+static enum rc_status
+count_of(const char *what, const char *name, double number, size_t *count, struct rc_err *err)
+{
+    char named[64];
+
+    snprintf(named, sizeof named, "%s (%s)", what, name == NULL ? "" : name);
+    return rc_map_count(name == NULL ? what : named, number, count, err);
+}
+
+enum rc_status
+rc_map_size(struct rc_map *map, double columns, const char *x, double rows, const char *y,
+            struct rc_err *err)
+{
+    return count_of("columns", x, columns, &map->nx, err) == RC_OK
+               ? count_of("rows", y, rows, &map->ny, err)
+               : RC_FAIL;
 }
 
 enum rc_status

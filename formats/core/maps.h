@@ -62,9 +62,9 @@ struct rc_maps {
 };
 
 /* Adds a map with this name and scale 1; all else is unknown. */
-struct rc_map *rc_maps_add(struct rc_maps *maps, const char *name, size_t n);
+struct rc_map *rc_maps_add(struct rc_maps *maps, struct rc_piece name);
 /* Adds a cleaned key `file.*` of the grid, unless the text is empty or the key exists. */
-void rc_maps_key(struct rc_maps *maps, const char *key, const char *text, size_t n);
+void rc_maps_key(struct rc_maps *maps, const char *key, struct rc_piece text);
 /* The name of an item in a file, and the key of the grid for it. */
 struct rc_keep {
     const char *name, *key;
@@ -73,7 +73,7 @@ struct rc_keep {
 void rc_maps_keep(struct rc_maps *maps, const struct rc_keep *keep, size_t n, struct rc_piece name,
                   struct rc_piece value);
 /* Sets unit and si from the file's word for it. The word may be a length or a unit with an SI prefix. */
-void rc_map_unit(struct rc_map *map, const char *text, size_t n);
+void rc_map_unit(struct rc_map *map, struct rc_piece unit);
 /* The smallest and the largest raw number that is not missing; false if the file lacks some numbers, or if
  * all are missing. */
 bool rc_map_range(const struct rc_map *map, const struct rc_file *file, double *low, double *high);
@@ -84,6 +84,9 @@ void rc_map_hint(struct rc_map *map, double dx, double dy);
 void rc_map_steps(struct rc_map *map, double dx, double dy, struct rc_piece unit);
 /* A whole number from 1 to 2^31 - 1 in a header, or RC_FAIL with its name. */
 enum rc_status rc_map_count(const char *what, double number, size_t *count, struct rc_err *err);
+/* Sets nx and ny by rc_map_count. `x` and `y` are the names that the file has for them, or NULL. */
+enum rc_status rc_map_size(struct rc_map *map, double columns, const char *x, double rows,
+                           const char *y, struct rc_err *err);
 /* RC_FAIL if the map and `unpacked` bytes, which fill needs beside it, exceed rc_memory_limit: for packed
  * data. */
 enum rc_status rc_map_bound(struct rc_map *map, const struct rc_file *file, double unpacked,

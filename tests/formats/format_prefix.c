@@ -109,7 +109,7 @@ units_of_files(void **state)
     for (size_t k = 0; k < sizeof units / sizeof *units; k++) {
         struct rc_map map = {.si = 0};
 
-        rc_map_unit(&map, units[k].text, strlen(units[k].text));
+        rc_map_unit(&map, rc_piece_of(units[k].text));
         assert_string_equal(map.unit, units[k].unit);
         assert_true(map.si == units[k].si);
     }

@@ -50,7 +50,7 @@ good(const struct rc_file *f, struct rc_maps *maps, struct rc_err *err)
     (void)err;
     assert_ptr_equal(f, &file);
     for (size_t k = 0; k < 4; k++) {
-        struct rc_map *map = rc_maps_add(maps, "height", 6);
+        struct rc_map *map = rc_maps_add(maps, rc_piece_of("height"));
 
         map->nx = 300;
         map->ny = 200;
@@ -58,9 +58,9 @@ good(const struct rc_file *f, struct rc_maps *maps, struct rc_err *err)
         map->dy = 0.7e-6;
         map->fill = fill_good;
         map->more = k;
-        rc_map_unit(map, "nm", 2);
+        rc_map_unit(map, rc_piece_of("nm"));
     }
-    rc_maps_key(maps, "file.date", "2024\xc2\xb5", 6);
+    rc_maps_key(maps, "file.date", rc_piece_of("2024\xc2\xb5"));
     return RC_OK;
 }
 
@@ -654,7 +654,7 @@ three(const struct rc_file *f, struct rc_maps *maps, struct rc_err *err)
 {
     (void)f, (void)err;
     for (size_t k = 0; k < 3; k++) {
-        struct rc_map *map = rc_maps_add(maps, "", 0);
+        struct rc_map *map = rc_maps_add(maps, rc_piece_of(""));
 
         strcpy(map->name, "c\033");
         strcpy(map->unit, "\302\233m");

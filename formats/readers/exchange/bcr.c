@@ -72,22 +72,19 @@ bcr_find(const struct rc_file *file, struct rc_maps *maps, struct rc_err *err)
                     .missing = NAN,
                     .lowest = NAN,
                     .header = NAN};
-    struct rc_map *map = rc_maps_add(maps, "", 0);
+    struct rc_map *map = rc_maps_add(maps, rc_piece_of(""));
     size_t mark, kind = kind_of(file, &mark), n = 0, wide;
     char header[HEADER];
     double low, high;
     struct rc_lines lines = {.at = header};
 
-    if (kind == sizeof kinds / sizeof *kinds)
-        return rc_err_set(err, "no BCR file: it does not begin with 'fileformat = bcr'");
     wide = kinds[kind].is_wide ? 2 : 1;
     for (size_t at = mark; n < HEADER && at + wide <= file->size; at += wide)
         header[n++] = (char)file->data[at]; /* the micro sign becomes that of Latin-1 */
     lines.end = header + n;
     if (rc_fields_read(fields, sizeof fields / sizeof *fields, &lines, "=", NULL, &b, err) !=
             RC_OK ||
-        rc_map_count("columns (xpixels)", b.columns, &map->nx, err) != RC_OK ||
-        rc_map_count("rows (ypixels)", b.rows, &map->ny, err) != RC_OK)
+        rc_map_size(map, b.columns, "xpixels", b.rows, "ypixels", err) != RC_OK)
         return RC_FAIL;
     map->at = HEADER * wide;
     if (b.header > (double)map->at && b.header <= (double)file->size && wide == 1)
@@ -96,9 +93,9 @@ bcr_find(const struct rc_file *file, struct rc_maps *maps, struct rc_err *err)
     map->big = b.order == 0;
     map->dx = length(b.width, b.x_unit) / b.columns;
     map->dy = length(b.height, b.y_unit.n > 0 ? b.y_unit : b.x_unit) / b.rows;
-    rc_map_unit(map, "nm", 2);
+    rc_map_unit(map, rc_piece_of("nm"));
     if (kinds[kind].is_float && b.z_unit.n > 0)
-        rc_map_unit(map, b.z_unit.text, b.z_unit.n);
+        rc_map_unit(map, b.z_unit);
     map->scale = kinds[kind].is_float ? 1 : b.bit2nm;
     map->missing_from = map->missing_to = b.missing;
     if (kinds[kind].is_float && b.missing > 1e30) {
@@ -110,18 +107,19 @@ bcr_find(const struct rc_file *file, struct rc_maps *maps, struct rc_err *err)
     return RC_OK;
 }
 
-static int
-bcr_score(const struct rc_file *file)
+static bool
+is_bcr(const struct rc_file *file)
 {
     size_t mark;
 
-    return kind_of(file, &mark) < sizeof kinds / sizeof *kinds ? 95 : 0;
+    return kind_of(file, &mark) < sizeof kinds / sizeof *kinds;
 }
 
 const struct rc_format rc_format_bcr = {
     .name = "bcr",
     .suffixes = ".bcr .bcrf",
     .summary = "BCR and BCRF (ImageMet)",
-    .score = bcr_score,
+    .is = is_bcr,
+    .refusal = "no BCR file: it does not begin with 'fileformat = bcr'",
     .find = bcr_find,
 };

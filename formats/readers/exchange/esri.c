@@ -40,11 +40,9 @@ esri_find(const struct rc_file *file, struct rc_maps *maps, struct rc_err *err)
     const char *text = (const char *)file->data, *at = text;
     struct rc_lines lines = rc_piece_lines(rc_file_piece(file));
     struct esri e = {.cell = NAN, .dx = NAN, .dy = NAN, .missing = -9999};
-    struct rc_map *map = rc_maps_add(maps, "", 0);
+    struct rc_map *map = rc_maps_add(maps, rc_piece_of(""));
     struct rc_piece line, key, value;
 
-    if (!has_magic(file))
-        return rc_err_set(err, "no ESRI grid: it does not begin with ncols or nrows");
     /* the header ends where a line does not begin with a letter */
     while (rc_lines_next(&lines, &line.text, &line.n)) {
         line = rc_piece_trim(line);
@@ -55,8 +53,7 @@ esri_find(const struct rc_file *file, struct rc_maps *maps, struct rc_err *err)
             return RC_FAIL;
         at = lines.at;
     }
-    if (rc_map_count("columns (ncols)", e.columns, &map->nx, err) != RC_OK ||
-        rc_map_count("rows (nrows)", e.rows, &map->ny, err) != RC_OK)
+    if (rc_map_size(map, e.columns, "ncols", e.rows, "nrows", err) != RC_OK)
         return RC_FAIL;
     if (rc_map_is_text(map, file, (size_t)(at - text), err) != RC_OK)
         return RC_FAIL;
@@ -71,5 +68,6 @@ const struct rc_format rc_format_esri = {
     .summary = "ESRI ASCII grid",
     .is = has_magic,
     .sure = 90,
+    .refusal = "no ESRI grid: it does not begin with ncols or nrows",
     .find = esri_find,
 };

@@ -31,8 +31,7 @@ find_text(const struct rc_file *file, struct rc_map *map, struct rc_err *err)
     double head[8];
 
     if (rc_flow_read(&text, head, 8, err) != RC_OK ||
-        rc_map_count("columns", head[0], &map->nx, err) != RC_OK ||
-        rc_map_count("rows", head[1], &map->ny, err) != RC_OK)
+        rc_map_size(map, head[0], NULL, head[1], NULL, err) != RC_OK)
         return RC_FAIL;
     set_limits(map, head + 2);
     return rc_map_is_text(map, file, file->size - text.n, err);
@@ -44,9 +43,10 @@ find_old(const struct rc_file *file, struct rc_map *map, struct rc_err *err)
     struct rc_bytes b = rc_file_bytes(file, false);
     double limit[4];
 
-    if (rc_map_count("columns", rc_bytes_at(&b, 4, RC_RAW_I16), &map->nx, err) != RC_OK ||
-        rc_map_count("rows", rc_bytes_at(&b, 6, RC_RAW_I16), &map->ny, err) != RC_OK)
+    if (rc_map_size(map, rc_bytes_at(&b, 4, RC_RAW_I16), NULL, rc_bytes_at(&b, 6, RC_RAW_I16), NULL,
+                    err) != RC_OK)
         return RC_FAIL;
+    b.at = 8;
     rc_bytes_values(&b, RC_RAW_F64, limit, 4);
     map->raw = RC_RAW_F32;
     map->at = OLD_DATA;
@@ -79,8 +79,7 @@ find_new(const struct rc_file *file, struct rc_map *map, struct rc_err *err)
             map->more = (size_t)n;
         }
     }
-    if (rc_map_count("columns", nx, &map->nx, err) != RC_OK ||
-        rc_map_count("rows", ny, &map->ny, err) != RC_OK)
+    if (rc_map_size(map, nx, NULL, ny, NULL, err) != RC_OK)
         return RC_FAIL;
     if (map->at == 0 || (double)map->more < 8 * nx * ny)
         return rc_err_set(err, "%zu x %zu values are promised, the section DATA has %zu bytes",
@@ -90,42 +89,25 @@ find_new(const struct rc_file *file, struct rc_map *map, struct rc_err *err)
     return RC_OK;
 }
 
-static const struct {
-    const char *magic;
-    enum rc_status (*find)(const struct rc_file *file, struct rc_map *map, struct rc_err *err);
-} kinds[] = {
-    {"DSAA", find_text},
-    {"DSBB", find_old},
-    {"DSRB", find_new},
-};
-
 static enum rc_status
 grd_find(const struct rc_file *file, struct rc_maps *maps, struct rc_err *err)
 {
-    struct rc_map *map = rc_maps_add(maps, "", 0);
+    struct rc_map *map = rc_maps_add(maps, rc_piece_of(""));
 
     map->bottom_first = true;
     map->missing_from = BLANK;
     map->missing_to = INFINITY;
-    for (size_t k = 0; k < sizeof kinds / sizeof *kinds; k++)
-        if (rc_file_holds(file, 0, kinds[k].magic, 4))
-            return kinds[k].find(file, map, err);
-    return rc_err_set(err, "no Surfer grid: it begins with none of DSAA, DSBB, DSRB");
-}
-
-static int
-grd_score(const struct rc_file *file)
-{
-    for (size_t k = 0; k < sizeof kinds / sizeof *kinds; k++)
-        if (rc_file_holds(file, 0, kinds[k].magic, 4))
-            return 90;
-    return 0;
+    return rc_file_holds(file, 0, "DSAA", 4)   ? find_text(file, map, err)
+           : rc_file_holds(file, 0, "DSBB", 4) ? find_old(file, map, err)
+                                               : find_new(file, map, err);
 }
 
 const struct rc_format rc_format_grd = {
     .name = "grd",
     .suffixes = ".grd",
     .summary = "Surfer grids: text, version 6 and 7",
-    .score = grd_score,
+    .magic = {{"DSAA", 4}, {"DSBB", 4}, {"DSRB", 4}},
+    .sure = 90,
+    .refusal = "no Surfer grid: it begins with none of DSAA, DSBB, DSRB",
     .find = grd_find,
 };

@@ -32,21 +32,18 @@ gsf_find(const struct rc_file *file, struct rc_maps *maps, struct rc_err *err)
     struct rc_lines lines = {.at = text + strlen(magic)};
     struct rc_map *map;
 
-    if (!rc_file_holds(file, 0, magic, strlen(magic)))
-        return rc_err_set(err, "no GSF file: it does not begin with Gwyddion Simple Field 1.0");
     if ((nul = memchr(text, '\0', file->size)) == NULL)
         return rc_err_set(err, "the header does not end: there is no NUL behind it");
     lines.end = nul;
     if (rc_fields_read(fields, sizeof fields / sizeof *fields, &lines, "=", NULL, &g, err) != RC_OK)
         return RC_FAIL;
-    map = rc_maps_add(maps, g.title.text, g.title.n);
-    if (rc_map_count("columns (XRes)", g.columns, &map->nx, err) != RC_OK ||
-        rc_map_count("rows (YRes)", g.rows, &map->ny, err) != RC_OK)
+    map = rc_maps_add(maps, g.title);
+    if (rc_map_size(map, g.columns, "XRes", g.rows, "YRes", err) != RC_OK)
         return RC_FAIL;
     map->raw = RC_RAW_F32;
     map->at = (size_t)(nul - text) / 4 * 4 + 4;
     rc_map_steps(map, g.width / g.columns, g.height / g.rows, g.xy);
-    rc_map_unit(map, g.z.text, g.z.n);
+    rc_map_unit(map, g.z);
     return RC_OK;
 }
 
@@ -55,5 +52,6 @@ const struct rc_format rc_format_gsf = {
     .suffixes = ".gsf",
     .summary = "Gwyddion Simple Field",
     .magic = {{magic, sizeof magic - 1}},
+    .refusal = "no GSF file: it does not begin with Gwyddion Simple Field 1.0",
     .find = gsf_find,
 };

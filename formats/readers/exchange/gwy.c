@@ -221,12 +221,11 @@ static enum rc_status
 add_field(const struct rc_file *file, const struct item *item, struct rc_maps *maps,
           struct rc_err *err)
 {
-    struct rc_map *map = rc_maps_add(maps, "", 0);
+    struct rc_map *map = rc_maps_add(maps, rc_piece_of(""));
     struct field f;
 
     if (read_field(file, item, &f, err) != RC_OK ||
-        rc_map_count("columns (xres)", f.nx, &map->nx, err) != RC_OK ||
-        rc_map_count("rows (yres)", f.ny, &map->ny, err) != RC_OK)
+        rc_map_size(map, f.nx, "xres", f.ny, "yres", err) != RC_OK)
         return RC_FAIL;
     if ((double)f.count != f.nx * f.ny)
         return rc_err_set(err, "a field of %zu x %zu values has %zu values", map->nx, map->ny,
@@ -234,7 +233,7 @@ add_field(const struct rc_file *file, const struct item *item, struct rc_maps *m
     map->raw = RC_RAW_F64;
     map->at = f.data;
     rc_map_steps(map, f.width / f.nx, f.height / f.ny, f.xy);
-    rc_map_unit(map, f.z.text, f.z.n);
+    rc_map_unit(map, f.z);
     return RC_OK;
 }
 

@@ -41,7 +41,7 @@ fill_values(const struct rc_file *file, const struct rc_map *map, double *v, str
 static void
 add_set(struct rc_hdf *h, const struct rc_hdf_set *set, size_t number, struct rc_maps *maps)
 {
-    struct rc_map *map = rc_maps_add(maps, set->path, strlen(set->path));
+    struct rc_map *map = rc_maps_add(maps, rc_piece_of(set->path));
     char unit[RC_SHOWN];
 
     map->nx = set->columns;
@@ -53,7 +53,7 @@ add_set(struct rc_hdf *h, const struct rc_hdf_set *set, size_t number, struct rc
     rc_hdf_text(h, set->path, "unit", unit, sizeof unit);
     if (unit[0] == '\0')
         rc_hdf_text(h, set->path, "units", unit, sizeof unit);
-    rc_map_unit(map, unit, strlen(unit));
+    rc_map_unit(map, rc_piece_of(unit));
     rc_hdf_number(h, set->path, "_FillValue", &map->missing_from);
     map->missing_to = map->missing_from;
 }
@@ -71,19 +71,12 @@ hdf5_find(const struct rc_file *file, struct rc_maps *maps, struct rc_err *err)
     return maps->n > 0 ? RC_OK : RC_FAIL;
 }
 
-/* ---- the entry in formats.list ---- */
-
-static int
-hdf5_score(const struct rc_file *file)
-{
-    return rc_hdf_is(file) ? 60 : 0; /* files of instruments have other readers */
-}
-
 const struct rc_format rc_format_hdf5 = {
     .name = "hdf5",
     .suffixes = ".h5 .hdf5",
     .summary = "HDF5: datasets of two dimensions",
-    .score = hdf5_score,
+    .is = rc_hdf_is,
+    .sure = 60, /* files of instruments have other readers */
     .find = hdf5_find,
     .sandboxed = true,
 };

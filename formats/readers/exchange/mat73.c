@@ -127,9 +127,6 @@ mat73_find(const struct rc_file *file, struct rc_maps *maps, struct rc_err *err)
     struct mat73 m = {.hdf = NULL};
     struct rc_matlab_source source = {file, &m, start, next, numbers_of, place};
 
-    if (!has_magic(file))
-        return rc_err_set(err, "not a MAT file of version 7.3: its header lacks version 2, or no "
-                               "HDF5 follows the header");
     if ((m.hdf = hdf = rc_hdf_new(file, err)) == NULL)
         return RC_FAIL;
     if ((m.set = set = calloc(SETS_MOST, sizeof *set)) == NULL)
@@ -144,6 +141,8 @@ const struct rc_format rc_format_mat73 = {
     .suffixes = ".mat",
     .summary = "MATLAB arrays of two dimensions, MAT version 7.3 (save -v7.3)",
     .is = has_magic,
+    .refusal =
+        "not a MAT file of version 7.3: its header lacks version 2, or no HDF5 follows the header",
     .find = mat73_find,
     .sandboxed = true,
 };

@@ -126,7 +126,7 @@ static enum rc_status
 add_map(struct rc_matlab_source *s, const struct facts *f, const struct rc_matlab_array *a,
         struct rc_maps *maps, struct rc_err *err)
 {
-    struct rc_map *map = rc_maps_add(maps, a->name, strlen(a->name));
+    struct rc_map *map = rc_maps_add(maps, rc_piece_of(a->name));
     double dx = f->dx, dy = isnan(f->dy) ? f->dx : f->dy;
 
     map->nx = f->maps > 0 ? a->columns : a->rows * a->columns;
@@ -142,7 +142,7 @@ add_map(struct rc_matlab_source *s, const struct facts *f, const struct rc_matla
     if (!isnan(dx) && !isnan(dy))
         rc_map_steps(map, dx, dy, (struct rc_piece){f->dunit, strlen(f->dunit)});
     if (f->unit[0] != '\0' && (f->maps > 0 ? f->maps : f->vectors) == 1)
-        rc_map_unit(map, f->unit, strlen(f->unit));
+        rc_map_unit(map, rc_piece_of(f->unit));
     return RC_OK;
 }
 

@@ -205,7 +205,7 @@ static enum rc_status
 add_map(const struct rc_cdf *f, const struct rc_cdf_variable *v, struct rc_maps *maps,
         struct rc_err *err)
 {
-    struct rc_map *map = rc_maps_add(maps, v->name.text, v->name.n);
+    struct rc_map *map = rc_maps_add(maps, v->name);
     double angstrom = 1e-10, dz = 1;
     bool along_x, along_y, gxsm = is_gxsm(f, v, &dz);
     size_t x, y;
@@ -227,7 +227,7 @@ add_map(const struct rc_cdf *f, const struct rc_cdf_variable *v, struct rc_maps 
     map->more = (size_t)(v - f->variable);
     map->title = v->title;
     map->periodic = along_x && along_y;
-    rc_map_unit(map, v->unit.text, v->unit.n);
+    rc_map_unit(map, v->unit);
     if (gxsm && strcmp(map->unit, "m") == 0)
         map->si = angstrom;
     else if (gxsm && map->si != 1) { /* the prefix belongs to the display */

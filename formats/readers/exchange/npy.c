@@ -178,7 +178,7 @@ npz_find(const struct rc_file *file, struct rc_maps *maps, struct rc_err *err)
             continue;
         if (read_header(&array, &one, &why) == RC_OK &&
             rc_map_bound(&one, file, (double)array.size, &why) == RC_OK) {
-            map = rc_maps_add(maps, name, strlen(name) - 4);
+            map = rc_maps_add(maps, (struct rc_piece){name, strlen(name) - 4});
             map->nx = one.nx;
             map->ny = one.ny;
             map->by_columns = one.by_columns;
@@ -197,8 +197,9 @@ npz_find(const struct rc_file *file, struct rc_maps *maps, struct rc_err *err)
 static enum rc_status
 npy_find(const struct rc_file *file, struct rc_maps *maps, struct rc_err *err)
 {
-    return rc_file_holds(file, 0, "PK", 2) ? npz_find(file, maps, err)
-                                           : read_header(file, rc_maps_add(maps, "", 0), err);
+    return rc_file_holds(file, 0, "PK", 2)
+               ? npz_find(file, maps, err)
+               : read_header(file, rc_maps_add(maps, rc_piece_of("")), err);
 }
 
 static int

@@ -78,8 +78,6 @@ read_header(const struct rc_file *file, struct nrrd *h, struct rc_err *err)
     for (size_t k = 0; k < sizeof fields / sizeof *fields; k++)
         *(struct rc_piece *)(void *)((char *)h + fields[k].at) = (struct rc_piece){"", 0};
     h->data = 0;
-    if (!rc_file_holds(file, 0, magic, strlen(magic)))
-        return rc_err_set(err, "no NRRD file: it does not begin with NRRD000");
     rc_lines_next(&lines, &line.text, &line.n);
     while (rc_lines_next(&lines, &line.text, &line.n)) {
         if (line.n == 0) {
@@ -256,9 +254,8 @@ nrrd_find(const struct rc_file *file, struct rc_maps *maps, struct rc_err *err)
 
     if (read_header(file, &h, err) != RC_OK || pick_axes(&h, axis, size, err) != RC_OK)
         return RC_FAIL;
-    map = rc_maps_add(maps, h.title.text, h.title.n);
-    if (rc_map_count("columns (sizes)", size[0], &map->nx, err) != RC_OK ||
-        rc_map_count("rows (sizes)", size[1], &map->ny, err) != RC_OK ||
+    map = rc_maps_add(maps, h.title);
+    if (rc_map_size(map, size[0], "sizes", size[1], "sizes", err) != RC_OK ||
         set_type(&h, file, map, err) != RC_OK)
         return RC_FAIL;
     dx = step_of(&h, axis[0], size[0]);
@@ -272,8 +269,7 @@ nrrd_find(const struct rc_file *file, struct rc_maps *maps, struct rc_err *err)
         rc_map_hint(map, dx, dy);
     map->dx = dx * rc_piece_metres(x_unit);
     map->dy = dy * rc_piece_metres(y_unit);
-    h.unit = rc_piece_bare(h.unit);
-    rc_map_unit(map, h.unit.text, h.unit.n);
+    rc_map_unit(map, rc_piece_bare(h.unit));
     return RC_OK;
 }
 
@@ -282,5 +278,6 @@ const struct rc_format rc_format_nrrd = {
     .suffixes = ".nrrd",
     .summary = "NRRD of two axes: raw, gzip or text",
     .magic = {{magic, sizeof magic - 1}},
+    .refusal = "no NRRD file: it does not begin with NRRD000",
     .find = nrrd_find,
 };

@@ -145,14 +145,11 @@ static enum rc_status
 sdf_find(const struct rc_file *file, struct rc_maps *maps, struct rc_err *err)
 {
     struct sdf s = {.dx = NAN, .dy = NAN, .scale = 1};
-    struct rc_map *map = rc_maps_add(maps, "", 0);
+    struct rc_map *map = rc_maps_add(maps, rc_piece_of(""));
     bool is_text = begins(file, 'a');
 
-    if (!is_text && !begins(file, 'b'))
-        return rc_err_set(err, "not an SDF file: it must begin with aISO-, aBCR-, bISO- or bBCR-");
     if ((is_text ? find_text(file, &s, map, err) : find_binary(file, &s, map, err)) != RC_OK ||
-        rc_map_count("columns (NumPoints)", s.columns, &map->nx, err) != RC_OK ||
-        rc_map_count("rows (NumProfiles)", s.rows, &map->ny, err) != RC_OK)
+        rc_map_size(map, s.columns, "NumPoints", s.rows, "NumProfiles", err) != RC_OK)
         return RC_FAIL;
     if (s.compression != 0)
         return rc_err_set(err, "the heights are compressed (Compression is %g): that is not read",
@@ -170,22 +167,23 @@ sdf_find(const struct rc_file *file, struct rc_maps *maps, struct rc_err *err)
     map->dx = s.dx;
     map->dy = s.dy;
     map->scale = s.scale;
-    rc_maps_key(maps, "file.creator", s.maker.text, s.maker.n);
-    rc_maps_key(maps, "file.date", s.created.text, s.created.n);
-    rc_maps_key(maps, "file.changed", s.changed.text, s.changed.n);
+    rc_maps_key(maps, "file.creator", s.maker);
+    rc_maps_key(maps, "file.date", s.created);
+    rc_maps_key(maps, "file.changed", s.changed);
     return RC_OK;
 }
 
-static int
-sdf_score(const struct rc_file *file)
+static bool
+is_sdf(const struct rc_file *file)
 {
-    return begins(file, 'a') || begins(file, 'b') ? 95 : 0;
+    return begins(file, 'a') || begins(file, 'b');
 }
 
 const struct rc_format rc_format_sdf = {
     .name = "sdf",
     .suffixes = ".sdf",
     .summary = "ISO 25178-71 (EUNA 15178), text and binary",
-    .score = sdf_score,
+    .is = is_sdf,
+    .refusal = "not an SDF file: it must begin with aISO-, aBCR-, bISO- or bBCR-",
     .find = sdf_find,
 };

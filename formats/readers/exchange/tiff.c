@@ -71,7 +71,6 @@ static enum rc_status
 add_page(struct rc_tiff *t, const char *description, size_t number, size_t pages,
          struct rc_maps *maps, struct rc_err *err)
 {
-    struct rc_piece unit = value_of(description, "vunit");
     double metres = metres_of(value_of(description, "unit")), x, y;
     struct rc_tiff_shape shape;
     struct rc_map *map;
@@ -87,13 +86,13 @@ add_page(struct rc_tiff *t, const char *description, size_t number, size_t pages
                           shape.floats ? "" : ", whole numbers");
     if (pages > 1)
         snprintf(name, sizeof name, "page %zu", number + 1);
-    map = rc_maps_add(maps, name, strlen(name));
+    map = rc_maps_add(maps, rc_piece_of(name));
     map->nx = shape.nx;
     map->ny = shape.ny;
     map->heights = true;
     map->fill = fill_page;
     map->more = number;
-    rc_map_unit(map, unit.text, unit.n);
+    rc_map_unit(map, value_of(description, "vunit"));
     if (strncmp(description, "ImageJ=", 7) == 0 && !isnan(metres) &&
         rc_tiff_resolution(t, &x, &y) && x > 0 && y > 0) {
         map->dx = metres / x;
@@ -112,7 +111,7 @@ tiff_find(const struct rc_file *file, struct rc_maps *maps, struct rc_err *err)
     if (t != NULL && rc_tiff_pages(t, &pages, err) == RC_OK) {
         read_description(t, description);
         rc_tiff_text(t, RC_TIFF_SOFTWARE, program, sizeof program);
-        rc_maps_key(maps, "file.version", program, strlen(program));
+        rc_maps_key(maps, "file.version", rc_piece_of(program));
         while (maps->n < pages && rc_tiff_page(t, maps->n) &&
                add_page(t, description, maps->n, pages, maps, maps->n == 0 ? err : NULL) == RC_OK)
             ; /* pages after the heights may be pictures */

@@ -66,10 +66,12 @@ static const struct rc_keep texts[] = {
 static const struct kind *
 kind_of(const struct rc_file *file)
 {
-    for (size_t k = 0; k < sizeof kinds / sizeof *kinds; k++)
-        if (rc_file_holds(file, 0, kinds[k].magic, strlen(kinds[k].magic)))
-            return &kinds[k];
-    return NULL;
+    size_t k = 0;
+
+    while (k + 1 < sizeof kinds / sizeof *kinds &&
+           !rc_file_holds(file, 0, kinds[k].magic, strlen(kinds[k].magic)))
+        k++;
+    return &kinds[k];
 }
 
 /* Where the zlib stream begins: at the end of the header, or behind the first DATA that one follows. */
@@ -114,16 +116,11 @@ take_line(struct rc_piece line, struct createc *c, struct rc_maps *maps)
 static enum rc_status
 read_header(const struct rc_file *file, struct createc *c, struct rc_maps *maps, struct rc_err *err)
 {
-    bool packed = kind_of(file) != NULL && kind_of(file)->packed;
-    size_t size = packed ? stream_at(file) : HEADER;
+    size_t size = kind_of(file)->packed ? stream_at(file) : HEADER;
     struct rc_lines lines = {.at = (const char *)file->data};
     struct rc_piece line;
 
     *c = (struct createc){NAN, NAN, NAN, NAN, NAN, NAN, NAN, NAN, NAN, NAN, NAN, NAN, NAN, NAN};
-    if (kind_of(file) == NULL)
-        return rc_err_set(
-            err,
-            "no DAT file of Createc: it begins with none of [Parameter], [Paramet32], [Paramco32]");
     if (file->size < size)
         return rc_err_set(err, "the header takes %zu bytes, the file has %zu", size, file->size);
     lines.end = lines.at + size;
@@ -261,7 +258,7 @@ createc_find(const struct rc_file *file, struct rc_maps *maps, struct rc_err *er
         snprintf(name, sizeof name, "Plane %zu", k + 1);
         if (k == 0)
             strcpy(name, "Topography");
-        map = rc_maps_add(maps, name, strlen(name));
+        map = rc_maps_add(maps, rc_piece_of(name));
         map->nx = nx;
         map->ny = ny;
         map->dx = c.width * 1e-10 / c.nx;
@@ -279,16 +276,12 @@ createc_find(const struct rc_file *file, struct rc_maps *maps, struct rc_err *er
     return RC_OK;
 }
 
-static int
-createc_score(const struct rc_file *file)
-{
-    return kind_of(file) != NULL ? 95 : 0;
-}
-
 const struct rc_format rc_format_createc = {
     .name = "createc",
     .suffixes = ".dat",
     .summary = "Createc scans (STMAFM), packed or not",
-    .score = createc_score,
+    .magic = {{"[Parameter]", 11}, {"[Paramet32]", 11}, {"[Paramco32]", 11}},
+    .refusal =
+        "no DAT file of Createc: it begins with none of [Parameter], [Paramet32], [Paramco32]",
     .find = createc_find,
 };

@@ -169,7 +169,7 @@ ibw_find(const struct rc_file *file, struct rc_maps *maps, struct rc_err *err)
 {
     struct rc_bytes b = rc_file_bytes(file, false);
     size_t size[DIMENSIONS], layer, all, channels, labels;
-    struct rc_piece data_unit, name;
+    struct rc_piece name;
     const char *other;
     enum rc_raw raw;
     double sensor;
@@ -190,13 +190,12 @@ ibw_find(const struct rc_file *file, struct rc_maps *maps, struct rc_err *err)
                           size[0], size[1], channels, all, file->size - DATA);
     labels = size[2] == 0 ? 0 : labels_at(file, &b, DATA + all, channels);
     sensor = sensor_of(note_of(file, &b, DATA + all));
-    data_unit = rc_file_text(file, AT_DATA_UNIT, UNIT);
     for (size_t k = 0; k < channels; k++) {
         struct rc_map *map;
 
         name = labels == 0 ? rc_file_text(file, AT_NAME, LABEL)
                            : rc_file_text(file, labels + LABEL * (k + 1), LABEL);
-        map = rc_maps_add(maps, name.text, name.n);
+        map = rc_maps_add(maps, name);
         map->nx = size[0];
         map->ny = size[1];
         map->raw = raw;
@@ -204,9 +203,9 @@ ibw_find(const struct rc_file *file, struct rc_maps *maps, struct rc_err *err)
         map->at = DATA + k * layer;
         map->bottom_first = true;
         take_steps(file, &b, profile, map);
-        rc_map_unit(map, data_unit.text, data_unit.n);
+        rc_map_unit(map, rc_file_text(file, AT_DATA_UNIT, UNIT));
         if (labels != 0 && (other = other_unit(name, sensor)) != NULL)
-            rc_map_unit(map, other, strlen(other));
+            rc_map_unit(map, rc_piece_of(other));
     }
     return RC_OK;
 }

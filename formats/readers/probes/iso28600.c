@@ -51,8 +51,6 @@ read_header(const struct rc_file *file, struct iso *iso, struct rc_err *err)
     struct rc_lines lines = rc_piece_lines(rc_file_piece(file));
     struct rc_piece line;
 
-    if (!rc_file_holds(file, 0, magic, strlen(magic)))
-        return rc_err_set(err, "no file of ISO 28600: it does not begin with '%s'", magic);
     for (size_t k = 1; k <= LINES; k++) {
         if (!rc_lines_next(&lines, &line.text, &line.n))
             return rc_err_set(err, "the header has %d lines, the file %zu", LINES, k - 1);
@@ -160,7 +158,7 @@ iso28600_find(const struct rc_file *file, struct rc_maps *maps, struct rc_err *e
         bool several = rc_piece_is(iso.line[MODE], "MAP_MC");
         struct rc_piece name = iso.line[several ? CHANNEL + 3 * k : NAME];
         struct rc_piece unit = iso.line[several ? CHANNEL + 3 * k + 1 : UNIT];
-        struct rc_map *map = rc_maps_add(maps, name.text, name.n);
+        struct rc_map *map = rc_maps_add(maps, name);
 
         map->nx = nx;
         map->ny = ny;
@@ -173,10 +171,10 @@ iso28600_find(const struct rc_file *file, struct rc_maps *maps, struct rc_err *e
         map->dx = fabs(number_in(&iso, WIDTH)) / (double)nx * rc_piece_metres(iso.line[X_UNIT]);
         map->dy = fabs(number_in(&iso, HEIGHT)) / (double)ny * rc_piece_metres(iso.line[Y_UNIT]);
         if (!rc_piece_is(unit, "n") && !rc_piece_is(unit, "d")) /* none, no dimension */
-            rc_map_unit(map, unit.text, unit.n);
+            rc_map_unit(map, unit);
     }
     for (size_t k = 0; k < sizeof texts / sizeof *texts; k++)
-        rc_maps_key(maps, texts[k].key, iso.line[texts[k].line].text, iso.line[texts[k].line].n);
+        rc_maps_key(maps, texts[k].key, iso.line[texts[k].line]);
     return RC_OK;
 }
 
@@ -185,5 +183,6 @@ const struct rc_format rc_format_iso28600 = {
     .suffixes = ".spm",
     .summary = "ISO 28600: maps of scanning probes as text",
     .magic = {{magic, sizeof magic - 1}},
+    .refusal = "no file of ISO 28600: it does not begin with 'ISO/TC 201 SPM data transfer format'",
     .find = iso28600_find,
 };

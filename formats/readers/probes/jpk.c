@@ -149,7 +149,7 @@ fill_channel(const struct rc_file *file, const struct rc_map *map, double *v, st
 static void
 add_channel(const struct scan *s, const struct channel *c, size_t page, struct rc_maps *maps)
 {
-    struct rc_map *map = rc_maps_add(maps, c->name, strlen(c->name));
+    struct rc_map *map = rc_maps_add(maps, rc_piece_of(c->name));
 
     map->nx = c->shape.nx;
     map->ny = c->shape.ny;
@@ -158,7 +158,7 @@ add_channel(const struct scan *s, const struct channel *c, size_t page, struct r
     map->bottom_first = !c->reflected;
     map->fill = fill_channel;
     map->more = page;
-    rc_map_unit(map, c->unit, strlen(c->unit));
+    rc_map_unit(map, rc_piece_of(c->unit));
 }
 
 static enum rc_status
@@ -177,7 +177,7 @@ find_channels(const struct scan *s, struct rc_maps *maps, struct rc_err *err)
 
     for (size_t k = 0; k < sizeof words / sizeof *words; k++)
         if (strcmp(rc_tiff_text(s->tiff, words[k].tag, text, sizeof text), "<empty>") != 0)
-            rc_maps_key(maps, words[k].key, text, strlen(text));
+            rc_maps_key(maps, words[k].key, rc_piece_of(text));
     for (size_t page = 1; page < s->pages; page++)
         if (rc_tiff_page(s->tiff, page) && read_channel(s->tiff, &c))
             add_channel(s, &c, page, maps);

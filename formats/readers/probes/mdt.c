@@ -57,9 +57,8 @@ static struct rc_piece
 unit_of(int code)
 {
     size_t k = (size_t)(code - UNITS_FIRST);
-    const char *unit = code >= UNITS_FIRST && k < sizeof units / sizeof *units ? units[k] : "";
 
-    return (struct rc_piece){unit, strlen(unit)};
+    return rc_piece_of(code >= UNITS_FIRST && k < sizeof units / sizeof *units ? units[k] : "");
 }
 
 /* A text of its length before it, at the cursor; "" where it does not fit. */
@@ -87,7 +86,7 @@ add_scan(struct rc_bytes *b, size_t start, size_t number, size_t variables, stru
     int unit[3];
     size_t signal, nx, ny, dots;
     struct rc_bytes behind = *b;
-    struct rc_piece title, word;
+    struct rc_piece title;
     struct rc_map *map;
 
     for (int k = 0; k < 3; k++) {
@@ -112,8 +111,8 @@ add_scan(struct rc_bytes *b, size_t start, size_t number, size_t variables, stru
     behind.at += 2 * nx * ny;
     title = text_of(&behind);
     if (title.n == 0 && signal < sizeof signals / sizeof *signals)
-        title = (struct rc_piece){signals[signal], strlen(signals[signal])};
-    map = rc_maps_add(maps, title.text, title.n);
+        title = rc_piece_of(signals[signal]);
+    map = rc_maps_add(maps, title);
     map->nx = nx;
     map->ny = ny;
     map->raw = RC_RAW_I16;
@@ -121,8 +120,7 @@ add_scan(struct rc_bytes *b, size_t start, size_t number, size_t variables, stru
     map->bottom_first = true;
     map->scale = step[2] == 0 || isnan(step[2]) ? 1 : step[2];
     map->zero = isnan(offset[2]) ? 0 : offset[2];
-    word = unit_of(unit[2]);
-    rc_map_unit(map, word.text, word.n);
+    rc_map_unit(map, unit_of(unit[2]));
     map->dx = fabs(step[0]) * rc_piece_metres(unit_of(unit[0]));
     map->dy = fabs(step[1]) * rc_piece_metres(unit_of(unit[1]));
     return RC_OK;
@@ -205,14 +203,14 @@ add_array(struct rc_bytes *b, size_t start, size_t number, struct rc_maps *maps,
         next_calibration(b, &c[k]);
     if (b->past)
         return rc_err_set(err, "frame %zu is too short for its axes", number);
-    map = rc_maps_add(maps, (const char *)b->data + part[5], part[0]);
+    map = rc_maps_add(maps, (struct rc_piece){(const char *)b->data + part[5], part[0]});
     if (!count_of(&c[0], &map->nx) || !count_of(&c[1], &map->ny))
         return rc_err_set(err, "frame %zu gives no sizes for its map", number);
     map->at = start + b->at;
     map->bottom_first = true;
     map->scale = c[2].scale;
     map->zero = c[2].bias;
-    rc_map_unit(map, c[2].unit.text, c[2].unit.n);
+    rc_map_unit(map, c[2].unit);
     map->dx = fabs(c[0].scale) * rc_piece_metres(c[0].unit);
     map->dy = fabs(c[1].scale) * rc_piece_metres(c[1].unit);
     for (size_t k = 0; k < sizeof types / sizeof *types; k++)
@@ -239,7 +237,7 @@ keep_date(struct rc_bytes *b, struct rc_maps *maps)
         return;
     snprintf(date, sizeof date, "%04u-%02u-%02uT%02u:%02u:%02u", word[0], word[1], word[2], word[3],
              word[4], word[5]);
-    rc_maps_key(maps, "file.date", date, strlen(date));
+    rc_maps_key(maps, "file.date", rc_piece_of(date));
 }
 
 static enum rc_status
@@ -248,8 +246,6 @@ mdt_find(const struct rc_file *file, struct rc_maps *maps, struct rc_err *err)
     struct rc_bytes b = rc_file_bytes(file, false);
     size_t frames, at = HEADER;
 
-    if (!rc_file_holds(file, 0, magic, 4))
-        return rc_err_set(err, "no file of NT-MDT: it does not begin with the bytes 01 b0 93 ff");
     frames = (size_t)rc_bytes_at(&b, AT_LAST, RC_RAW_U16) + 1;
     for (size_t k = 1; k <= frames; k++) {
         struct rc_bytes frame = rc_file_bytes(file, false);
@@ -289,5 +285,6 @@ const struct rc_format rc_format_mdt = {
     .suffixes = ".mdt",
     .summary = "NT-MDT (Nova): scans and arrays of two axes",
     .magic = {{magic, 4}},
+    .refusal = "no file of NT-MDT: it does not begin with the bytes 01 b0 93 ff",
     .find = mdt_find,
 };

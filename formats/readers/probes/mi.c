@@ -53,11 +53,11 @@ take_buffer(struct rc_maps *maps, struct rc_map **map, struct rc_piece key, stru
             struct rc_err *err)
 {
     if (rc_piece_is(key, "bufferLabel"))
-        *map = rc_maps_add(maps, value.text, value.n);
+        *map = rc_maps_add(maps, value);
     if (*map == NULL)
         return RC_OK;
     if (rc_piece_is(key, "bufferUnit"))
-        rc_map_unit(*map, value.text, value.n);
+        rc_map_unit(*map, value);
     if (rc_piece_is(key, "bufferRange") && !rc_piece_number(value, &(*map)->scale, NULL))
         return rc_err_set(err, "bufferRange is '%s': that is not a number", rc_piece_shown(value));
     return RC_OK;
@@ -103,8 +103,6 @@ mi_find(const struct rc_file *file, struct rc_maps *maps, struct rc_err *err)
     struct rc_map *map = NULL;
     struct rc_piece line;
 
-    if (!has_magic(file))
-        return rc_err_set(err, "no MI file: it does not begin with fileType");
     while (m.storage.n == 0) {
         struct rc_piece key, value;
 
@@ -128,5 +126,6 @@ const struct rc_format rc_format_mi = {
     .suffixes = ".mi",
     .summary = "PicoView (Molecular Imaging, Agilent) images",
     .is = has_magic,
+    .refusal = "no MI file: it does not begin with fileType",
     .find = mi_find,
 };

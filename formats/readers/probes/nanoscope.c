@@ -155,12 +155,12 @@ set_scale(struct rc_piece header, const struct image *m, struct rc_map *map, int
     map->scale = ldexp(number, -bits);
     if (!find_sensitivity(header, between(m->scale, '[', ']'), &value) ||
         !number_behind_v(value, &sensitivity, &per) || !rc_piece_part(per, "/", &upper, &lower)) {
-        rc_map_unit(map, unit.text, unit.n);
+        rc_map_unit(map, unit);
         return RC_OK;
     }
-    rc_map_unit(map, upper.text, upper.n);
-    rc_map_unit(&given, unit.text, unit.n);
-    rc_map_unit(&wanted, lower.text, lower.n);
+    rc_map_unit(map, upper);
+    rc_map_unit(&given, unit);
+    rc_map_unit(&wanted, lower);
     map->scale *= sensitivity;
     if (strcmp(given.unit, wanted.unit) == 0)
         map->scale *= given.si / wanted.si; /* mV on a sensitivity per V */
@@ -196,9 +196,8 @@ add_image(const struct rc_file *file, struct rc_piece header, const struct image
 
     if (name.n == 0)
         name = between(m->data, '[', ']');
-    map = rc_maps_add(maps, name.text, name.n);
-    if (rc_map_count("columns (Samps/line)", m->columns, &map->nx, err) != RC_OK ||
-        rc_map_count("rows (Number of lines)", m->rows, &map->ny, err) != RC_OK)
+    map = rc_maps_add(maps, name);
+    if (rc_map_size(map, m->columns, "Samps/line", m->rows, "Number of lines", err) != RC_OK)
         return RC_FAIL;
     count = (double)map->nx * (double)map->ny;
     if (!(m->at >= 0 && m->at <= (double)file->size))

@@ -122,7 +122,7 @@ add_set(const struct set *s, struct rc_maps *maps, size_t *at, struct rc_err *er
         rc_text_clean(name, sizeof name, s->name.text, s->name.n);
         rc_text_clean(frame, sizeof frame, s->frame.text, s->frame.n);
         snprintf(text, sizeof text, "%s%s%s", name, *frame == '\0' ? "" : ", ", frame);
-        map = rc_maps_add(maps, text, strlen(text));
+        map = rc_maps_add(maps, rc_piece_of(text));
         map->nx = nx;
         map->ny = ny;
         map->at = *at;
@@ -137,7 +137,7 @@ add_set(const struct set *s, struct rc_maps *maps, size_t *at, struct rc_err *er
         }
         map->dx = s->x * rc_piece_metres(s->x_unit) / (double)nx;
         map->dy = s->y * rc_piece_metres(s->y_unit) / (double)ny;
-        rc_map_unit(map, s->unit.text, s->unit.n);
+        rc_map_unit(map, s->unit);
     }
     *at = n > SIZE_MAX - *at ? SIZE_MAX : *at + n;
     return RC_OK;

@@ -181,39 +181,37 @@ park_find(const struct rc_file *file, struct rc_maps *maps, struct rc_err *err)
 {
     struct park p;
     enum rc_status status = park_open(&p, file, err);
-    struct rc_map *map = rc_maps_add(maps, p.name, strlen(p.name));
+    struct rc_map *map = rc_maps_add(maps, rc_piece_of(p.name));
 
     map->nx = p.nx;
     map->ny = p.ny;
     map->dx = p.width / (double)p.nx;
     map->dy = p.height / (double)p.ny;
-    rc_map_unit(map, p.unit[0] == '\0' ? "um" : p.unit, p.unit[0] == '\0' ? 2 : strlen(p.unit));
+    rc_map_unit(map, rc_piece_of(p.unit[0] == '\0' ? "um" : p.unit));
     map->bottom_first = true;
     map->fill = fill_values;
-    rc_maps_key(maps, "file.date", p.date, strlen(p.date));
-    rc_maps_key(maps, "file.version", p.program, strlen(p.program));
-    rc_maps_key(maps, "file.mode", p.mode, strlen(p.mode));
+    rc_maps_key(maps, "file.date", rc_piece_of(p.date));
+    rc_maps_key(maps, "file.version", rc_piece_of(p.program));
+    rc_maps_key(maps, "file.mode", rc_piece_of(p.mode));
     rc_tiff_free(p.tiff);
     return status;
 }
 
 /* ---- the entry in formats.list ---- */
 
-static int
-park_score(const struct rc_file *file)
+static bool
+is_park(const struct rc_file *file)
 {
-    if (!rc_tiff_is(file))
-        return 0;
-    return rc_tiff_hints(file, MAGIC_TAG, TYPE_LONG) && rc_tiff_hints(file, VERSION_TAG, TYPE_LONG)
-               ? 90
-               : 0;
+    return rc_tiff_is(file) && rc_tiff_hints(file, MAGIC_TAG, TYPE_LONG) &&
+           rc_tiff_hints(file, VERSION_TAG, TYPE_LONG);
 }
 
 const struct rc_format rc_format_park = {
     .name = "park",
     .suffixes = ".tif .tiff",
     .summary = "Park Systems TIFF",
-    .score = park_score,
+    .is = is_park,
+    .sure = 90,
     .find = park_find,
     .sandboxed = true,
     .copies = true,

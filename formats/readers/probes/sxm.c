@@ -106,7 +106,7 @@ add_map(const struct sxm *s, struct rc_piece name, struct rc_piece unit, bool ba
 
     rc_text_clean(start, sizeof start - sizeof " (backward)", name.text, name.n);
     snprintf(both, sizeof both, "%s%s", start, back ? " (backward)" : "");
-    map = rc_maps_add(maps, both, strlen(both));
+    map = rc_maps_add(maps, rc_piece_of(both));
     map->nx = (size_t)s->nx;
     map->ny = (size_t)s->ny;
     map->dx = s->width / s->nx;
@@ -117,7 +117,7 @@ add_map(const struct sxm *s, struct rc_piece name, struct rc_piece unit, bool ba
     map->bottom_first = s->up;
     map->at =
         data + 4 * map->nx * map->ny * index; /* both counts are below 2^31, `index` is checked */
-    rc_map_unit(map, unit.text, unit.n);
+    rc_map_unit(map, unit);
 }
 
 /* The cells of a row of the table: Channel, Name, Unit, Direction. */
@@ -139,8 +139,6 @@ sxm_find(const struct rc_file *file, struct rc_maps *maps, struct rc_err *err)
     struct rc_lines rows;
     size_t data, nx, ny, index = 0, bytes;
 
-    if (!rc_file_holds(file, 0, magic, strlen(magic)))
-        return rc_err_set(err, "no SXM file: it does not begin with %s", magic);
     if (read_header(file, &s, maps, &data, err) != RC_OK ||
         rc_map_count("columns (SCAN_PIXELS)", s.nx, &nx, err) != RC_OK ||
         rc_map_count("rows (SCAN_PIXELS)", s.ny, &ny, err) != RC_OK ||
@@ -180,5 +178,6 @@ const struct rc_format rc_format_sxm = {
     .suffixes = ".sxm",
     .summary = "Nanonis scans",
     .magic = {{magic, sizeof magic - 1}},
+    .refusal = "no SXM file: it does not begin with :NANONIS_VERSION:",
     .find = sxm_find,
 };

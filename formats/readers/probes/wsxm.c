@@ -62,7 +62,7 @@ set_scale(const struct rc_file *file, const struct wsxm *w, struct rc_map *map, 
     if (!rc_piece_number(w->amplitude, &amplitude, &unit))
         return rc_err_set(err, "Z Amplitude is '%s': that is not a number",
                           rc_piece_shown(w->amplitude));
-    rc_map_unit(map, unit.text, unit.n);
+    rc_map_unit(map, unit);
     if (rc_map_range(map, file, &low, &high) && high > low)
         map->scale = amplitude / (high - low);
     return RC_OK;
@@ -77,18 +77,13 @@ wsxm_find(const struct rc_file *file, struct rc_maps *maps, struct rc_err *err)
     struct rc_map *map;
     size_t t = 0;
 
-    if (!has_magic(file))
-        return rc_err_set(
-            err,
-            "no WSxM image: it does not begin with 'WSxM file copyright' and 'SxM Image file'");
     if (rc_fields_read(fields, sizeof fields / sizeof *fields, &lines, ":", "[Header end]", &w,
                        err) != RC_OK)
         return RC_FAIL;
     if (!(w.header >= 0 && w.header <= (double)file->size))
         return rc_err_set(err, "the header takes %g bytes of a file of %zu", w.header, file->size);
-    map = rc_maps_add(maps, w.channel.text, w.channel.n);
-    if (rc_map_count("columns", w.columns, &map->nx, err) != RC_OK ||
-        rc_map_count("rows", w.rows, &map->ny, err) != RC_OK)
+    map = rc_maps_add(maps, w.channel);
+    if (rc_map_size(map, w.columns, NULL, w.rows, NULL, err) != RC_OK)
         return RC_FAIL;
     while (t < sizeof types / sizeof *types && w.type.n > 0 && !rc_piece_is(w.type, types[t].name))
         t++;
@@ -100,9 +95,9 @@ wsxm_find(const struct rc_file *file, struct rc_maps *maps, struct rc_err *err)
     map->dx = w.width / (double)map->nx;
     map->dy = w.height / (double)map->ny;
     map->bottom_first = map->right_first = true;
-    rc_maps_key(maps, "file.date", w.date.text, w.date.n);
+    rc_maps_key(maps, "file.date", w.date);
     if (w.comment.n > 0)
-        rc_maps_key(maps, "file.comment", w.comment.text, w.comment.n);
+        rc_maps_key(maps, "file.comment", w.comment);
     return set_scale(file, &w, map, err);
 }
 
@@ -111,5 +106,6 @@ const struct rc_format rc_format_wsxm = {
     .suffixes = ".stp .top",
     .summary = "WSxM (Nanotec) images",
     .is = has_magic,
+    .refusal = "no WSxM image: it does not begin with 'WSxM file copyright' and 'SxM Image file'",
     .find = wsxm_find,
 };

@@ -60,17 +60,14 @@ static enum rc_status
 al3d_find(const struct rc_file *file, struct rc_maps *maps, struct rc_err *err)
 {
     struct al3d a = {.dx = NAN, .dy = NAN, .missing = NAN};
-    struct rc_map *map = rc_maps_add(maps, "", 0);
+    struct rc_map *map = rc_maps_add(maps, rc_piece_of(""));
 
-    if (!rc_file_holds(file, 0, magic, MAGIC))
-        return rc_err_set(err, "no AL3D file: it does not begin with AliconaImaging");
     if (read_tags(file, &a, err) != RC_OK)
         return RC_FAIL;
     if (!(a.at >= MAGIC && a.at <= (double)file->size))
         return rc_err_set(err, "the depth image begins at byte %g of a file of %zu", a.at,
                           file->size);
-    if (rc_map_count("columns (Cols)", a.columns, &map->nx, err) != RC_OK ||
-        rc_map_count("rows (Rows)", a.rows, &map->ny, err) != RC_OK)
+    if (rc_map_size(map, a.columns, "Cols", a.rows, "Rows", err) != RC_OK)
         return RC_FAIL;
     strcpy(map->unit, "m");
     map->raw = RC_RAW_F32;
@@ -80,7 +77,7 @@ al3d_find(const struct rc_file *file, struct rc_maps *maps, struct rc_err *err)
     map->dy = a.dy;
     map->missing_from = a.missing - 1e-6 * fabs(a.missing); /* it has the digits of a float */
     map->missing_to = a.missing + 1e-6 * fabs(a.missing);
-    rc_maps_key(maps, "file.creator", a.creator.text, a.creator.n);
+    rc_maps_key(maps, "file.creator", a.creator);
     return RC_OK;
 }
 
@@ -89,5 +86,6 @@ const struct rc_format rc_format_al3d = {
     .suffixes = ".al3d",
     .summary = "Alicona focus variation",
     .magic = {{magic, MAGIC}},
+    .refusal = "no AL3D file: it does not begin with AliconaImaging",
     .find = al3d_find,
 };

@@ -142,7 +142,7 @@ fill_heights(const struct rc_file *file, const struct rc_map *map, double *v, st
 static enum rc_status
 datx_find(const struct rc_file *file, struct rc_maps *maps, struct rc_err *err)
 {
-    struct rc_map *map = rc_maps_add(maps, "height", 6);
+    struct rc_map *map = rc_maps_add(maps, rc_piece_of("height"));
     struct surface s;
     enum rc_status status = surface_open(&s, file, err);
 
@@ -150,7 +150,7 @@ datx_find(const struct rc_file *file, struct rc_maps *maps, struct rc_err *err)
     map->ny = s.set.rows;
     map->dx = s.dx;
     map->dy = s.dy;
-    rc_map_unit(map, s.unit, strlen(s.unit));
+    rc_map_unit(map, rc_piece_of(s.unit));
     if (!isnan(s.metres)) {
         strcpy(map->unit, "m");
         map->si = s.metres;
@@ -159,7 +159,7 @@ datx_find(const struct rc_file *file, struct rc_maps *maps, struct rc_err *err)
     map->missing_from = s.none;
     map->missing_to = INFINITY;
     map->fill = fill_heights;
-    rc_maps_key(maps, "file.manufacturer", "Zygo", 4);
+    rc_maps_key(maps, "file.manufacturer", rc_piece_of("Zygo"));
     rc_hdf_free(s.hdf);
     return status;
 }

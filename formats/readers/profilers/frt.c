@@ -63,7 +63,7 @@ read_blocks(const struct rc_file *file, struct frt *f, struct rc_maps *maps, str
             comment = rc_file_text(file, b.at, (size_t)n);
         b.at += (size_t)n;
     }
-    rc_maps_key(maps, "file.comment", comment.text, comment.n);
+    rc_maps_key(maps, "file.comment", comment);
     if (f->grid.n == 0 || f->size.n == 0 || f->range.n == 0 || f->heights.n == 0)
         return rc_err_set(err, "the file has no block of %s",
                           f->grid.n == 0    ? "sizes (0x66)"
@@ -77,7 +77,7 @@ static enum rc_status
 frt_find(const struct rc_file *file, struct rc_maps *maps, struct rc_err *err)
 {
     struct rc_bytes b = rc_file_bytes(file, false);
-    struct rc_map *map = rc_maps_add(maps, "", 0);
+    struct rc_map *map = rc_maps_add(maps, rc_piece_of(""));
     struct frt f = {0};
     double bits;
 
@@ -88,8 +88,8 @@ frt_find(const struct rc_file *file, struct rc_maps *maps, struct rc_err *err)
         return rc_err_set(err, "the file is of version '%s': 1.00 and 1.01 are read",
                           rc_text_shown((const char *)file->data + MAGIC, VERSION));
     if (read_blocks(file, &f, maps, err) != RC_OK ||
-        rc_map_count("columns", rc_bytes_at(&b, f.grid.at, RC_RAW_U32), &map->nx, err) != RC_OK ||
-        rc_map_count("rows", rc_bytes_at(&b, f.grid.at + 4, RC_RAW_U32), &map->ny, err) != RC_OK)
+        rc_map_size(map, rc_bytes_at(&b, f.grid.at, RC_RAW_U32), NULL,
+                    rc_bytes_at(&b, f.grid.at + 4, RC_RAW_U32), NULL, err) != RC_OK)
         return RC_FAIL;
     bits = rc_bytes_at(&b, f.grid.at + 8, RC_RAW_U32);
     if (bits != 16 && bits != 32)

@@ -198,7 +198,7 @@ fill_heights(const struct rc_file *file, const struct rc_map *map, double *v, st
 static enum rc_status
 lext_find(const struct rc_file *file, struct rc_maps *maps, struct rc_err *err)
 {
-    struct rc_map *map = rc_maps_add(maps, "height", 6);
+    struct rc_map *map = rc_maps_add(maps, rc_piece_of("height"));
     struct lext l;
     enum rc_status status = lext_open(&l, file, err);
 
@@ -209,8 +209,8 @@ lext_find(const struct rc_file *file, struct rc_maps *maps, struct rc_err *err)
     strcpy(map->unit, "m");
     map->si = l.dz;
     map->fill = fill_heights;
-    rc_maps_key(maps, "file.date", l.date, strlen(l.date));
-    rc_maps_key(maps, "file.version", l.program, strlen(l.program));
+    rc_maps_key(maps, "file.date", rc_piece_of(l.date));
+    rc_maps_key(maps, "file.version", rc_piece_of(l.program));
     rc_tiff_free(l.tiff);
     return status;
 }

@@ -37,16 +37,13 @@ metropro_find(const struct rc_file *file, struct rc_maps *maps, struct rc_err *e
 {
     static const double finenesses[] = {4096, 32768, 131072};
     struct rc_bytes b = rc_file_bytes(file, true);
-    struct rc_piece date;
     struct rc_map *map;
     double header, intensity, fineness, bytes;
 
-    if (!has_magic(file))
-        return rc_err_set(err, "no MetroPro file: it does not begin 88 1b 03 6f, ...70 or ...71");
     if (file->size < LEAST)
         return rc_err_set(err, "the header takes more than %d bytes, the file has %zu", LEAST,
                           file->size);
-    map = rc_maps_add(maps, "Phase", 5);
+    map = rc_maps_add(maps, rc_piece_of("Phase"));
     header = rc_bytes_at(&b, AT_HEADER, RC_RAW_U32);
     intensity = rc_bytes_at(&b, AT_INTENSITY, RC_RAW_I32);
     bytes = rc_bytes_at(&b, AT_BYTES, RC_RAW_I32);
@@ -56,8 +53,8 @@ metropro_find(const struct rc_file *file, struct rc_maps *maps, struct rc_err *e
                           header, intensity, file->size);
     if (bytes == 0)
         return rc_err_set(err, "the file has only intensities, no phase");
-    if (rc_map_count("columns", rc_bytes_at(&b, AT_COLUMNS, RC_RAW_I16), &map->nx, err) != RC_OK ||
-        rc_map_count("rows", rc_bytes_at(&b, AT_ROWS, RC_RAW_I16), &map->ny, err) != RC_OK)
+    if (rc_map_size(map, rc_bytes_at(&b, AT_COLUMNS, RC_RAW_I16), NULL,
+                    rc_bytes_at(&b, AT_ROWS, RC_RAW_I16), NULL, err) != RC_OK)
         return RC_FAIL;
     if (bytes != 4 * (double)map->nx * (double)map->ny)
         return rc_err_set(
@@ -76,8 +73,7 @@ metropro_find(const struct rc_file *file, struct rc_maps *maps, struct rc_err *e
     map->dx = map->dy = rc_bytes_at(&b, AT_LATERAL, RC_RAW_F32);
     if (map->dx == 0)
         map->dx = map->dy = NAN; /* an instrument that was not calibrated */
-    date = rc_file_text(file, AT_SOFTWARE_DATE, DATE);
-    rc_maps_key(maps, "file.software-date", date.text, date.n);
+    rc_maps_key(maps, "file.software-date", rc_file_text(file, AT_SOFTWARE_DATE, DATE));
     return RC_OK;
 }
 
@@ -86,5 +82,6 @@ const struct rc_format rc_format_metropro = {
     .suffixes = ".dat",
     .summary = "Zygo MetroPro",
     .is = has_magic,
+    .refusal = "no MetroPro file: it does not begin 88 1b 03 6f, ...70 or ...71",
     .find = metropro_find,
 };

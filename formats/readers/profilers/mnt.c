@@ -275,12 +275,11 @@ static enum rc_status
 add_surface(const struct rc_file *file, const struct surface *s, size_t number,
             struct rc_maps *maps, struct rc_err *err)
 {
-    struct rc_map *map = rc_maps_add(maps, s->name, strlen(s->name));
+    struct rc_map *map = rc_maps_add(maps, rc_piece_of(s->name));
     uint64_t said = bytes_said(s->heights), n = (uint64_t)s->nx * s->ny;
     double shown;
 
-    if (rc_map_count("columns", (double)s->nx, &map->nx, err) != RC_OK ||
-        rc_map_count("rows", (double)s->ny, &map->ny, err) != RC_OK)
+    if (rc_map_size(map, (double)s->nx, NULL, (double)s->ny, NULL, err) != RC_OK)
         return RC_FAIL;
     if (said / n * n != said || (said / n != 4 && said / n != 2))
         return rc_err_set(err, "%zu x %zu heights in %llu bytes: they must have 2 or 4 each", s->nx,
@@ -288,7 +287,7 @@ add_surface(const struct rc_file *file, const struct surface *s, size_t number,
     map->raw = said / n == 4 ? RC_RAW_I32 : RC_RAW_I16;
     map->fill = fill_heights;
     map->more = number;
-    rc_map_unit(map, s->z.unit, strlen(s->z.unit));
+    rc_map_unit(map, rc_piece_of(s->z.unit));
     map->scale = s->z.step;
     shown = s->z.shown[0] == '\0' ? map->si : rc_word_metres(s->z.shown);
     map->zero = isnan(s->z.origin) ? 0 : s->z.origin * shown / map->si;

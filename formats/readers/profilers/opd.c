@@ -36,7 +36,8 @@ static const struct rc_keep texts[] = {
 static bool
 has_directory(const struct rc_file *file)
 {
-    return rc_file_holds(file, 0, "\1", 2) && rc_file_holds(file, START, "Directory", 10);
+    return file->size >= START + ENTRY && rc_file_holds(file, 0, "\1", 2) &&
+           rc_file_holds(file, START, "Directory", 10);
 }
 
 /* The type of the number of a block. It comes from its type field, or from known files. */
@@ -117,17 +118,13 @@ opd_find(const struct rc_file *file, struct rc_maps *maps, struct rc_err *err)
     struct rc_map *map;
     double size;
 
-    if (!has_directory(file) || file->size < START + ENTRY)
-        return rc_err_set(err, "no OPD file: it does not begin with a directory");
     if (read_directory(file, &o, maps, err) != RC_OK)
         return RC_FAIL;
     if (o.heights.n == 0)
         return rc_err_set(err, "the file has no block RAW_DATA, RAW DATA or Raw");
-    map = rc_maps_add(maps, "", 0);
-    if (rc_map_count("columns", rc_bytes_at(&bytes, o.heights.at, RC_RAW_U16), &map->nx, err) !=
-            RC_OK ||
-        rc_map_count("rows", rc_bytes_at(&bytes, o.heights.at + 2, RC_RAW_U16), &map->ny, err) !=
-            RC_OK)
+    map = rc_maps_add(maps, rc_piece_of(""));
+    if (rc_map_size(map, rc_bytes_at(&bytes, o.heights.at, RC_RAW_U16), NULL,
+                    rc_bytes_at(&bytes, o.heights.at + 2, RC_RAW_U16), NULL, err) != RC_OK)
         return RC_FAIL;
     size = rc_bytes_at(&bytes, o.heights.at + 4, RC_RAW_U16);
     if (size != 2 && size != 4)
@@ -146,8 +143,7 @@ opd_find(const struct rc_file *file, struct rc_maps *maps, struct rc_err *err)
     map->dy = o.pixel * o.aspect * 1e-3;
     if (isnan(o.wavelength)) /* the numbers are in units of it: the user has to say it */
         return RC_OK;
-    strcpy(map->unit, "m");
-    map->si = 1e-9;
+    rc_map_unit(map, rc_piece_of("nm"));
     return RC_OK;
 }
 
@@ -156,5 +152,6 @@ const struct rc_format rc_format_opd = {
     .suffixes = ".opd",
     .summary = "Wyko (Veeco, Bruker) interferometers",
     .is = has_directory,
+    .refusal = "no OPD file: it does not begin with a directory",
     .find = opd_find,
 };

@@ -248,11 +248,10 @@ step(struct quantity extent, double n)
 static enum rc_status
 add_channel(struct opdx *o, const struct channel *c, struct rc_err *err)
 {
-    struct rc_map *map = rc_maps_add(o->maps, c->name.text, c->name.n);
+    struct rc_map *map = rc_maps_add(o->maps, c->name);
     double columns = c->is_map ? c->columns : c->points, rows = c->is_map ? c->rows : 1;
 
-    if (rc_map_count("columns", columns, &map->nx, err) != RC_OK ||
-        rc_map_count("rows", rows, &map->ny, err) != RC_OK)
+    if (rc_map_size(map, columns, NULL, rows, NULL, err) != RC_OK)
         return RC_FAIL;
     map->raw = c->is_map ? RC_RAW_F32 : RC_RAW_F64;
     if ((double)c->n < columns * rows * (double)rc_raw_width(map->raw))
@@ -262,7 +261,7 @@ add_channel(struct opdx *o, const struct channel *c, struct rc_err *err)
     map->scale = c->scale.value;
     map->dx = step(c->x, columns);
     map->dy = c->is_map ? step(c->y, rows) : map->dx;
-    rc_map_unit(map, c->scale.unit.text, c->scale.unit.n);
+    rc_map_unit(map, c->scale.unit);
     return RC_OK;
 }
 
@@ -273,8 +272,6 @@ opdx_find(const struct rc_file *file, struct rc_maps *maps, struct rc_err *err)
     struct opdx o = {.file = file, .maps = maps};
     struct rc_piece path[DEEPEST + 1];
 
-    if (!rc_file_holds(file, 0, "VCA DATA", 8) || file->size < START)
-        return rc_err_set(err, "no OPDx file: it does not begin with VCA DATA");
     b.at = START;
     if (walk(&o, &b, file->size, path, 0, err) != RC_OK)
         return RC_FAIL;
@@ -291,5 +288,6 @@ const struct rc_format rc_format_opdx = {
     .suffixes = ".opdx",
     .summary = "Dektak OPDx (Bruker Vision64), profiles and maps",
     .magic = {{"VCA DATA", 8}},
+    .refusal = "no OPDx file: it does not begin with VCA DATA",
     .find = opdx_find,
 };

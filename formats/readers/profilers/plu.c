@@ -33,29 +33,26 @@ static enum rc_status
 plu_find(const struct rc_file *file, struct rc_maps *maps, struct rc_err *err)
 {
     struct rc_bytes b = rc_file_bytes(file, false);
-    struct rc_map *map = rc_maps_add(maps, "", 0);
-    struct rc_piece date;
+    struct rc_map *map = rc_maps_add(maps, rc_piece_of(""));
     double type;
 
     if (!sizes_agree(file))
         return rc_err_set(err, "no PLU map: bytes %d to %d should repeat the sizes at byte %d",
                           AT_ROWS_AGAIN, HEADER - 1, AT_ROWS);
-    if (rc_map_count("columns", rc_bytes_at(&b, AT_COLUMNS, RC_RAW_U32), &map->nx, err) != RC_OK ||
-        rc_map_count("rows", rc_bytes_at(&b, AT_ROWS, RC_RAW_U32), &map->ny, err) != RC_OK)
+    if (rc_map_size(map, rc_bytes_at(&b, AT_COLUMNS, RC_RAW_U32), NULL,
+                    rc_bytes_at(&b, AT_ROWS, RC_RAW_U32), NULL, err) != RC_OK)
         return RC_FAIL;
     type = rc_bytes_at(&b, AT_TYPE, RC_RAW_U32);
     if (type != TOPOGRAPHY)
         return rc_err_set(err, "the file has %s (type %g), but only topographies are read",
                           types[type < 6 ? (size_t)type : 6], type);
-    strcpy(map->unit, "m");
-    map->si = 1e-6;
+    rc_map_unit(map, rc_piece_of("um"));
     map->raw = RC_RAW_F32;
     map->at = HEADER;
     map->dx = rc_bytes_at(&b, AT_X, RC_RAW_F32) * 1e-6;
     map->dy = rc_bytes_at(&b, AT_Y, RC_RAW_F32) * 1e-6;
     map->missing_from = map->missing_to = MISSING;
-    date = rc_file_text(file, 0, DATE);
-    rc_maps_key(maps, "file.date", date.text, date.n);
+    rc_maps_key(maps, "file.date", rc_file_text(file, 0, DATE));
     return RC_OK;
 }
 

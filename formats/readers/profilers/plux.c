@@ -183,14 +183,14 @@ add_layer(const struct plux *p, size_t layer, struct rc_maps *maps)
     char name[32];
 
     snprintf(name, sizeof name, "Layer %zu", layer);
-    map = rc_maps_add(maps, name, strlen(name));
+    map = rc_maps_add(maps, rc_piece_of(name));
     map->nx = p->nx;
     map->ny = p->ny;
     map->dx = p->dx;
     map->dy = p->dy;
     map->fill = fill_layer;
     map->more = layer;
-    rc_map_unit(map, "um", 2);
+    rc_map_unit(map, rc_piece_of("um"));
 }
 
 static enum rc_status
@@ -202,7 +202,7 @@ plux_find(const struct rc_file *file, struct rc_maps *maps, struct rc_err *err)
 
     if (p == NULL)
         return RC_FAIL;
-    rc_maps_key(maps, "file.date", p->date, strlen(p->date));
+    rc_maps_key(maps, "file.date", rc_piece_of(p->date));
     for (size_t k = 0; k < ITEMS_MOST; k++) {
         const struct item *i = &p->item[k];
 
@@ -210,7 +210,7 @@ plux_find(const struct rc_file *file, struct rc_maps *maps, struct rc_err *err)
                      (struct rc_piece){i->name, strlen(i->name)},
                      (struct rc_piece){i->value, strlen(i->value)});
     }
-    rc_maps_key(maps, "file.manufacturer", "Sensofar", 8);
+    rc_maps_key(maps, "file.manufacturer", rc_piece_of("Sensofar"));
     for (size_t k = 0; k < LAYERS_MOST; k++)
         if (p->file[k][0] != '\0')
             add_layer(p, k, maps);

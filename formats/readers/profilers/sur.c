@@ -138,30 +138,23 @@ sur_find(const struct rc_file *file, struct rc_maps *maps, struct rc_err *err)
 {
     struct rc_bytes bytes = rc_file_bytes(file, false);
     bool is_packed = rc_file_holds(file, 0, packed, MAGIC);
-    struct rc_piece name, unit, comment;
     struct rc_map *map;
     double bits, comment_n, private_n, columns, rows;
 
-    if (!is_packed && !rc_file_holds(file, 0, plain, MAGIC))
-        return rc_err_set(err, "not a Digital Surf file: it must begin with %s or %s", plain,
-                          packed);
     if (file->size < HEADER)
         return rc_err_set(err, "the header takes %d bytes, the file has %zu", HEADER, file->size);
     columns = rc_bytes_at(&bytes, AT_COLUMNS, RC_RAW_I32);
     rows = rc_bytes_at(&bytes, AT_ROWS, RC_RAW_I32);
     if (judge_type((int)rc_bytes_at(&bytes, AT_TYPE, RC_RAW_I16), rows, err) != RC_OK)
         return RC_FAIL;
-    name = rc_file_text(file, AT_NAME, NAME);
-    map = rc_maps_add(maps, name.text, name.n);
-    if (rc_map_count("columns", columns, &map->nx, err) != RC_OK ||
-        rc_map_count("rows", rows, &map->ny, err) != RC_OK)
+    map = rc_maps_add(maps, rc_file_text(file, AT_NAME, NAME));
+    if (rc_map_size(map, columns, NULL, rows, NULL, err) != RC_OK)
         return RC_FAIL;
     bits = rc_bytes_at(&bytes, AT_BITS, RC_RAW_I16);
     if (bits != 16 && bits != 32)
         return rc_err_set(err, "a height has %g bits: it must have 16 or 32", bits);
     map->raw = bits == 16 ? RC_RAW_I16 : RC_RAW_I32;
-    unit = rc_file_text(file, AT_Z_UNIT, UNIT);
-    rc_map_unit(map, unit.text, unit.n);
+    rc_map_unit(map, rc_file_text(file, AT_Z_UNIT, UNIT));
     map->scale = rc_bytes_at(&bytes, AT_Z, RC_RAW_F32);
     map->zero = rc_bytes_at(&bytes, AT_Z_OFFSET, RC_RAW_F32);
     map->dx = step(file, &bytes, AT_X, AT_X_UNIT);
@@ -179,10 +172,8 @@ sur_find(const struct rc_file *file, struct rc_maps *maps, struct rc_err *err)
         if (rc_map_bound(map, file, columns * rows * bits / 8, err) != RC_OK)
             return RC_FAIL;
     }
-    comment = rc_file_text(file, HEADER, (size_t)comment_n);
-    rc_maps_key(maps, "file.comment", comment.text, comment.n);
-    name = rc_file_text(file, AT_OPERATOR, NAME);
-    rc_maps_key(maps, "file.operator", name.text, name.n);
+    rc_maps_key(maps, "file.comment", rc_file_text(file, HEADER, (size_t)comment_n));
+    rc_maps_key(maps, "file.operator", rc_file_text(file, AT_OPERATOR, NAME));
     return RC_OK;
 }
 
@@ -191,5 +182,6 @@ const struct rc_format rc_format_sur = {
     .suffixes = ".sur .pro",
     .summary = "Digital Surf surfaces and profiles, compressed too",
     .magic = {{plain, MAGIC}, {packed, MAGIC}},
+    .refusal = "not a Digital Surf file: it must begin with DIGITAL SURF or DSCOMPRESSED",
     .find = sur_find,
 };

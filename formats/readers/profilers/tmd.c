@@ -19,23 +19,19 @@ static enum rc_status
 tmd_find(const struct rc_file *file, struct rc_maps *maps, struct rc_err *err)
 {
     struct rc_bytes b = rc_file_bytes(file, false);
-    struct rc_map *map = rc_maps_add(maps, "", 0);
+    struct rc_map *map = rc_maps_add(maps, rc_piece_of(""));
     const unsigned char *comment, *nul;
     size_t at, n;
 
-    if (!rc_file_holds(file, 0, magic, MAGIC))
-        return rc_err_set(
-            err, "no TrueMap file: it does not begin with 'Binary TrueMap Data File v2.0'");
     comment = file->data + MAGIC;
     if ((nul = memchr(comment, 0, file->size - MAGIC)) == NULL)
         return rc_err_set(err, "the comment does not end: there is no NUL behind it");
     n = (size_t)(nul - comment);
     at = MAGIC + n + 1;
-    if (rc_map_count("columns", rc_bytes_at(&b, at, RC_RAW_I32), &map->nx, err) != RC_OK ||
-        rc_map_count("rows", rc_bytes_at(&b, at + 4, RC_RAW_I32), &map->ny, err) != RC_OK)
+    if (rc_map_size(map, rc_bytes_at(&b, at, RC_RAW_I32), NULL, rc_bytes_at(&b, at + 4, RC_RAW_I32),
+                    NULL, err) != RC_OK)
         return RC_FAIL;
-    strcpy(map->unit, "m");
-    map->si = n == 0 ? 1e-3 : 1e-6;
+    rc_map_unit(map, rc_piece_of(n == 0 ? "mm" : "um"));
     if (n > 0)
         map->doubt = "the file gives no unit, and micrometres are assumed; other programs assume "
                      "millimetres: if the map is 1000 times too small, give --z-unit mm and --dx";
@@ -43,7 +39,7 @@ tmd_find(const struct rc_file *file, struct rc_maps *maps, struct rc_err *err)
     map->at = at + NUMBERS;
     map->dx = rc_bytes_at(&b, at + 8, RC_RAW_F32) * map->si / (double)map->nx;
     map->dy = rc_bytes_at(&b, at + 12, RC_RAW_F32) * map->si / (double)map->ny;
-    rc_maps_key(maps, "file.comment", (const char *)comment, n);
+    rc_maps_key(maps, "file.comment", (struct rc_piece){(const char *)comment, n});
     return RC_OK;
 }
 
@@ -52,5 +48,6 @@ const struct rc_format rc_format_tmd = {
     .suffixes = ".tmd",
     .summary = "TrueMap, GelSight",
     .magic = {{magic, MAGIC}},
+    .refusal = "no TrueMap file: it does not begin with 'Binary TrueMap Data File v2.0'",
     .find = tmd_find,
 };

@@ -94,13 +94,13 @@ add_heights(const struct rc_file *file, size_t at, size_t conditions, size_t num
             struct rc_maps *maps, struct rc_err *err)
 {
     struct rc_bytes b = rc_file_bytes(file, false);
-    struct rc_map *map = number == 1   ? rc_maps_add(maps, "height", 6)
-                         : number == 2 ? rc_maps_add(maps, "height 2", 8)
-                                       : rc_maps_add(maps, "height 3", 8);
+    struct rc_map *map = number == 1   ? rc_maps_add(maps, rc_piece_of("height"))
+                         : number == 2 ? rc_maps_add(maps, rc_piece_of("height 2"))
+                                       : rc_maps_add(maps, rc_piece_of("height 3"));
     double bits, promised;
 
-    if (rc_map_count("columns", rc_bytes_at(&b, at, RC_RAW_U32), &map->nx, err) != RC_OK ||
-        rc_map_count("rows", rc_bytes_at(&b, at + 4, RC_RAW_U32), &map->ny, err) != RC_OK)
+    if (rc_map_size(map, rc_bytes_at(&b, at, RC_RAW_U32), NULL, rc_bytes_at(&b, at + 4, RC_RAW_U32),
+                    NULL, err) != RC_OK)
         return RC_FAIL;
     bits = rc_bytes_at(&b, at + 8, RC_RAW_U32);
     if (bits != 8 && bits != 16 && bits != 32)
@@ -118,8 +118,7 @@ add_heights(const struct rc_file *file, size_t at, size_t conditions, size_t num
                           promised, at + IMAGE, file->size);
     map->raw = bits == 8 ? RC_RAW_U8 : bits == 16 ? RC_RAW_U16 : RC_RAW_U32;
     map->at = at + IMAGE;
-    strcpy(map->unit, "m");
-    map->si = 1e-12;
+    rc_map_unit(map, rc_piece_of("pm"));
     map->scale = rc_bytes_at(&b, conditions + AT_Z, RC_RAW_U32);
     map->dx = rc_bytes_at(&b, conditions + AT_X, RC_RAW_U32) * 1e-12;
     map->dy = rc_bytes_at(&b, conditions + AT_Y, RC_RAW_U32) * 1e-12;
@@ -137,7 +136,7 @@ keep_date(const struct rc_file *file, size_t conditions, struct rc_maps *maps)
         part[k] = (unsigned)rc_bytes_at(&b, conditions + AT_YEAR + 4 * k, RC_RAW_U32);
     snprintf(text, sizeof text, "%04u-%02u-%02uT%02u:%02u:%02u", part[0], part[1], part[2], part[3],
              part[4], part[5]);
-    rc_maps_key(maps, "file.date", text, strlen(text));
+    rc_maps_key(maps, "file.date", rc_piece_of(text));
 }
 
 static enum rc_status

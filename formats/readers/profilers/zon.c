@@ -51,8 +51,6 @@ open_archive(const struct rc_file *file, struct rc_err *err)
     RC_OWN(rc_zip_read, behind) = NULL;
     RC_OWN(rc_zip_read, whole) = NULL;
 
-    if (!rc_file_holds(file, 0, "KPK0", 4) && !is_packed(file))
-        return rc_err_null(err, "not a ZON file: it must begin with KPK0 or KPK1");
     if (is_packed(file) && !rc_zstd_is_there())
         return rc_err_null(
             err, "the file is packed by zstd (KPK1), but this program was built without zstd: "
@@ -160,7 +158,7 @@ take_element(void *arg, const char *path, const char *text, struct rc_err *err)
         if (strcmp(path, elements[k].path) != 0)
             continue;
         if (elements[k].key != NULL)
-            rc_maps_key(z->maps, elements[k].key, text, strlen(text));
+            rc_maps_key(z->maps, elements[k].key, rc_piece_of(text));
         else
             return rc_xml_number("the calibration", path, text,
                                  (double *)((char *)z + elements[k].to), err);
@@ -249,7 +247,7 @@ zon_find(const struct rc_file *file, struct rc_maps *maps, struct rc_err *err)
     if (archive == NULL || read_elements(&z, file, err) != RC_OK ||
         read_array(&z, file, heights_name, 4, &a, err) != RC_OK)
         return RC_FAIL;
-    map = rc_maps_add(maps, "", 0);
+    map = rc_maps_add(maps, rc_piece_of(""));
     map->nx = a.nx;
     map->ny = a.ny;
     map->dx = map->dy = z.pixel;
@@ -258,7 +256,7 @@ zon_find(const struct rc_file *file, struct rc_maps *maps, struct rc_err *err)
         strcpy(map->unit, "m");
         map->scale = z.count;
     }
-    rc_maps_key(maps, "file.manufacturer", "Keyence", strlen("Keyence"));
+    rc_maps_key(maps, "file.manufacturer", rc_piece_of("Keyence"));
     return rc_map_bound(map, file, 2 * (double)a.n, err);
 }
 
@@ -267,5 +265,6 @@ const struct rc_format rc_format_zon = {
     .suffixes = ".zon",
     .summary = "Keyence ZON (VR): heights of a one-shot macroscope",
     .magic = {{"KPK0", 4}, {"KPK1", 4}},
+    .refusal = "not a ZON file: it must begin with KPK0 or KPK1",
     .find = zon_find,
 };

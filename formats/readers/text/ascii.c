@@ -368,7 +368,7 @@ set_unit(const struct matrix *m, struct rc_map *map)
     if (!isnan(metres))
         map->si = metres;
     else if (m->images > 1)
-        rc_map_unit(map, h->unit, strlen(h->unit));
+        rc_map_unit(map, rc_piece_of(h->unit));
 }
 
 static enum rc_status
@@ -376,7 +376,7 @@ add_matrix(const struct matrix *m, size_t image, struct rc_maps *maps, struct rc
 {
     const struct rc_labels *l = &m->labels;
     const struct rc_wish *wish = maps->wish;
-    struct rc_map *map = rc_maps_add(maps, m->head.channel.text, m->head.channel.n);
+    struct rc_map *map = rc_maps_add(maps, m->head.channel);
     size_t n;
 
     if (rc_number_table_size(&m->table, &n, err) != RC_OK)

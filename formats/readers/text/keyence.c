@@ -152,7 +152,7 @@ keyence_find(const struct rc_file *file, struct rc_maps *maps, struct rc_err *er
     if (keyence_open(file, maps->wish, &k, err) != RC_OK ||
         rc_number_table_size(&k.table, &n, err) != RC_OK)
         return RC_FAIL;
-    map = rc_maps_add(maps, k.title.text, k.title.n);
+    map = rc_maps_add(maps, k.title);
     map->nx = k.table.columns;
     map->ny = k.table.rows;
     map->dx = map->dy = k.pitch;

@@ -212,10 +212,8 @@ fill_heights(const struct rc_file *file, const struct rc_map *map, double *v, st
 static void
 add_heights(const struct profile *p, size_t c, const struct rc_even *even, struct rc_maps *maps)
 {
-    struct rc_piece unit = rc_titled_table_unit(&p->table, c, 'z');
-    struct rc_piece name =
-        p->heights > 1 ? rc_titled_table_name(&p->table, c) : (struct rc_piece){"", 0};
-    struct rc_map *map = rc_maps_add(maps, name.text, name.n);
+    struct rc_map *map =
+        rc_maps_add(maps, p->heights > 1 ? rc_titled_table_name(&p->table, c) : rc_piece_of(""));
 
     map->nx = even->n;
     map->ny = 1;
@@ -223,7 +221,7 @@ add_heights(const struct profile *p, size_t c, const struct rc_even *even, struc
     if (p->table.numbers.columns > 1)
         rc_map_steps(map, even->step, even->step, rc_titled_table_unit(&p->table, p->x, 'x'));
     map->fill = fill_heights;
-    rc_map_unit(map, unit.text, unit.n);
+    rc_map_unit(map, rc_titled_table_unit(&p->table, c, 'z'));
 }
 
 static enum rc_status

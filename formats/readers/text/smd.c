@@ -138,7 +138,7 @@ smd_find(const struct rc_file *file, struct rc_maps *maps, struct rc_err *err)
 {
     struct smd s = {.step = NAN, .scale = NAN};
     struct rc_piece rest = rc_file_piece(file), head, other, data, line;
-    struct rc_map *map = rc_maps_add(maps, "", 0);
+    struct rc_map *map = rc_maps_add(maps, rc_piece_of(""));
     struct rc_lines lines;
 
     if (!is_smd(file) || !next_record(&rest, &head) || !next_record(&rest, &other) ||
@@ -168,7 +168,7 @@ smd_find(const struct rc_file *file, struct rc_maps *maps, struct rc_err *err)
     map->scale = s.scale;
     map->si = metres_of(s.z_unit);
     strcpy(map->unit, "m");
-    rc_maps_key(maps, "file.title", s.name.text, s.name.n);
+    rc_maps_key(maps, "file.title", s.name);
     return RC_OK;
 }
 

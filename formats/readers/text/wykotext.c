@@ -53,10 +53,9 @@ read_header(const struct rc_file *file, struct wyko *w, struct rc_maps *maps, st
     struct rc_piece line, key, value, rest;
     double flag;
 
-    if (!rc_lines_next(&lines, &line.text, &line.n) || !rc_piece_begins(line, magic))
-        return rc_err_set(err, "no Wyko text: it does not begin with '%s'", magic);
-    w->nanometres =
-        rc_piece_part(line, "\t", &key, &rest) && rc_piece_number(rest, &flag, NULL) && flag == 1;
+    w->nanometres = rc_lines_next(&lines, &line.text, &line.n) &&
+                    rc_piece_part(line, "\t", &key, &rest) && rc_piece_number(rest, &flag, NULL) &&
+                    flag == 1;
     while (rc_lines_next(&lines, &line.text, &line.n)) {
         if (!rc_piece_part(line, "\t", &key, &value))
             continue;
@@ -171,9 +170,8 @@ wykotext_find(const struct rc_file *file, struct rc_maps *maps, struct rc_err *e
 
     if (read_header(file, &w, maps, err) != RC_OK)
         return RC_FAIL;
-    map = rc_maps_add(maps, "", 0);
-    if (rc_map_count("columns (X Size)", w.nx, &map->nx, err) != RC_OK ||
-        rc_map_count("rows (Y Size)", w.ny, &map->ny, err) != RC_OK ||
+    map = rc_maps_add(maps, rc_piece_of(""));
+    if (rc_map_size(map, w.nx, "X Size", w.ny, "Y Size", err) != RC_OK ||
         rc_map_is_text(map, file, (size_t)(w.heights.at - (const char *)file->data), err) != RC_OK)
         return RC_FAIL;
     map->by_columns = map->bottom_first = true;
@@ -207,5 +205,6 @@ const struct rc_format rc_format_wykotext = {
     .suffixes = ".asc .txt",
     .summary = "Wyko (Veeco, Bruker) as text",
     .magic = {{magic, sizeof magic - 1}},
+    .refusal = "no Wyko text: it does not begin with 'Wyko ASCII Data File Format'",
     .find = wykotext_find,
 };

@@ -160,7 +160,7 @@ take_units(const struct cloud *c, double dx, double dy, struct rc_map *map)
         map->dx = map->dy = NAN;
         rc_map_hint(map, dx, dy);
     }
-    rc_map_unit(map, c->unit[2].text, c->unit[2].n);
+    rc_map_unit(map, c->unit[2]);
 }
 
 /* ---- the list ---- */
@@ -299,12 +299,10 @@ xyz_find(const struct rc_file *file, struct rc_maps *maps, struct rc_err *err)
         status = rc_even_new(c.along, c.table.numbers.rows, metres_along(&c), file, maps->wish,
                              &even, err);
     for (c.height = 0; status == RC_OK && c.height < c.heights; c.height++) {
-        struct rc_piece name = {"", 0};
-        struct rc_map *map;
+        struct rc_map *map =
+            rc_maps_add(maps, c.heights > 1 ? rc_titled_table_name(&c.table, c.column[2 + c.height])
+                                            : rc_piece_of(""));
 
-        if (c.heights > 1)
-            name = rc_titled_table_name(&c.table, c.column[2 + c.height]);
-        map = rc_maps_add(maps, name.text, name.n);
         map->nx = c.along != NULL ? even.n : c.x.n;
         map->ny = c.along != NULL ? 1 : c.y.n;
         map->fill = fill_points;

@@ -76,9 +76,6 @@ read_header(const struct rc_file *file, struct zygo *z, bool *xyz, struct rc_err
     *xyz = rc_file_holds(file, 0, xyz_magic, strlen(xyz_magic));
     *z = (struct zygo){.resolution = NAN, .comment = {"", 0}};
     z->rect[2] = z->rect[3] = z->system[6] = NAN;
-    if (!*xyz && !rc_file_holds(file, 0, ascii_magic, strlen(ascii_magic)))
-        return rc_err_set(err, "not a Zygo text: it must begin with '%s' or '%s'", xyz_magic,
-                          ascii_magic);
     while (lines.number < HEADER_MOST && rc_lines_next(&lines, &line.text, &line.n) &&
            !is_mark(line)) {
         if (lines.number == 4)
@@ -149,17 +146,15 @@ zygo_find(const struct rc_file *file, struct rc_maps *maps, struct rc_err *err)
 
     if (read_header(file, &z, &xyz, err) != RC_OK)
         return RC_FAIL;
-    rc_maps_key(maps, "file.comment", z.comment.text, z.comment.n);
-    map = rc_maps_add(maps, "", 0);
-    if (rc_map_count("columns (line 4)", z.rect[2], &map->nx, err) != RC_OK ||
-        rc_map_count("rows (line 4)", z.rect[3], &map->ny, err) != RC_OK ||
+    rc_maps_key(maps, "file.comment", z.comment);
+    map = rc_maps_add(maps, rc_piece_of(""));
+    if (rc_map_size(map, z.rect[2], "line 4", z.rect[3], "line 4", err) != RC_OK ||
         rc_map_fits(file, map->nx, map->ny, err) != RC_OK)
         return RC_FAIL;
     map->dx = map->dy = z.system[6] == 0 ? NAN : z.system[6];
-    strcpy(map->unit, "m");
+    rc_map_unit(map, rc_piece_of(xyz ? "um" : "m"));
     if (xyz) {
         map->fill = fill_points;
-        map->si = 1e-6;
         return RC_OK;
     }
     if (z.resolution != 0 && z.resolution != 1 && z.resolution != 2)
@@ -178,5 +173,6 @@ const struct rc_format rc_format_zygo = {
     .suffixes = ".xyz .asc .txt",
     .summary = "Zygo XYZ and ASCII data",
     .magic = {{xyz_magic, sizeof xyz_magic - 1}, {ascii_magic, sizeof ascii_magic - 1}},
+    .refusal = "not a Zygo text: it must begin with 'Zygo XYZ Data File' or 'Zygo ASCII Data File'",
     .find = zygo_find,
 };

@@ -141,7 +141,7 @@ fill_heights(const struct rc_file *file, const struct rc_map *map, double *v, st
 static void
 add_map(const struct rc_x3p *x, struct rc_maps *maps)
 {
-    struct rc_map *map = rc_maps_add(maps, "height", 6);
+    struct rc_map *map = rc_maps_add(maps, rc_piece_of("height"));
 
     map->nx = x->nx;
     map->ny = x->ny;
@@ -151,7 +151,7 @@ add_map(const struct rc_x3p *x, struct rc_maps *maps)
     strcpy(map->unit, "m");
     for (size_t f = RC_X3P_FIRST_KEY; f < RC_X3P_FIELDS; f++)
         if (x->text[f] != NULL)
-            rc_maps_key(maps, rc_x3p_key(f), x->text[f], strlen(x->text[f]));
+            rc_maps_key(maps, rc_x3p_key(f), rc_piece_of(x->text[f]));
 }
 
 static enum rc_status

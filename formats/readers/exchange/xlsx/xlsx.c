@@ -464,7 +464,7 @@ xlsx_find(const struct rc_file *file, struct rc_maps *maps, struct rc_err *err)
     for (size_t n = 0; k != NULL && n < k->blocks.n; n++) {
         const struct block *b = &k->blocks.block[n];
         RC_OWN(opened, o) = open_block(&k->workbook, b, maps->wish, &why);
-        struct rc_map *map = o == NULL ? NULL : rc_maps_add(maps, "", 0);
+        struct rc_map *map = o == NULL ? NULL : rc_maps_add(maps, rc_piece_of(""));
 
         if (n == 0)
             first = why;
