@@ -102,6 +102,25 @@ rc_piece_part(struct rc_piece piece, const char *marks, struct rc_piece *before,
     return false;
 }
 
+bool
+rc_piece_word(struct rc_piece *rest, const char *ends, struct rc_piece *word)
+{
+    size_t marks = strlen(ends), n;
+    bool quoted;
+
+    while (rest->n > 0 && memchr(ends, *rest->text, marks) != NULL)
+        rest->text++, rest->n--;
+    quoted = rest->n > 0 && *rest->text == '"' && memchr(rest->text + 1, '"', rest->n - 1) != NULL;
+    for (n = quoted; n < rest->n; n++)
+        if (quoted ? rest->text[n] == '"' : memchr(ends, rest->text[n], marks) != NULL)
+            break;
+    n += quoted;
+    *word = rc_piece_bare((struct rc_piece){rest->text, n});
+    rest->text += n;
+    rest->n -= n;
+    return n > 0;
+}
+
 /* Replaces the D of Fortran's exponents by e: 1.5D+03. */
 static void
 plain_power(char *s)

@@ -29,6 +29,9 @@ struct rc_lines rc_piece_lines(struct rc_piece piece);
  * none. */
 bool rc_piece_part(struct rc_piece piece, const char *marks, struct rc_piece *before,
                    struct rc_piece *after);
+/* Takes the next word: in quotes, or up to one of the characters `ends`, any number of which come before it.
+ * Without quotes or brackets around it. False where there is none. */
+bool rc_piece_word(struct rc_piece *rest, const char *ends, struct rc_piece *word);
 /* The number at the beginning of a text, and the trimmed rest (which may be NULL). Returns false without a
  * number. Decimal commas are read as points. */
 bool rc_piece_number(struct rc_piece piece, double *value, struct rc_piece *rest);

@@ -93,24 +93,6 @@ read_header(const struct rc_file *file, struct nrrd *h, struct rc_err *err)
     return rc_err_set(err, "the header does not end: there is no empty line");
 }
 
-/* The next word of a list; words in quotes may contain blanks. */
-static struct rc_piece
-next_word(struct rc_piece *rest)
-{
-    struct rc_piece word;
-    size_t n = 0;
-    bool quoted;
-
-    *rest = rc_piece_trim(*rest);
-    quoted = rest->n > 0 && *rest->text == '"';
-    for (n = quoted; n < rest->n && (quoted ? rest->text[n] != '"' : rest->text[n] != ' '); n++)
-        ;
-    word = (struct rc_piece){rest->text, n + (quoted && n < rest->n)};
-    rest->text += word.n;
-    rest->n -= word.n;
-    return rc_piece_bare(word);
-}
-
 static double
 number_of(struct rc_piece word)
 {
@@ -119,12 +101,21 @@ number_of(struct rc_piece word)
     return word.n > 0 && rc_piece_number(word, &value, NULL) ? value : NAN;
 }
 
+static struct rc_piece
+word_at(struct rc_piece list, size_t axis)
+{
+    struct rc_piece word = {"", 0};
+
+    for (size_t k = 0; k <= axis; k++)
+        rc_piece_word(&list, " \t", &word);
+    return word;
+}
+
 /* The two axes that are longer than one value; without such axes, the first two. */
 static enum rc_status
 pick_axes(const struct nrrd *h, size_t axis[2], double size[2], struct rc_err *err)
 {
     double dimension = number_of(h->dimension);
-    struct rc_piece rest = h->sizes;
     size_t found = 0;
 
     if (!(dimension >= 1 && dimension <= AXES_MOST))
@@ -133,7 +124,7 @@ pick_axes(const struct nrrd *h, size_t axis[2], double size[2], struct rc_err *e
     size[1] = 1;
     axis[1] = AXES_MOST;
     for (size_t k = 0; k < (size_t)dimension; k++) {
-        double n = number_of(next_word(&rest));
+        double n = number_of(word_at(h->sizes, k));
 
         if (n == 1 && ((size_t)dimension - k > 2 - found))
             continue;
@@ -144,16 +135,6 @@ pick_axes(const struct nrrd *h, size_t axis[2], double size[2], struct rc_err *e
         size[found++] = n;
     }
     return RC_OK;
-}
-
-static struct rc_piece
-word_at(struct rc_piece list, size_t axis)
-{
-    struct rc_piece word = next_word(&list);
-
-    while (axis-- > 0)
-        word = next_word(&list);
-    return word;
 }
 
 /* The length of the vector of an axis, "(1.1,0,0)"; NAN: it has no vector. */

@@ -28,8 +28,7 @@ enum {
     UNIT = 70,
     CHANNELS = 94,
     CHANNEL = 95, /* name, unit and comment of the first of several */
-    CHANNELS_MOST = 8,
-    WORD = 64
+    CHANNELS_MOST = 8
 };
 
 static const char magic[] = "ISO/TC 201 SPM data transfer format", last[] = "end of header";
@@ -92,39 +91,20 @@ judge_mode(const struct iso *iso, size_t *channels, struct rc_err *err)
     return RC_OK;
 }
 
-/* The next word of the data, up to white space or a comma. */
-static bool
-next_word(struct rc_piece *rest, char word[WORD])
-{
-    static const char ends[] = " \t\r\n,";
-    size_t n = 0;
-
-    while (rest->n > 0 && *rest->text != '\0' && strchr(ends, *rest->text) != NULL)
-        rest->text++, rest->n--;
-    while (rest->n > 0 && *rest->text != '\0' && strchr(ends, *rest->text) == NULL &&
-           n < WORD - 1) {
-        word[n++] = *rest->text;
-        rest->text++, rest->n--;
-    }
-    word[n] = '\0';
-    return n > 0;
-}
-
 static enum rc_status
 fill_channel(const struct rc_file *file, const struct rc_map *map, double *v, struct rc_err *err)
 {
     struct rc_piece rest = {(const char *)file->data + map->at, file->size - map->at};
     size_t channels = map->more / CHANNELS_MOST, channel = map->more % CHANNELS_MOST;
-    char word[WORD];
+    struct rc_piece word, after;
     double value;
 
     for (size_t k = 0; k < map->nx * map->ny; k++)
         for (size_t c = 0; c < channels; c++) {
-            const char *end = next_word(&rest, word) ? rc_number_read(word, true, &value) : NULL;
-
-            if (end == NULL || *end != '\0')
+            if (!rc_piece_word(&rest, " \t\r\n,", &word) ||
+                !rc_piece_number(word, &value, &after) || after.n > 0)
                 return rc_err_set(err, "point %zu of %zu has '%s' in the place of a number", k + 1,
-                                  map->nx * map->ny, rc_word_shown(word));
+                                  map->nx * map->ny, rc_piece_shown(word));
             if (c == channel)
                 v[k] = value;
         }

@@ -28,28 +28,6 @@ narrow(const struct rc_file *file, size_t *n)
     return text;
 }
 
-/* Reads the next word of a row, which is in quotes, or ends at a separator. False at the end of the line. */
-static bool
-next_word(struct rc_piece *line, struct rc_piece *word)
-{
-    size_t n = 0;
-    bool quoted;
-
-    while (line->n > 0 && (*line->text == '\0' || strchr(" \t,;", *line->text) != NULL))
-        line->text++, line->n--;
-    if (line->n == 0)
-        return false;
-    quoted = *line->text == '"' && memchr(line->text + 1, '"', line->n - 1) != NULL;
-    for (n = quoted; n < line->n; n++)
-        if (quoted ? line->text[n] == '"'
-                   : line->text[n] == '\0' || strchr(" \t,;", line->text[n]) != NULL)
-            break;
-    *word = rc_piece_bare((struct rc_piece){line->text, n + quoted});
-    line->text += n + quoted;
-    line->n -= n + quoted;
-    return true;
-}
-
 /* True if the line has at least so many numbers, and only numbers. */
 static bool
 is_row(struct rc_piece line, size_t columns)
@@ -61,7 +39,7 @@ is_row(struct rc_piece line, size_t columns)
     line = rc_piece_trim(line);
     if (line.n == 0 || memchr("0123456789+-.\"", *line.text, 14) == NULL)
         return false;
-    for (; next_word(&line, &word); numbers++)
+    for (; rc_piece_word(&line, " \t,;", &word); numbers++)
         if (rc_piece_number(word, &value, &rest) ? rest.n > 0
                                                  : word.n > 0 && !rc_piece_is(word, "--|---|BAD"))
             return false;
