@@ -32,6 +32,20 @@ rc_maps_key(struct rc_maps *maps, const char *key, struct rc_piece text)
 }
 
 void
+rc_maps_date(struct rc_maps *maps, struct rc_bytes b, size_t at, enum rc_raw raw)
+{
+    double part[6];
+    char text[80];
+
+    b.at = at;
+    rc_bytes_values(&b, raw, part, 6);
+    snprintf(text, sizeof text, "%04.0f-%02.0f-%02.0fT%02.0f:%02.0f:%02.0f", part[0], part[1],
+             part[2], part[3], part[4], part[5]);
+    if (part[0] >= 1980 && part[1] <= 12 && part[2] <= 31)
+        rc_maps_key(maps, "file.date", rc_piece_of(text));
+}
+
+void
 rc_maps_keep(struct rc_maps *maps, const struct rc_keep *keep, size_t n, struct rc_piece name,
              struct rc_piece value)
 {

@@ -65,6 +65,8 @@ struct rc_maps {
 struct rc_map *rc_maps_add(struct rc_maps *maps, struct rc_piece name);
 /* Adds a cleaned key `file.*` of the grid, unless the text is empty or the key exists. */
 void rc_maps_key(struct rc_maps *maps, const char *key, struct rc_piece text);
+/* Adds file.date from six numbers of this type, year to second, from `at` on. */
+void rc_maps_date(struct rc_maps *maps, struct rc_bytes bytes, size_t at, enum rc_raw raw);
 /* The name of an item in a file, and the key of the grid for it. */
 struct rc_keep {
     const char *name, *key;

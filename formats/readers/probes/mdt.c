@@ -10,7 +10,6 @@
  * read.
  */
 #include <math.h>
-#include <stdio.h>
 #include <string.h>
 
 #include "formats/format.h"
@@ -224,22 +223,6 @@ add_array(struct rc_bytes *b, size_t start, size_t number, struct rc_maps *maps,
 
 /* ---- the file ---- */
 
-static void
-keep_date(struct rc_bytes *b, struct rc_maps *maps)
-{
-    unsigned word[6];
-    char date[64];
-
-    b->at = 8;
-    for (int k = 0; k < 6; k++)
-        word[k] = rc_bytes_u16(b);
-    if (word[0] < 1980 || word[1] > 12 || word[2] > 31)
-        return;
-    snprintf(date, sizeof date, "%04u-%02u-%02uT%02u:%02u:%02u", word[0], word[1], word[2], word[3],
-             word[4], word[5]);
-    rc_maps_key(maps, "file.date", rc_piece_of(date));
-}
-
 static enum rc_status
 mdt_find(const struct rc_file *file, struct rc_maps *maps, struct rc_err *err)
 {
@@ -269,7 +252,7 @@ mdt_find(const struct rc_file *file, struct rc_maps *maps, struct rc_err *err)
         if (status != RC_OK)
             return RC_FAIL;
         if (type == SCAN || type == ARRAY)
-            keep_date(&frame, maps); /* keeps the date of the first one */
+            rc_maps_date(maps, frame, 8, RC_RAW_U16); /* keeps the date of the first one */
         at += size;
     }
     if (maps->n == 0)

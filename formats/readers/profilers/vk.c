@@ -3,7 +3,6 @@
  * measurement and to up to three height images of whole numbers, row 0 first, lengths in picometres. VK6 and
  * VK7 are a picture and a ZIP archive whose member Vk4File is a VK4 file.
  */
-#include <stdio.h>
 #include <string.h>
 
 #include "formats/containers/containers.h"
@@ -125,20 +124,6 @@ add_heights(const struct rc_file *file, size_t at, size_t conditions, size_t num
     return RC_OK;
 }
 
-static void
-keep_date(const struct rc_file *file, size_t conditions, struct rc_maps *maps)
-{
-    struct rc_bytes b = rc_file_bytes(file, false);
-    unsigned part[6];
-    char text[80];
-
-    for (size_t k = 0; k < 6; k++)
-        part[k] = (unsigned)rc_bytes_at(&b, conditions + AT_YEAR + 4 * k, RC_RAW_U32);
-    snprintf(text, sizeof text, "%04u-%02u-%02uT%02u:%02u:%02u", part[0], part[1], part[2], part[3],
-             part[4], part[5]);
-    rc_maps_key(maps, "file.date", rc_piece_of(text));
-}
-
 static enum rc_status
 find_plain(const struct rc_file *file, struct rc_maps *maps, struct rc_err *err)
 {
@@ -161,7 +146,7 @@ find_plain(const struct rc_file *file, struct rc_maps *maps, struct rc_err *err)
         if (add_heights(file, at, conditions, k + 1, maps, err) != RC_OK)
             return RC_FAIL;
     }
-    keep_date(file, conditions, maps);
+    rc_maps_date(maps, b, conditions + AT_YEAR, RC_RAW_U32);
     if (maps->n == 0)
         return rc_err_set(err, "the file has no height image");
     return RC_OK;
