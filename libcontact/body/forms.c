@@ -91,12 +91,6 @@ xy_y(const struct rc_corner *k)
     return k->z == 0 ? 0 : k->z * k->x * k->y / (k->r * (k->y * k->y + k->z * k->z));
 }
 
-static double
-log_sum(const struct rc_corner *k)
-{
-    return log(fmax(k->r + k->z, k->floor));
-}
-
 /* asinh of a coordinate over the distance from the edge that runs along it. */
 static double
 along(const struct rc_corner *k, double coordinate, double other)
@@ -113,75 +107,26 @@ tilt(const struct rc_corner *k, double y)
     return w == 0 ? 0 : (2 * k->nu + k->z / k->r) * y / w;
 }
 
-static double
-n_xx_corner(const struct rc_corner *k)
-{
-    double t2 = atan2(k->x * k->y, k->x * k->x + k->z * (k->z + k->r));
+#define CORNER(name, value)                                                                        \
+    static double name##_corner(const struct rc_corner *k)                                         \
+    {                                                                                              \
+        const double x = k->x, y = k->y, z = k->z, r = k->r, nu = k->nu, c = 1 - 2 * nu;           \
+                                                                                                   \
+        (void)x, (void)y, (void)z, (void)r, (void)nu, (void)c;                                     \
+        return value;                                                                              \
+    }
 
-    return -2 * k->nu * t1(k) - (1 - 2 * k->nu) * t2 + xy_x(k);
-}
-
-static double
-n_yy_corner(const struct rc_corner *k)
-{
-    double t2 = atan2(k->x * k->y, k->y * k->y + k->z * (k->z + k->r));
-
-    return -2 * k->nu * t1(k) - (1 - 2 * k->nu) * t2 + xy_y(k);
-}
-
-static double
-n_zz_corner(const struct rc_corner *k)
-{
-    return -t1(k) - xy_x(k) - xy_y(k);
-}
-
-static double
-n_xy_corner(const struct rc_corner *k)
-{
-    return (k->z == 0 ? 0 : -k->z / k->r) - (1 - 2 * k->nu) * log_sum(k);
-}
-
-static double
-n_xz_corner(const struct rc_corner *k)
-{
-    return k->z == 0 ? 0 : k->z * k->z * k->y / (k->r * (k->x * k->x + k->z * k->z));
-}
-
-static double
-n_yz_corner(const struct rc_corner *k)
-{
-    return k->z == 0 ? 0 : k->z * k->z * k->x / (k->r * (k->y * k->y + k->z * k->z));
-}
-
-static double
-t_xx_corner(const struct rc_corner *k)
-{
-    return 2 * along(k, k->y, k->x) + tilt(k, k->y) - n_xz_corner(k);
-}
-
-static double
-t_yy_corner(const struct rc_corner *k)
-{
-    return 2 * k->nu * along(k, k->y, k->x) - tilt(k, k->y);
-}
-
-static double
-t_xy_corner(const struct rc_corner *k)
-{
-    return along(k, k->x, k->y) - tilt(k, k->x);
-}
-
-static double
-t_xz_corner(const struct rc_corner *k)
-{
-    return -t1(k) + xy_x(k);
-}
-
-static double
-t_yz_corner(const struct rc_corner *k)
-{
-    return k->z == 0 ? 0 : -k->z / k->r;
-}
+CORNER(n_xx, -2 * nu * t1(k) - c * atan2(x * y, x *x + z * (z + r)) + xy_x(k))
+CORNER(n_yy, -2 * nu * t1(k) - c * atan2(x * y, y *y + z * (z + r)) + xy_y(k))
+CORNER(n_zz, -t1(k) - xy_x(k) - xy_y(k))
+CORNER(n_xy, (z == 0 ? 0 : -z / r) - c * log(fmax(r + z, k->floor)))
+CORNER(n_xz, z == 0 ? 0 : z * z * y / (r * (x * x + z * z)))
+CORNER(n_yz, z == 0 ? 0 : z * z * x / (r * (y * y + z * z)))
+CORNER(t_xx, 2 * along(k, y, x) + tilt(k, y) - n_xz_corner(k))
+CORNER(t_yy, 2 * nu * along(k, y, x) - tilt(k, y))
+CORNER(t_xy, along(k, x, y) - tilt(k, x))
+CORNER(t_xz, -t1(k) + xy_x(k))
+CORNER(t_yz, z == 0 ? 0 : -z / r)
 
 /* ---- a wave ---- */
 

@@ -85,20 +85,10 @@ corner(int integral, double x, double y)
 static double
 point(int integral, double x, double y)
 {
-    double s = 1 / (x * x + y * y);
+    const double s = 1 / (x * x + y * y);
+    const double of[INTEGRALS] = {[XX] = x * x, [YY] = y * y, [XY] = x * y, [X] = x, [Y] = y};
 
-    switch (integral) {
-    case XX:
-        return x * x * s * sqrt(s);
-    case YY:
-        return y * y * s * sqrt(s);
-    case XY:
-        return x * y * s * sqrt(s);
-    case X:
-        return x * s;
-    default:
-        return y * s;
-    }
+    return of[integral] * s * (integral < X ? sqrt(s) : 1);
 }
 
 /* The integral over the cell of half sides a, b with its middle at (x, y) from the point. */
@@ -138,20 +128,14 @@ struct sum {
 static struct sum
 sum_of(const struct rc_shear_field *f)
 {
-    const struct rc_shear *s = f->shear;
+    const double kap = f->shear->kap, beta = f->shear->beta;
+    const struct sum of[] = {
+        [RC_SHEAR_XX] = {{XX, YY}, {1 + kap, 1}}, [RC_SHEAR_YY] = {{XX, YY}, {1, 1 + kap}},
+        [RC_SHEAR_XY] = {{XY, XY}, {kap, 0}},     [RC_SHEAR_XZ] = {{X, X}, {beta, 0}},
+        [RC_SHEAR_YZ] = {{Y, Y}, {beta, 0}},
+    };
 
-    switch (f->kernel) {
-    case RC_SHEAR_XX:
-        return (struct sum){{XX, YY}, {1 + s->kap, 1}};
-    case RC_SHEAR_YY:
-        return (struct sum){{XX, YY}, {1, 1 + s->kap}};
-    case RC_SHEAR_XY:
-        return (struct sum){{XY, XY}, {s->kap, 0}};
-    case RC_SHEAR_XZ:
-        return (struct sum){{X, X}, {s->beta, 0}};
-    default:
-        return (struct sum){{Y, Y}, {s->beta, 0}};
-    }
+    return of[f->kernel];
 }
 
 static void
@@ -191,19 +175,15 @@ symbol(const void *of, double qx, double qy)
     const struct rc_shear_field *f = of;
     const struct rc_shear *s = f->shear;
     double q = hypot(qx, qy), x = qx / q, y = qy / q, normal = 2 / (s->estar * q);
+    const double by_kernel[] = {
+        [RC_SHEAR_XX] = normal * (1 + s->kap * y * y),
+        [RC_SHEAR_YY] = normal * (1 + s->kap * x * x),
+        [RC_SHEAR_XY] = normal * s->kap * x * y,
+        [RC_SHEAR_XZ] = normal * s->beta * x,
+        [RC_SHEAR_YZ] = normal * s->beta * y,
+    };
 
-    switch (f->kernel) {
-    case RC_SHEAR_XX:
-        return normal * (1 + s->kap * y * y);
-    case RC_SHEAR_YY:
-        return normal * (1 + s->kap * x * x);
-    case RC_SHEAR_XY:
-        return normal * s->kap * x * y;
-    case RC_SHEAR_XZ:
-        return normal * s->beta * x;
-    default:
-        return normal * s->beta * y;
-    }
+    return by_kernel[f->kernel];
 }
 
 struct rc_kernel

@@ -36,17 +36,23 @@ enum {
 static const double too_squared = 1e-10;
 static const double deficient = 1e-12;
 
+/* T_a(x) T_b(y) */
+struct term {
+    size_t a, b;
+};
+
 struct fit {
     const struct rc_shape *shape;
     const double *h;
     double mean; /* subtracted first, because a large constant would cost digits */
     size_t nx_terms, ny_terms, degree; /* polynomials along x, along y; largest total degree */
     size_t terms;
+    struct term term[(RC_DEGREE_MAX + 1) * (RC_DEGREE_MAX + 2) / 2];
     size_t nx_orders, ny_orders; /* orders of the products of two polynomials */
     int threads;
     bool missing;
     double *px, *py;         /* Chebyshev polynomials: px[a * nx + i], py[b * ny + j] */
-    double *c;               /* coefficients; in a row, of b + a for all a, then the next b */
+    double *c;               /* coefficients of the terms */
     double *step;            /* their correction */
     double *residual, reach; /* robust: h - mean - polynomial, for the weights; else NULL */
     double *rows;            /* sums of ROWS rows: nx_orders sums of w px, nx_terms sums of w e
@@ -114,17 +120,6 @@ fit_free(struct fit *f)
     rc_store_free(&f->own);
 }
 
-static size_t
-count_terms(size_t nx_terms, size_t ny_terms, size_t degree)
-{
-    size_t n = 0;
-
-    for (size_t b = 0; b < ny_terms; b++)
-        for (size_t a = 0; a < nx_terms && a + b <= degree; a++)
-            n++;
-    return n;
-}
-
 static enum rc_status
 fit_allocate(struct fit *f, const struct rc_box *box, bool robust, struct rc_err *err)
 {
@@ -162,7 +157,9 @@ fit_new(struct fit *f, const struct rc_shape *shape, const struct rc_form *form,
     f->ny_terms = shape->ny > 1 ? f->degree + 1 : 1;
     f->nx_orders = 2 * f->nx_terms - 1;
     f->ny_orders = 2 * f->ny_terms - 1;
-    f->terms = count_terms(f->nx_terms, f->ny_terms, f->degree);
+    for (size_t b = 0; b < f->ny_terms; b++)
+        for (size_t a = 0; a < f->nx_terms && a + b <= f->degree; a++)
+            f->term[f->terms++] = (struct term){a, b};
     f->threads = rc_useful_threads(shape, form->threads);
     f->missing = box.count < shape->nx * shape->ny;
     if (box.infinite > 0)
@@ -211,11 +208,9 @@ static void
 residual_row(const struct fit *f, size_t j, double *to, double *scratch)
 {
     double in_x[RC_DEGREE_MAX + 1] = {0};
-    const double *c = f->c;
 
-    for (size_t b = 0; b < f->ny_terms; b++)
-        for (size_t a = 0; a < f->nx_terms && a + b <= f->degree; a++)
-            in_x[a] += *c++ * f->py[b * f->shape->ny + j];
+    for (size_t t = 0; t < f->terms; t++)
+        in_x[f->term[t].a] += f->c[t] * f->py[f->term[t].b * f->shape->ny + j];
     subtract_row(f->shape->nx, f->nx_terms, in_x, f->px, f->mean, f->h + j * f->shape->nx, to,
                  scratch);
 }
@@ -308,13 +303,19 @@ sum_map(const struct fit *f, bool weights)
 
 /* ---- the normal equations ---- */
 
-/* T_a T_b = (T_(a+b) + T_|a-b|) / 2 */
-static double
-of_product(const struct fit *f, size_t a, size_t b, size_t c, size_t d)
+static size_t
+apart(size_t a, size_t b)
 {
-    size_t n = f->nx_orders, more = a + c, less = a > c ? a - c : c - a;
-    const double *s = f->of_weights, *high = s + (b + d) * n,
-                 *low = s + (b > d ? b - d : d - b) * n;
+    return a > b ? a - b : b - a;
+}
+
+/* The sum of two terms over the map: T_a T_b = (T_(a+b) + T_|a-b|) / 2 */
+static double
+of_product(const struct fit *f, struct term s, struct term t)
+{
+    size_t n = f->nx_orders, more = s.a + t.a, less = apart(s.a, t.a);
+    const double *high = f->of_weights + (s.b + t.b) * n,
+                 *low = f->of_weights + apart(s.b, t.b) * n;
 
     return 0.25 * (high[more] + high[less] + low[more] + low[less]);
 }
@@ -322,25 +323,9 @@ of_product(const struct fit *f, size_t a, size_t b, size_t c, size_t d)
 static void
 set_normal(struct fit *f)
 {
-    size_t row = 0;
-
-    for (size_t b = 0; b < f->ny_terms; b++)
-        for (size_t a = 0; a < f->nx_terms && a + b <= f->degree; a++, row++) {
-            size_t column = 0;
-            for (size_t d = 0; d < f->ny_terms; d++)
-                for (size_t c = 0; c < f->nx_terms && c + d <= f->degree; c++, column++)
-                    gsl_matrix_set(f->normal, row, column, of_product(f, a, b, c, d));
-        }
-}
-
-static void
-set_right(struct fit *f)
-{
-    size_t row = 0;
-
-    for (size_t b = 0; b < f->ny_terms; b++)
-        for (size_t a = 0; a < f->nx_terms && a + b <= f->degree; a++, row++)
-            gsl_vector_set(f->right, row, f->of_residuals[b * f->nx_terms + a]);
+    for (size_t k = 0; k < f->terms; k++)
+        for (size_t l = 0; l < f->terms; l++)
+            gsl_matrix_set(f->normal, k, l, of_product(f, f->term[k], f->term[l]));
 }
 
 /* Factors the normal equations; false when they are too badly conditioned. */
@@ -375,7 +360,8 @@ solve_normal(struct fit *f)
 {
     gsl_vector_view step = gsl_vector_view_array(f->step, f->terms);
 
-    set_right(f);
+    for (size_t k = 0; k < f->terms; k++)
+        gsl_vector_set(f->right, k, f->of_residuals[f->term[k].b * f->nx_terms + f->term[k].a]);
     gsl_linalg_cholesky_solve2(f->normal, f->scale, f->right, &step.vector);
     return take_step(f);
 }
@@ -396,9 +382,8 @@ put_equation(const struct fit *f, struct blocks *q, size_t k, size_t i, size_t j
     const struct rc_shape *s = f->shape;
     double *to = gsl_matrix_ptr(q->equations, k, 0);
 
-    for (size_t b = 0; b < f->ny_terms; b++)
-        for (size_t a = 0; a < f->nx_terms && a + b <= f->degree; a++)
-            *to++ = sqrt(w) * f->px[a * s->nx + i] * f->py[b * s->ny + j];
+    for (size_t t = 0; t < f->terms; t++)
+        to[t] = sqrt(w) * f->px[f->term[t].a * s->nx + i] * f->py[f->term[t].b * s->ny + j];
     gsl_vector_set(q->heights, k, sqrt(w) * e);
 }
 

@@ -41,6 +41,7 @@ row_of(const struct field *f, size_t j)
 struct runs {
     size_t *first; /* row j holds runs first[j] .. first[j+1]-1 */
     struct run *run;
+    struct rc_store own;
 };
 
 /* ---- rows into runs ---- */
@@ -131,7 +132,7 @@ find_runs(const struct field *f, bool wraps, int threads, struct runs *r)
 {
     size_t nx = f->nx, ny = f->rows;
 
-    if ((r->first = rc_alloc(ny + 1, sizeof *r->first)) == NULL)
+    if ((r->first = rc_store_take(&r->own, ny + 1, sizeof *r->first)) == NULL)
         return RC_FAIL;
     r->first[0] = 0;
 #pragma omp parallel for num_threads(threads) schedule(static)
@@ -139,7 +140,7 @@ find_runs(const struct field *f, bool wraps, int threads, struct runs *r)
         r->first[j + 1] = count_row(row_of(f, j), nx);
     for (size_t j = 0; j < ny; j++)
         r->first[j + 1] += r->first[j];
-    if ((r->run = rc_alloc(r->first[ny] + 1, sizeof *r->run)) == NULL)
+    if ((r->run = rc_store_take(&r->own, r->first[ny] + 1, sizeof *r->run)) == NULL)
         return RC_FAIL;
 #pragma omp parallel for num_threads(threads) schedule(static)
     for (size_t j = 0; j < ny; j++)
@@ -220,22 +221,19 @@ gather_lists(const struct rc_ranks *ranks, size_t bytes, const void *own, size_t
 {
     size_t count = rc_ranks_count(ranks);
     RC_OWNED size_t *from = calloc(count + 1, sizeof *from);
-    void *all = NULL;
+    RC_OWNED void *all = NULL;
 
-    if (rc_ranks_agree(ranks, from == NULL ? RC_FAIL : RC_OK, NULL) == RC_OK) {
-        rc_ranks_gather(ranks, sizeof *n, n, from + 1);
-        for (size_t q = 0; q < count; q++)
-            from[q + 1] += from[q];
-        *n = from[count];
-        all = malloc((*n + 1) * bytes);
-        if (rc_ranks_agree(ranks, all == NULL ? RC_FAIL : RC_OK, NULL) == RC_OK) {
-            rc_ranks_move(ranks, bytes, from, NULL, 0, own, all);
-        } else {
-            free(all);
-            all = NULL;
-        }
-    }
-    return all;
+    if (rc_ranks_agree(ranks, from == NULL ? RC_FAIL : RC_OK, NULL) != RC_OK)
+        return NULL;
+    rc_ranks_gather(ranks, sizeof *n, n, from + 1);
+    for (size_t q = 0; q < count; q++)
+        from[q + 1] += from[q];
+    *n = from[count];
+    all = malloc((*n + 1) * bytes);
+    if (rc_ranks_agree(ranks, all == NULL ? RC_FAIL : RC_OK, NULL) != RC_OK)
+        return NULL;
+    rc_ranks_move(ranks, bytes, from, NULL, 0, own, all);
+    return rc_give(&all);
 }
 
 /* The place of the patch of each run of a row, counted over all ranks. */
@@ -327,34 +325,32 @@ place(struct places *q, size_t at)
 static enum rc_status
 join_parts(struct all *all)
 {
-    struct places q = {.at = malloc((2 * all->pairs + 1) * sizeof *q.at),
-                       .parent = malloc((2 * all->pairs + 1) * sizeof *q.parent)};
-    bool fine = q.at != NULL && q.parent != NULL;
+    RC_ENDS(rc_store_free) struct rc_store own = {0};
+    struct places q = {.at = rc_store_take(&own, 2 * all->pairs, sizeof *q.at),
+                       .parent = rc_store_take(&own, 2 * all->pairs, sizeof *q.parent)};
 
-    for (size_t k = 0; k < all->pairs && fine; k++) {
+    if (own.failed)
+        return RC_FAIL;
+    for (size_t k = 0; k < all->pairs; k++) {
         q.at[2 * k] = all->pair[k].a;
         q.at[2 * k + 1] = all->pair[k].b;
     }
-    if (fine) {
-        qsort(q.at, 2 * all->pairs, sizeof *q.at, by_size);
-        for (size_t k = 0; k < 2 * all->pairs; k++)
-            if (q.n == 0 || q.at[q.n - 1] != q.at[k])
-                q.at[q.n++] = q.at[k];
-    }
+    qsort(q.at, 2 * all->pairs, sizeof *q.at, by_size);
+    for (size_t k = 0; k < 2 * all->pairs; k++)
+        if (q.n == 0 || q.at[q.n - 1] != q.at[k])
+            q.at[q.n++] = q.at[k];
     for (size_t k = 0; k < q.n; k++)
         q.parent[k] = k;
-    for (size_t k = 0; k < all->pairs && fine; k++) {
+    for (size_t k = 0; k < all->pairs; k++) {
         size_t a = place(&q, all->pair[k].a), b = place(&q, all->pair[k].b);
         q.parent[a < b ? b : a] = a < b ? a : b;
     }
-    for (size_t k = 0; k < all->parts && fine; k++) {
+    for (size_t k = 0; k < all->parts; k++) {
         size_t first = place(&q, all->part[k].at);
         if (first < q.n)
             all->part[k].at = q.at[first];
     }
-    free(q.at);
-    free(q.parent);
-    return fine ? RC_OK : RC_FAIL;
+    return RC_OK;
 }
 
 static int
@@ -455,21 +451,19 @@ find_parts(const struct rc_rows *rows, const struct field *f, bool wraps, int th
            struct runs *r, struct all *all)
 {
     enum rc_status status = find_runs(f, wraps, threads, r);
-    struct part *part = NULL;
+    RC_OWNED struct part *part = NULL;
     size_t before, n;
 
     if (status == RC_OK && (part = malloc((r->first[f->rows] + 1) * sizeof *part)) == NULL)
         status = RC_FAIL;
-    if (rc_ranks_agree(rows->ranks, status, NULL) != RC_OK) {
-        free(part);
+    if (rc_ranks_agree(rows->ranks, status, NULL) != RC_OK)
         return RC_FAIL;
-    }
     join_all(f, wraps, rows->ranks == NULL, threads, r);
     before = rows->ranks == NULL
                  ? 0
                  : (size_t)rc_ranks_sum_before(rows->ranks, (double)r->first[f->rows]);
     n = make_parts(f, r, before, part);
-    status = gather_all(rows, wraps, f, r, part, n, before, all);
+    status = gather_all(rows, wraps, f, r, rc_give(&part), n, before, all);
     if (status == RC_OK && rows->ranks != NULL) {
         status = join_parts(all);
         merge_parts(all);
@@ -510,8 +504,7 @@ rc_patches_find(const struct rc_shape *shape, const double *p,
         f = field_of(&rows, shape->nx, wraps, p, room);
         status = find_parts(&rows, &f, wraps, rc_useful_threads(&own, options->threads), &r, &all);
     }
-    free(r.first);
-    free(r.run);
+    rc_store_free(&r.own);
     if (status == RC_OK)
         add_up(shape, &all, patches);
     if (status == RC_OK && options->each)

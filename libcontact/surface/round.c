@@ -17,7 +17,6 @@
 #include "libcontact/common.h"
 
 #include <math.h>
-#include <stdlib.h>
 #include <string.h>
 
 #include "form.h"
@@ -572,14 +571,6 @@ start_weights(struct round *f, struct rc_err *err)
 /* ---- the fit ---- */
 
 static void
-round_free(struct round *f)
-{
-    free(f->residual);
-    free(f->x);
-    free(f->sums);
-}
-
-static void
 choose_unknowns(struct round *f)
 {
     bool sphere = f->form->kind == RC_SPHERE;
@@ -597,8 +588,8 @@ choose_unknowns(struct round *f)
 }
 
 static enum rc_status
-round_new(struct round *f, const struct rc_shape *shape, const struct rc_form *form,
-          const double *h, struct rc_err *err)
+round_new(struct round *f, struct rc_store *own, const struct rc_shape *shape,
+          const struct rc_form *form, const double *h, struct rc_err *err)
 {
     struct rc_box box = rc_box_of(shape, h);
     struct rc_statistics s;
@@ -619,11 +610,11 @@ round_new(struct round *f, const struct rc_shape *shape, const struct rc_form *f
     f->middle_x = 0.5 * (double)(box.left + box.right);
     f->middle_y = 0.5 * (double)(box.top + box.bottom);
     f->threads = rc_useful_threads(shape, form->threads);
-    f->x = rc_alloc(shape->nx, sizeof *f->x);
-    f->sums = rc_alloc(GROUPS, SUMS * sizeof *f->sums);
+    f->x = rc_store_take(own, shape->nx, sizeof *f->x);
+    f->sums = rc_store_take(own, GROUPS, SUMS * sizeof *f->sums);
     if (form->robust)
-        f->residual = rc_alloc(shape->nx * shape->ny, sizeof *f->residual);
-    if (f->x == NULL || f->sums == NULL || (form->robust && f->residual == NULL))
+        f->residual = rc_store_take(own, shape->nx * shape->ny, sizeof *f->residual);
+    if (own->failed)
         return rc_err_set(err, "out of memory for a %s through %zu heights", f->name, box.count);
     for (size_t i = 0; i < shape->nx; i++)
         f->x[i] = ((double)i - f->middle_x) * shape->dx / f->scale;
@@ -706,19 +697,16 @@ enum rc_status
 rc_detrend_round(const struct rc_shape *shape, const struct rc_form *form, double *h,
                  double *radius, struct rc_err *err)
 {
+    RC_ENDS(rc_store_free) struct rc_store own = {0};
     double p[PARAMETERS] = {0}, found;
-    enum rc_status status;
     struct round f;
 
-    status = round_new(&f, shape, form, h, err);
-    if (status == RC_OK)
-        status = fit_round(&f, p, err);
-    if (status == RC_OK) {
-        found = radius_of(&f, p);
-        status = subtract(&f, p, found, h, err);
-        if (status == RC_OK && radius != NULL)
-            *radius = found;
-    }
-    round_free(&f);
-    return status;
+    if (round_new(&f, &own, shape, form, h, err) != RC_OK || fit_round(&f, p, err) != RC_OK)
+        return RC_FAIL;
+    found = radius_of(&f, p);
+    if (subtract(&f, p, found, h, err) != RC_OK)
+        return RC_FAIL;
+    if (radius != NULL)
+        *radius = found;
+    return RC_OK;
 }
