@@ -56,14 +56,6 @@ rc_conduction_new(const struct rc_shape *shape, enum rc_boundary boundary, size_
 
 /* ---- the spectrum of a body ---- */
 
-void
-rc_warming_free(struct rc_warming *w)
-{
-    for (int k = 0; k < RC_HEAT_PARTS; k++)
-        free(w->part[k]);
-    *w = (struct rc_warming){{NULL}};
-}
-
 /* From C at (qx, qy) and (qx, -qy), where C(-q) is the conjugate of C(q). */
 static void
 sample(struct rc_warming *w, const struct rc_conduction *c, const struct rc_heated *body)
@@ -116,14 +108,14 @@ transform(struct rc_warming *w, const struct rc_conduction *c, const struct rc_h
 }
 
 enum rc_status
-rc_warming_set(struct rc_warming *w, struct rc_conduction *c, const struct rc_heated *body,
-               struct rc_err *err)
+rc_warming_set(struct rc_warming *w, struct rc_store *own, struct rc_conduction *c,
+               const struct rc_heated *body, struct rc_err *err)
 {
     *w = (struct rc_warming){{NULL}};
     for (unsigned k = 0; k < RC_HEAT_PARTS; k++) {
         if ((k & RC_ODD_X && body->px == 0) || (k & RC_ODD_Y && body->py == 0))
             continue;
-        if ((w->part[k] = rc_alloc(c->columns * c->cy, sizeof(double))) == NULL)
+        if ((w->part[k] = rc_store_take(own, c->columns * c->cy, sizeof(double))) == NULL)
             return rc_err_set(err, "out of memory for the heat of %zu x %zu nodes", c->shape.nx,
                               c->shape.ny);
     }

@@ -186,27 +186,20 @@ set_figures(struct rc_heat *h, const double *contact, struct rc_err *err)
     return status;
 }
 
-static void
-lags_free(const struct rc_heat *h, struct rc_warming *lag)
+/* The temperatures of body b at a depth, for each lag, in memory of `own`; NULL: *err says why. */
+static struct rc_warming *
+lags_new(const struct rc_heat *h, int b, double depth, struct rc_store *own, struct rc_err *err)
 {
-    for (size_t k = 0; k < h->times && lag != NULL; k++)
-        rc_warming_free(&lag[k]);
-    free(lag);
-}
+    struct rc_warming *lag = rc_store_take(own, h->times, sizeof *lag);
 
-/* The temperatures of body b at a depth, for each lag; the caller frees them in either case. */
-static enum rc_status
-lags_new(const struct rc_heat *h, int b, double depth, struct rc_warming **lag, struct rc_err *err)
-{
-    enum rc_status status = RC_OK;
-
-    if ((*lag = calloc(h->times, sizeof **lag)) == NULL)
-        return rc_err_set(err, "out of memory for %zu time steps", h->times);
-    for (size_t k = 0; k < h->times && status == RC_OK; k++) {
+    if (lag == NULL)
+        return rc_err_null(err, "out of memory for %zu time steps", h->times);
+    for (size_t k = 0; k < h->times; k++) {
         const struct rc_heated body = heated(h, b, depth, k);
-        status = rc_warming_set(&(*lag)[k], h->c, &body, err);
+        if (rc_warming_set(&lag[k], own, h->c, &body, err) != RC_OK)
+            return NULL;
     }
-    return status;
+    return lag;
 }
 
 void
@@ -216,8 +209,6 @@ rc_heat_free(struct rc_heat *h)
         return;
     rc_heat_inverse_free(h->inverse);
     rc_conduction_free(h->c);
-    for (int b = 0; b < 2; b++)
-        lags_free(h, h->lag[b]);
     rc_store_free(&h->own);
     free(h);
 }
@@ -289,7 +280,7 @@ rc_heat_new(const struct rc_shape *shape, const struct rc_heat_problem *problem,
         return NULL;
     for (int b = 0; b < 2; b++) {
         body[b] = heated(h, b, 0, 0);
-        if (lags_new(h, b, 0, &h->lag[b], err) != RC_OK)
+        if ((h->lag[b] = lags_new(h, b, 0, &h->own, err)) == NULL)
             return NULL;
     }
     if (problem->partition == RC_HEAT_MATCHED &&
@@ -402,14 +393,13 @@ finish(struct rc_heat *h)
 
 /* ---- the iteration ---- */
 
-static double *
-vector_new(struct rc_heat *h, struct rc_err *err)
+/* Makes a vector where it is missing. */
+static enum rc_status
+need_vector(struct rc_heat *h, double **v, struct rc_err *err)
 {
-    double *v = rc_store_take(&h->own, h->n, sizeof *v);
-
-    if (v == NULL)
-        rc_err_set(err, "out of memory for %zu nodes in contact", h->n);
-    return v;
+    if (*v == NULL && (*v = rc_store_take(&h->own, h->n, sizeof **v)) == NULL)
+        return rc_err_set(err, "out of memory for %zu nodes in contact", h->n);
+    return RC_OK;
 }
 
 static double
@@ -476,7 +466,7 @@ begin(struct rc_heat *h, struct rc_err *err)
         const size_t at = h->node[k];
         h->right[k] = h->work[at] + h->drop + (h->at > 0 ? h->past[1][at] - h->past[0][at] : 0);
     }
-    if (h->v[0] == NULL && (h->v[0] = vector_new(h, err)) == NULL)
+    if (need_vector(h, &h->v[0], err) != RC_OK)
         return RC_FAIL;
     size = h->g[0] = sqrt(product(h, h->right, h->right));
     for (size_t k = 0; k < h->n; k++)
@@ -492,9 +482,7 @@ extend(struct rc_heat *h, struct rc_err *err)
     const size_t m = h->steps;
     double *column = h->h[m], *next, size, c, s;
 
-    if (h->z[m] == NULL && (h->z[m] = vector_new(h, err)) == NULL)
-        return RC_FAIL;
-    if (h->v[m + 1] == NULL && (h->v[m + 1] = vector_new(h, err)) == NULL)
+    if (need_vector(h, &h->z[m], err) != RC_OK || need_vector(h, &h->v[m + 1], err) != RC_OK)
         return RC_FAIL;
     next = h->v[m + 1];
     apply(h, h->v[m], h->z[m], next);
@@ -624,19 +612,20 @@ enum rc_status
 rc_heat_temperature(struct rc_heat *h, int b, double depth, double *to, struct rc_err *err)
 {
     const size_t nodes = h->shape.nx * h->shape.ny;
-    struct rc_warming *lag = NULL;
-    enum rc_status status = RC_OK;
+    RC_ENDS(rc_store_free) struct rc_store own = {0};
+    const struct rc_warming *lag;
 
     if (!(depth >= 0) || isinf(depth))
         return rc_err_set(err, "depth %g m: it must be at least 0", depth);
     if (depth == 0) {
         memcpy(to, h->rise[b], nodes * sizeof *to);
-    } else if ((status = lags_new(h, b, depth, &lag, err)) == RC_OK) {
+    } else {
+        if ((lag = lags_new(h, b, depth, &own, err)) == NULL)
+            return RC_FAIL;
         memset(to, 0, nodes * sizeof *to);
         add_rise(h, b, lag, h->times, h->times - 1, to);
     }
-    lags_free(h, lag);
-    for (size_t k = 0; k < nodes && status == RC_OK; k++)
+    for (size_t k = 0; k < nodes; k++)
         to[k] += b == 1 ? h->drop : 0;
-    return status;
+    return RC_OK;
 }

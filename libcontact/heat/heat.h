@@ -82,11 +82,9 @@ struct rc_conduction *rc_conduction_new(const struct rc_shape *shape, enum rc_bo
                                         size_t threads, struct rc_err *err);
 void rc_conduction_free(struct rc_conduction *c); /* NULL is allowed */
 RC_OWNER(rc_conduction)
-/* Sets the spectrum of a body. RC_FAIL when memory is short; rc_warming_free in either case. */
-enum rc_status rc_warming_set(struct rc_warming *w, struct rc_conduction *c,
+/* Sets the spectrum of a body, in memory of `own`. RC_FAIL when that is short. */
+enum rc_status rc_warming_set(struct rc_warming *w, struct rc_store *own, struct rc_conduction *c,
                               const struct rc_heated *body, struct rc_err *err);
-void rc_warming_free(struct rc_warming *w);
-RC_OWNER(rc_warming)
 /* Keeps the transform of a map of nx ny values. */
 void rc_conduction_load(struct rc_conduction *c, const double *q);
 /* The sum of the fields of the loaded map. */

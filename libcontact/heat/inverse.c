@@ -18,6 +18,7 @@ struct rc_heat_inverse {
     struct rc_pyramid *pyramid;
     size_t n, *place; /* of the nodes in contact on the grid */
     float *v;         /* a number for each node of the grid  */
+    struct rc_store own;
 };
 
 /* ---- plan ---- */
@@ -52,8 +53,7 @@ rc_heat_inverse_free(struct rc_heat_inverse *e)
     if (e == NULL)
         return;
     rc_pyramid_free(e->pyramid);
-    free(e->place);
-    free(e->v);
+    rc_store_free(&e->own);
     free(e);
 }
 
@@ -94,9 +94,9 @@ rc_heat_inverse_new(struct rc_conduction *c, const struct rc_heated bodies[2], s
     e->c = c;
     e->grid = base.shape;
     e->n = n;
-    e->place = rc_alloc(n, sizeof *e->place);
-    e->v = rc_alloc(e->grid.nx * e->grid.ny, sizeof *e->v);
-    if (e->place == NULL || e->v == NULL)
+    e->place = rc_store_take(&e->own, n, sizeof *e->place);
+    e->v = rc_store_take(&e->own, e->grid.nx * e->grid.ny, sizeof *e->v);
+    if (e->own.failed)
         return rc_err_null(err, "out of memory for %zu nodes in contact", n);
     if ((e->pyramid = rc_pyramid_new(&base, power, &decrease, err)) == NULL)
         return NULL;

@@ -43,7 +43,6 @@ struct plan {
     FFTW(plan) row_forward, row_back, column_forward, column_back;
     COMPLEX *waves;              /* the columns held here, of each row: ny rows of `wide` */
     COMPLEX *pieces;             /* parts of the rows held here, for other ranks; NULL: no ranks */
-    COMPLEX *own;                /* memory of `waves` to be freed; NULL: it was lent */
     COMPLEX *second;             /* as `waves`, of the second of two fields; NULL: not yet needed */
     COMPLEX *source[RC_SOURCES]; /* transformed columns of a loaded map, in pieces; or NULL */
     COMPLEX *twiddle;    /* w^n, w^2n, w^3n for each n < m (radix 4)                           */
@@ -51,6 +50,7 @@ struct plan {
                        * column */
     size_t column;       /* complex numbers of one column in scratch: radix pieces and gaps    */
     size_t scratch_size; /* complex numbers of scratch of one thread                           */
+    struct rc_store own; /* memory of all these arrays, except of lent `waves` */
 };
 
 /* FFTW uses vector instructions only on aligned data: every array begins a cache line. */
@@ -61,9 +61,9 @@ whole_lines(size_t n)
 }
 
 static COMPLEX *
-allocate(size_t n)
+allocate(struct plan *f, size_t n)
 {
-    return rc_alloc(whole_lines(n), sizeof(COMPLEX));
+    return rc_store_take(&f->own, whole_lines(n), sizeof(COMPLEX));
 }
 
 static size_t
@@ -91,12 +91,7 @@ plan_free(void *at)
     FFTW(destroy_plan)(f->column_forward);
     FFTW(destroy_plan)(f->column_back);
     rc_planner_unlock();
-    free(f->own);
-    free(f->second);
-    for (size_t k = 0; k < RC_SOURCES; k++)
-        free(f->source[k]);
-    free(f->twiddle);
-    free(f->scratch);
+    rc_store_free(&f->own);
     free(f);
 }
 
@@ -150,10 +145,10 @@ plan_new(const struct rc_layout *l, void *lent)
     f->column = l->radix * piece(f);
     f->scratch_size = (LINE + 1) * f->column + l->stride + whole_lines(l->px / 2 + 1) +
                       whole_lines(l->cy / 2 + 1);
-    f->waves = lent != NULL ? lent : (f->own = allocate(rc_layout_rows(l)));
-    f->scratch = allocate((size_t)l->threads * f->scratch_size);
-    f->twiddle = allocate(3 * l->m);
-    if (f->waves == NULL || f->scratch == NULL || f->twiddle == NULL || !make_plans(f)) {
+    f->waves = lent != NULL ? lent : allocate(f, rc_layout_rows(l));
+    f->scratch = allocate(f, (size_t)l->threads * f->scratch_size);
+    f->twiddle = allocate(f, 3 * l->m);
+    if (f->own.failed || !make_plans(f)) {
         plan_free(f);
         return NULL;
     }
@@ -576,7 +571,7 @@ load(void *at, size_t source, const double *p)
     struct map map = {.p = p, .nx = l->nx};
 
     if (f->source[source] == NULL)
-        f->source[source] = allocate(l->columns * f->column);
+        f->source[source] = allocate(f, l->columns * f->column);
     if (rc_ranks_sum(l->turn == NULL ? NULL : l->turn->ranks, f->source[source] == NULL) > 0)
         return false;
     transform_rows(f, &map, row_in, false, true);
@@ -626,7 +621,7 @@ fields(void *at, size_t columns, rc_line_spectra *spectra, void *ctx,
     size_t here; /* columns that are not zero */
 
     if (n_fields > 1 && waves[1] == NULL)
-        waves[1] = f->second = allocate(l->ny * l->wide);
+        waves[1] = f->second = allocate(f, l->ny * l->wide);
     if (rc_ranks_sum(l->turn == NULL ? NULL : l->turn->ranks, n_fields > 1 && waves[1] == NULL) > 0)
         return false;
     /* whole lines of columns are scattered */

@@ -147,14 +147,6 @@ spin_at(const struct level *l, double spin, size_t k, double v[2])
 
 /* ---- grids ---- */
 
-static struct rc_shape
-coarser(const struct rc_shape *s)
-{
-    const bool line = s->ny == 1;
-
-    return (struct rc_shape){(s->nx + 1) / 2, (s->ny + 1) / 2, 2 * s->dx, (line ? 1 : 2) * s->dy};
-}
-
 /* The node of the finer grid in the place of the first one. */
 static size_t
 first_of(size_t n)
@@ -183,7 +175,7 @@ make_level(struct rolling *f, size_t l, struct rc_err *err)
     for (size_t k = 0; k < l; k++) {
         at->x += (double)first_of(shape.nx) * shape.dx;
         at->y += (double)first_of(shape.ny) * shape.dy;
-        shape = coarser(&shape);
+        shape = rc_shape_coarser(&shape);
     }
     at->unit = sqrt(shape.dx) * sqrt(shape.dy) / f->shear.estar;
     at->length = f->problem.path ? f->length : shape.dx;

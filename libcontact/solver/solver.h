@@ -36,7 +36,6 @@ struct rc_method {
     /* Expected convolutions (in equivalents), from measurements, for this number of nodes and of digits of
      * the tolerance. NULL: not measured. */
     double (*convolutions)(double nodes, double digits);
-    /* Bytes of its state; NULL: unknown. */
     /* The method's state, in memory of solver->own; NULL when that is short. */
     void *(*new)(struct rc_solver *solver);
     struct rc_found (*step)(struct rc_solver *solver, void *state);

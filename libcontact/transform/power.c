@@ -85,11 +85,9 @@ work_new(struct work *w, const struct rc_shape *shape, const struct rc_offsets *
         rc_planner_unlock();
     }
     if (w->rows == NULL || w->room == NULL || w->line == NULL || w->along_x == NULL ||
-        w->down == NULL || w->back == NULL) {
-        work_free(w);
+        w->down == NULL || w->back == NULL)
         return rc_err_set(err, "out of memory for the waves of %zu x %zu nodes", shape->nx,
                           shape->ny);
-    }
     return RC_OK;
 }
 
@@ -162,13 +160,12 @@ rc_power(const struct rc_shape *shape, rc_map_row *row, const void *map, size_t 
          double *power, struct rc_err *err)
 {
     const struct rc_offsets at = {.px = shape->nx, .py = shape->ny};
-    struct work w;
+    RC_ENDS(work_free) struct work w = {0};
 
     if (work_new(&w, shape, &at, row, map, threads, err) != RC_OK)
         return RC_FAIL;
     transform_rows(&w);
     transform_all_columns(&w, power);
-    work_free(&w);
     return RC_OK;
 }
 
@@ -177,7 +174,7 @@ rc_autocorrelate(const struct rc_shape *shape, const struct rc_offsets *at, rc_m
                  const void *map, size_t threads, double *sums, struct rc_err *err)
 {
     double scale = 1 / ((double)at->px * (double)at->py);
-    struct work w;
+    RC_ENDS(work_free) struct work w = {0};
 
     if (work_new(&w, shape, at, row, map, threads, err) != RC_OK)
         return RC_FAIL;
@@ -190,6 +187,5 @@ rc_autocorrelate(const struct rc_shape *shape, const struct rc_offsets *at, rc_m
         for (size_t i = 0; i < 2 * at->mx + 1; i++)
             out[i] = scale * line[(i + at->px - at->mx) % at->px];
     }
-    work_free(&w);
     return RC_OK;
 }

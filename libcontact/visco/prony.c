@@ -23,17 +23,13 @@ static const double usual_density = 1.5; /* relaxation times a decade of a fit *
 static struct rc_relaxation *
 allocate(size_t terms, struct rc_err *err)
 {
-    RC_OWNED struct rc_relaxation *r = calloc(1, sizeof *r);
-    double *v = rc_alloc(4 * terms + 1, sizeof *v);
+    RC_OWN(rc_relaxation, r) = calloc(1, sizeof *r);
 
-    if (r == NULL || v == NULL) {
-        free(v);
+    if (r == NULL || (r->modulus = rc_alloc(4 * terms + 1, sizeof *r->modulus)) == NULL)
         return rc_err_null(err, "out of memory for %zu relaxation times", terms);
-    }
-    r->modulus = v;
-    r->time = v + terms;
-    r->compliance = v + 2 * terms;
-    r->retardation = v + 3 * terms;
+    r->time = r->modulus + terms;
+    r->compliance = r->time + terms;
+    r->retardation = r->compliance + terms;
     return rc_give(&r);
 }
 
@@ -332,33 +328,21 @@ least_squares(struct fit *f)
     find_left(f);
 }
 
-static bool
-fit_allocate(struct fit *f, size_t rows, size_t columns)
-{
-    const size_t all = 2 * rows * columns + 3 * columns + 3 * rows;
-    double *v = calloc(all, sizeof *v);
-
-    *f = (struct fit){.rows = rows, .columns = columns, .a = v};
-    f->in_use = calloc(columns + 1, sizeof *f->in_use);
-    if (v == NULL || f->in_use == NULL)
-        return false;
-    f->part = v + rows * columns;
-    f->x = f->part + rows * columns;
-    f->trial = f->x + columns;
-    f->tau = f->trial + columns;
-    f->left = f->tau + columns;
-    f->ones = f->left + rows;
-    f->rest = f->ones + rows;
-    for (size_t i = 0; i < rows; i++)
-        f->ones[i] = 1;
-    return true;
-}
-
 static void
-fit_free(struct fit *f)
+fit_allocate(struct fit *f, struct rc_store *own, size_t rows, size_t columns)
 {
-    free(f->a);
-    free(f->in_use);
+    double **by_column[] = {&f->x, &f->trial, &f->tau}, **by_row[] = {&f->left, &f->ones, &f->rest};
+
+    *f = (struct fit){.rows = rows, .columns = columns};
+    f->in_use = rc_store_take(own, columns + 1, sizeof *f->in_use);
+    f->a = rc_store_take(own, rows * columns, sizeof *f->a);
+    f->part = rc_store_take(own, rows * columns, sizeof *f->part);
+    for (size_t k = 0; k < 3; k++) {
+        *by_column[k] = rc_store_zeros(own, columns, sizeof(double));
+        *by_row[k] = rc_store_zeros(own, rows, sizeof(double));
+    }
+    for (size_t i = 0; i < rows && f->ones != NULL; i++)
+        f->ones[i] = 1;
 }
 
 static enum rc_status
@@ -417,9 +401,9 @@ rc_relaxation_fit(size_t n, const double *omega, const double *storage, const do
                   double per_decade, double *misfit, struct rc_err *err)
 {
     const double dense = per_decade > 0 ? per_decade : usual_density;
-    RC_OWNED double *time = NULL;
-    double low = INFINITY, high = 0, *norm, sum = 0;
-    RC_ENDS(fit_free) struct fit f = {0};
+    RC_ENDS(rc_store_free) struct rc_store own = {0};
+    double low = INFINITY, high = 0, *time, *norm, sum = 0;
+    struct fit f;
     size_t terms;
 
     if (check_curve(n, omega, storage, loss, err) != RC_OK)
@@ -429,8 +413,9 @@ rc_relaxation_fit(size_t n, const double *omega, const double *storage, const do
         high = fmax(high, omega[i]);
     }
     terms = (size_t)fmin((double)n, fmax(1, round(dense * log10(high / low))) + 1);
-    time = rc_alloc(2 * terms + 1, sizeof *time);
-    if (time == NULL || !fit_allocate(&f, 2 * n, terms + 1))
+    time = rc_store_take(&own, 2 * terms + 1, sizeof *time);
+    fit_allocate(&f, &own, 2 * n, terms + 1);
+    if (own.failed)
         return rc_err_null(err, "out of memory for a fit of %zu relaxation times", terms);
     norm = time + terms;
     for (size_t k = 0; k < terms; k++)
