@@ -37,8 +37,12 @@ struct rc_map {
      * the file. */
     enum rc_status (*fill)(const struct rc_file *file, const struct rc_map *map, double *v,
                            struct rc_err *err);
-    size_t more;   /* for fill                                                           */
-    double beside; /* bytes that fill needs in addition to v; rc_map_bound sets them */
+    /* Gives *n unpacked bytes, which the caller frees, or NULL with the reason: raw, big, at and padding then
+     * hold for them, not for the file. */
+    unsigned char *(*unpack)(const struct rc_file *file, const struct rc_map *map, size_t *n,
+                             struct rc_err *err);
+    size_t more; /* for fill and unpack                                                           */
+    double beside;              /* bytes that fill needs in addition to v; rc_map_bound sets them */
     const struct rc_wish *wish; /* data of fill, and the notes */
     struct rc_notes *notes;
     struct rc_piece title; /* title of this map, for the key file.title; n = 0: none */

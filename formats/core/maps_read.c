@@ -6,22 +6,13 @@
 
 /* ---- checking ---- */
 
+/* The numbers of the map must lie in the file. */
 static enum rc_status
-check_map(const struct rc_map *map, const struct rc_file *file, struct rc_err *err)
+check_bytes(const struct rc_map *map, const struct rc_file *file, struct rc_err *err)
 {
     size_t outer = map->by_columns ? map->nx : map->ny;
     size_t inner = map->by_columns ? map->ny : map->nx, line, bytes;
 
-    if (map->nx == 0 || map->ny == 0)
-        return rc_err_set(err, "channel '%s' has no values: %zu columns, %zu rows", map->name,
-                          map->nx, map->ny);
-    if (!isfinite(map->scale) || !isfinite(map->zero) || !isfinite(map->si) || map->scale == 0)
-        return rc_err_set(err,
-                          "channel '%s': heights are number * %g + %g in the file: both must be "
-                          "finite and the first not 0",
-                          map->name, map->scale * map->si, map->zero * map->si);
-    if (map->fill != NULL)
-        return RC_OK;
     if (rc_size_mul(inner, rc_raw_width(map->raw), &line, err) != RC_OK ||
         map->padding > SIZE_MAX - line ||
         rc_size_mul(line + map->padding, outer, &bytes, err) != RC_OK)
@@ -33,6 +24,20 @@ check_map(const struct rc_map *map, const struct rc_file *file, struct rc_err *e
                           "%zu on, the file has %zu bytes in all",
                           map->name, map->nx, map->ny, bytes, map->at, file->size);
     return RC_OK;
+}
+
+static enum rc_status
+check_map(const struct rc_map *map, const struct rc_file *file, struct rc_err *err)
+{
+    if (map->nx == 0 || map->ny == 0)
+        return rc_err_set(err, "channel '%s' has no values: %zu columns, %zu rows", map->name,
+                          map->nx, map->ny);
+    if (!isfinite(map->scale) || !isfinite(map->zero) || !isfinite(map->si) || map->scale == 0)
+        return rc_err_set(err,
+                          "channel '%s': heights are number * %g + %g in the file: both must be "
+                          "finite and the first not 0",
+                          map->name, map->scale * map->si, map->zero * map->si);
+    return map->fill != NULL || map->unpack != NULL ? RC_OK : check_bytes(map, file, err);
 }
 
 enum rc_status
@@ -122,9 +127,17 @@ decode(const struct rc_map *map, const struct rc_file *file, double *v, struct r
 {
     size_t outer = map->by_columns ? map->nx : map->ny;
     size_t inner = map->by_columns ? map->ny : map->nx;
-    struct rc_bytes bytes = rc_file_bytes(file, map->big);
+    RC_OWNED unsigned char *unpacked = NULL;
+    struct rc_file plain = *file;
+    struct rc_bytes bytes;
     RC_OWNED double *line = NULL;
 
+    if (map->unpack != NULL) {
+        plain.data = unpacked = map->unpack(file, map, &plain.size, err);
+        if (unpacked == NULL || check_bytes(map, &plain, err) != RC_OK)
+            return RC_FAIL;
+    }
+    bytes = rc_file_bytes(&plain, map->big);
     bytes.at = map->at;
     if (!is_turned(map) && map->padding == 0) {
         rc_bytes_values(&bytes, map->raw, v, map->nx * map->ny);
@@ -236,7 +249,8 @@ rc_maps_read(rc_maps_find *find, const struct rc_file *file, const struct rc_wis
         return NULL;
     if (index >= maps.n || index >= RC_MAPS_MOST)
         return rc_err_null(err, "there is no channel %zu: the file has %zu", index + 1, maps.n);
-    if (map->fill != NULL && rc_map_fits(file, map->nx, map->ny, err) != RC_OK)
+    if ((map->fill != NULL || map->unpack != NULL) &&
+        rc_map_fits(file, map->nx, map->ny, err) != RC_OK)
         return NULL;
     is_length = strcmp(map->unit, "m") == 0;
     is_height = is_length || map->heights || map->unit[0] == '\0' || !isnan(wish->z_unit);

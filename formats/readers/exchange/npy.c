@@ -130,26 +130,14 @@ unpack_array(struct rc_zip_read *archive, const struct rc_file *file, size_t mem
     return data;
 }
 
-static enum rc_status
-fill_member(const struct rc_file *file, const struct rc_map *map, double *v, struct rc_err *err)
+static unsigned char *
+unpack(const struct rc_file *file, const struct rc_map *map, size_t *n, struct rc_err *err)
 {
     RC_OWN(rc_zip_read, archive) = rc_zip_read_new(file, err);
-    struct rc_file array;
-    struct rc_map inner = *map;
-    struct rc_bytes b;
-    size_t n = map->nx * map->ny;
-    RC_OWNED unsigned char *data =
-        archive == NULL ? NULL : unpack_array(archive, file, map->more, &array, err);
 
-    if (data == NULL || read_header(&array, &inner, err) != RC_OK)
-        return RC_FAIL;
-    if (n > (array.size - inner.at) / rc_raw_width(inner.raw))
-        return rc_err_set(err, "the array '%s' has %zu bytes, %zu x %zu values take more",
-                          map->name, array.size, map->nx, map->ny);
-    b = rc_file_bytes(&array, inner.big);
-    b.at = inner.at;
-    rc_bytes_values(&b, inner.raw, v, n);
-    return RC_OK;
+    return archive == NULL
+               ? NULL
+               : rc_zip_read_bytes(archive, map->more, rc_memory_limit(file->size), n, NULL, err);
 }
 
 static bool
@@ -183,7 +171,10 @@ npz_find(const struct rc_file *file, struct rc_maps *maps, struct rc_err *err)
             map->ny = one.ny;
             map->by_columns = one.by_columns;
             map->beside = one.beside;
-            map->fill = fill_member;
+            map->raw = one.raw;
+            map->big = one.big;
+            map->at = one.at;
+            map->unpack = unpack;
             map->more = k;
         }
     }

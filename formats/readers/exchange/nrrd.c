@@ -176,24 +176,18 @@ step_of(const struct nrrd *h, size_t axis, double n)
 
 /* ---- values ---- */
 
-static enum rc_status
-fill_packed(const struct rc_file *file, const struct rc_map *map, double *v, struct rc_err *err)
+static unsigned char *
+unpack(const struct rc_file *file, const struct rc_map *map, size_t *n, struct rc_err *err)
 {
-    struct rc_file packed = {file->name, file->data + map->at, file->size - map->at};
-    size_t n = map->nx * map->ny, wanted = n * rc_raw_width(map->raw), size;
-    struct rc_bytes b = {.big = map->big};
+    struct rc_file packed = {file->name, file->data + map->more, file->size - map->more};
+    size_t wanted = map->nx * map->ny * rc_raw_width(map->raw);
     RC_OWNED unsigned char *bytes = NULL;
 
     if (!rc_file_packed(&packed))
-        return rc_err_set(err, "the values are not packed with gzip, as the header says");
-    if ((bytes = rc_file_unpack(&packed, wanted, &size, err)) == NULL)
-        return RC_FAIL;
-    b.data = bytes;
-    b.size = size;
-    if (rc_bytes_agree("values", wanted, size, err) != RC_OK)
-        return RC_FAIL;
-    rc_bytes_values(&b, map->raw, v, n);
-    return RC_OK;
+        return rc_err_null(err, "the values are not packed with gzip, as the header says");
+    bytes = rc_file_unpack(&packed, wanted, n, err);
+    return bytes != NULL && rc_bytes_agree("values", wanted, *n, err) == RC_OK ? rc_give(&bytes)
+                                                                               : NULL;
 }
 
 static enum rc_status
@@ -214,7 +208,9 @@ set_type(const struct nrrd *h, const struct rc_file *file, struct rc_map *map, s
     if (rc_piece_is(h->encoding, "raw"))
         return RC_OK;
     if (rc_piece_is(h->encoding, "gzip|gz")) {
-        map->fill = fill_packed;
+        map->unpack = unpack;
+        map->more = h->data;
+        map->at = 0;
         return rc_map_bound(
             map, file, (double)map->nx * (double)map->ny * (double)rc_raw_width(map->raw), err);
     }

@@ -68,7 +68,7 @@ unpack_all(const struct rc_file *file, const struct rc_map *map, unsigned char *
            struct rc_err *err)
 {
     struct rc_bytes table = rc_file_bytes(file, false);
-    size_t streams = (size_t)rc_bytes_at(&table, map->at, RC_RAW_U32), at, done = 0;
+    size_t streams = (size_t)rc_bytes_at(&table, map->more, RC_RAW_U32), at, done = 0;
 
     if (table.past || streams == 0 || streams > STREAMS_MOST ||
         streams > (file->size - table.at) / 8)
@@ -93,20 +93,14 @@ unpack_all(const struct rc_file *file, const struct rc_map *map, unsigned char *
     return rc_bytes_agree("heights", size, done, err);
 }
 
-static enum rc_status
-fill_packed(const struct rc_file *file, const struct rc_map *map, double *v, struct rc_err *err)
+static unsigned char *
+unpack(const struct rc_file *file, const struct rc_map *map, size_t *n, struct rc_err *err)
 {
-    size_t n = map->nx * map->ny, size = n * rc_raw_width(map->raw);
-    struct rc_bytes bytes = {.size = size};
-    RC_OWNED unsigned char *raw = malloc(size);
+    RC_OWNED unsigned char *raw = malloc(*n = map->nx * map->ny * rc_raw_width(map->raw));
 
     if (raw == NULL)
-        return rc_err_set(err, "out of memory for %zu bytes of heights", size);
-    if (unpack_all(file, map, raw, size, err) != RC_OK)
-        return RC_FAIL;
-    bytes.data = raw;
-    rc_bytes_values(&bytes, map->raw, v, n);
-    return RC_OK;
+        return rc_err_null(err, "out of memory for %zu bytes of heights", *n);
+    return unpack_all(file, map, raw, *n, err) == RC_OK ? rc_give(&raw) : NULL;
 }
 
 /* ---- header ---- */
@@ -168,7 +162,9 @@ sur_find(const struct rc_file *file, struct rc_maps *maps, struct rc_err *err)
                           comment_n, private_n, file->size);
     map->at = HEADER + (size_t)comment_n + (size_t)private_n;
     if (is_packed) {
-        map->fill = fill_packed;
+        map->unpack = unpack;
+        map->more = map->at;
+        map->at = 0;
         if (rc_map_bound(map, file, columns * rows * bits / 8, err) != RC_OK)
             return RC_FAIL;
     }

@@ -55,11 +55,12 @@ unpack_member(struct rc_zip_read *archive, size_t member, const struct rc_file *
  * the archive count from the start of the file or of the archive, PK 3 4. The picture may contain these bytes
  * by chance. */
 static unsigned char *
-unpack(const struct rc_file *file, size_t *n, struct rc_err *err)
+unpack(const struct rc_file *file, const struct rc_map *map, size_t *n, struct rc_err *err)
 {
     struct rc_piece rest = rc_file_piece(file);
     const char *at = rest.text;
 
+    (void)map;
     for (size_t k = 0; k < STARTS_MOST && at != NULL; k++) {
         size_t start = (size_t)(at - (const char *)file->data), member;
         struct rc_file part = {file->name, file->data + start, file->size - start};
@@ -71,19 +72,6 @@ unpack(const struct rc_file *file, size_t *n, struct rc_err *err)
         at = rc_piece_find(rest, "PK\3\4");
     }
     return rc_err_null(err, "the file has no archive with a member %s", member_name);
-}
-
-static enum rc_status
-fill_packed(const struct rc_file *file, const struct rc_map *map, double *v, struct rc_err *err)
-{
-    struct rc_bytes cursor = {.at = map->at};
-    RC_OWNED unsigned char *bytes = unpack(file, &cursor.size, err);
-
-    if (bytes == NULL)
-        return RC_FAIL;
-    cursor.data = bytes;
-    rc_bytes_values(&cursor, map->raw, v, map->nx * map->ny);
-    return RC_OK;
 }
 
 /* ---- VK4 ---- */
@@ -156,7 +144,7 @@ static enum rc_status
 find_packed(const struct rc_file *file, struct rc_maps *maps, struct rc_err *err)
 {
     struct rc_file inner = {.name = member_name};
-    RC_OWNED unsigned char *bytes = unpack(file, &inner.size, err);
+    RC_OWNED unsigned char *bytes = unpack(file, NULL, &inner.size, err);
     enum rc_status status;
 
     if (bytes == NULL)
@@ -164,7 +152,7 @@ find_packed(const struct rc_file *file, struct rc_maps *maps, struct rc_err *err
     inner.data = bytes;
     status = find_plain(&inner, maps, err);
     for (size_t k = 0; k < maps->n && status == RC_OK; k++) {
-        maps->map[k].fill = fill_packed;
+        maps->map[k].unpack = unpack;
         status = rc_map_bound(&maps->map[k], file, (double)inner.size, err);
     }
     return status;
