@@ -30,6 +30,8 @@ struct rc_map {
     size_t padding;  /* padding bytes after each line of numbers */
     bool by_columns; /* a line of numbers is a column                                      */
     bool bottom_first, right_first;
+    size_t
+        rows; /* the first rows of the map, which were measured: others are missing; 0: all were */
     double missing_from,
         missing_to; /* raw numbers in [from, to] are missing; NAN: none is         */
     /* Replaces raw, at and padding. Writes nx*ny raw numbers to v, NAN if missing, in the order that

@@ -198,7 +198,8 @@ scale(const struct rc_map *map, double si, double *v)
     for (size_t k = 0; k < map->nx * map->ny; k++) {
         if (isnan(v[k]))
             continue;
-        if (v[k] >= map->missing_from && v[k] <= map->missing_to) {
+        if ((v[k] >= map->missing_from && v[k] <= map->missing_to) ||
+            (map->rows > 0 && k / map->nx >= map->rows)) {
             v[k] = NAN;
             continue;
         }

@@ -109,8 +109,7 @@ take_line(struct rc_piece line, struct createc *c, struct rc_maps *maps)
         rc_piece_number(value, &c->bits, &value);
     rc_field_take(fields, sizeof fields / sizeof *fields, first, value, c, NULL);
     rc_field_take(fields, sizeof fields / sizeof *fields, second, value, c, NULL);
-    if (maps != NULL)
-        rc_maps_keep(maps, texts, sizeof texts / sizeof *texts, first, value);
+    rc_maps_keep(maps, texts, sizeof texts / sizeof *texts, first, value);
 }
 
 static enum rc_status
@@ -137,47 +136,19 @@ first_byte(const struct kind *kind)
     return (kind->packed ? 0 : HEADER) + rc_raw_width(kind->raw);
 }
 
-static enum rc_status
-unpack_plane(const struct rc_file *file, const struct kind *kind, const struct rc_map *map,
-             double *v, struct rc_err *err)
+static unsigned char *
+unpack(const struct rc_file *file, const struct rc_map *map, size_t *n, struct rc_err *err)
 {
-    size_t values = map->nx * map->ny, width = rc_raw_width(kind->raw);
-    size_t from = first_byte(kind) + map->more * values * width, n = from + values * width;
-    struct rc_bytes b = {.size = n, .at = from};
-    RC_OWNED unsigned char *all = malloc(n);
+    size_t at = stream_at(file);
+    RC_OWNED unsigned char *all = NULL;
 
-    if (all == NULL)
-        return rc_err_set(err, "out of memory for %zu bytes of planes", n);
-    b.data = all;
-    if (rc_inflate_start(file->data + stream_at(file), file->size - stream_at(file), all, n) != n)
-        return rc_err_set(err,
-                          "the compressed planes are damaged or fewer than the header promises");
-    rc_bytes_values(&b, kind->raw, v, values);
-    return RC_OK;
-}
-
-/* Rows that were not reached are missing. */
-static enum rc_status
-fill_plane(const struct rc_file *file, const struct rc_map *map, double *v, struct rc_err *err)
-{
-    const struct kind *kind = kind_of(file);
-    struct createc c;
-
-    if (read_header(file, &c, NULL, err) != RC_OK)
-        return RC_FAIL;
-    if (kind->packed) {
-        if (unpack_plane(file, kind, map, v, err) != RC_OK)
-            return RC_FAIL;
-    } else {
-        struct rc_bytes b = rc_file_bytes(file, false);
-
-        b.at = map->at;
-        rc_bytes_values(&b, kind->raw, v, map->nx * map->ny);
-    }
-    for (size_t k = 0; k < map->nx * map->ny; k++)
-        if (c.done >= 2 && (double)(k / map->nx) + 1 >= c.done)
-            v[k] = NAN;
-    return RC_OK;
+    *n = map->at + map->nx * map->ny * rc_raw_width(map->raw);
+    if ((all = malloc(*n)) == NULL)
+        return rc_err_null(err, "out of memory for %zu bytes of planes", *n);
+    return rc_inflate_start(file->data + at, file->size - at, all, *n) == *n
+               ? rc_give(&all)
+               : rc_err_null(err,
+                             "the compressed planes are damaged or fewer than the header promises");
 }
 
 /* True if the factor agrees with the factor in the file, which has five decimals. */
@@ -264,8 +235,9 @@ createc_find(const struct rc_file *file, struct rc_maps *maps, struct rc_err *er
         map->dx = c.width * 1e-10 / c.nx;
         map->dy = c.height * 1e-10 / c.ny;
         map->at = first_byte(kind) + k * plane;
-        map->fill = fill_plane;
-        map->more = k;
+        map->raw = kind->raw;
+        map->unpack = kind->packed ? unpack : NULL;
+        map->rows = c.done >= 2 && c.done <= c.ny ? (size_t)ceil(c.done) - 1 : 0;
         if (k == 0)
             set_unit(&c, map);
         else
