@@ -87,48 +87,25 @@ struct run {
     double path;                /* m: of the node that slips most in a cycle; 1: distances */
     double k[2];                /* 1/Pa: of the options                                */
     struct rc_grid *map[MAPS];  /* of the case; NULL: none                             */
-    double *part;               /* k of each node over the largest one; NULL: 1        */
-    struct rc_grid *counter;    /* heights of body 2; NULL: smooth                     */
+    struct tool_frame beside[MAPS + 1]; /* their channels */
+    double *part;                       /* k of each node over the largest one; NULL: 1        */
+    struct rc_grid *counter;            /* heights of body 2; NULL: smooth                     */
 };
 
 /* ---- the command line ---- */
 
-struct named_unit {
-    const char *text;
-    double size;
-};
-
-/* One number with a unit of the table; 0 needs none. */
-static bool
-number_in(const char *text, size_t n, const struct named_unit *unit, double *value)
-{
-    char word[64] = "";
-    const char *end;
-
-    if (n == 0 || n >= sizeof word)
-        return false;
-    memcpy(word, text, n);
-    if ((end = rc_number_read(word, false, value)) == NULL || !(*value >= 0) || isinf(*value))
-        return false;
-    for (; unit->text != NULL; unit++)
-        if (strcmp(end, unit->text) == 0 || (*value == 0 && *end == '\0')) {
-            *value *= unit->size;
-            return true;
-        }
-    return false;
-}
-
 static void
-read_coefficients(struct tool *t, const char *name, const char *text, const struct named_unit *unit,
+read_coefficients(struct tool *t, const char *name, const char *text, enum unit unit,
                   const char *why)
 {
     double *k = ((struct run *)(void *)t)->k;
-    const char *comma = strchr(text, ',');
-    const size_t n = comma != NULL ? (size_t)(comma - text) : strlen(text);
+    struct numbers list;
 
-    if (!number_in(text, n, unit, &k[0]) ||
-        (comma != NULL && !number_in(comma + 1, strlen(comma + 1), unit, &k[1])))
+    if (unit_numbers(text, unit, &list, &t->err) != RC_OK || list.n > 2 ||
+        !(list.v[0] >= 0 && list.v[list.n - 1] >= 0))
         tool_usage(t, "--%s %s: it must be K1 or K1,K2, each at least 0 %s", name, text, why);
+    memcpy(k, list.v, list.n * sizeof *k);
+    free(list.v);
 }
 
 static bool
@@ -140,10 +117,6 @@ any_law(const struct tool *t)
 static void
 read_law(struct run *run)
 {
-    static const struct named_unit of_load[] = {{"mm3/Nm", 1e-9}, {"m3/Nm", 1},    {"m2/N", 1},
-                                                {"1/Pa", 1},      {"1/MPa", 1e-6}, {"1/GPa", 1e-9},
-                                                {NULL, 0}};
-    static const struct named_unit of_energy[] = {{"mm3/J", 1e-9}, {"m3/J", 1}, {NULL, 0}};
     struct tool *t = &run->d.t;
     double *k = run->k;
 
@@ -154,11 +127,12 @@ read_law(struct run *run)
     if (tool_given(t, "energy") != tool_given(t, "mu"))
         tool_usage(t, "--energy and --mu belong together: the energy is mu P s");
     if (args.coefficient != NULL)
-        read_coefficients(t, "coefficient", args.coefficient, of_load,
+        read_coefficients(t, "coefficient", args.coefficient, UNIT_WEAR,
                           "with its unit, as in 1e-6mm3/Nm, m2/N or 1/GPa: a number without a unit "
                           "is often Archard's, which is given by --archard and --hardness");
     if (args.energy != NULL)
-        read_coefficients(t, "energy", args.energy, of_energy, "with its unit, as in 1e-5mm3/J");
+        read_coefficients(t, "energy", args.energy, UNIT_WEAR_ENERGY,
+                          "with its unit, as in 1e-5mm3/J");
     if (args.archard.n > 2)
         tool_usage(t, "--archard: it must be K1 or K1,K2");
     for (size_t b = 0; b < 2; b++) {
@@ -586,39 +560,15 @@ do_case(struct run *run, const struct rc_grid *g)
     run->part = NULL;
 }
 
-/* Keeps the maps beside the heights. */
-static bool
-take(void *ctx, struct tool *t, const struct rc_grid *h, struct rc_grid *g)
-{
-    static const char *const name[MAPS] = {"wear-coefficient", "hardness", "slip"};
-    struct run *run = ctx;
-
-    (void)h;
-    for (size_t k = 0; k < MAPS; k++)
-        if (strcmp(g->channel, name[k]) == 0) {
-            tool_keep_frame(t, g, &run->map[k]);
-            return true;
-        }
-    return false;
-}
-
-static void
-drop_maps(struct run *run)
-{
-    for (size_t k = 0; k < MAPS; k++) {
-        rc_grid_free(run->map[k]);
-        run->map[k] = NULL;
-    }
-}
-
 /* The heights of the next case, with the maps beside them. */
 static struct rc_grid *
 next(struct run *run)
 {
     struct rc_grid *g;
 
-    drop_maps(run);
-    if (tool_interrupted() != 0 || (g = tool_channel_with(&run->d.t, "height", take, run)) == NULL)
+    tool_free_frames(run->beside);
+    if (tool_interrupted() != 0 ||
+        (g = tool_channel_with(&run->d.t, "height", tool_take_frames, run->beside)) == NULL)
         return NULL;
     for (size_t k = 0; k < MAPS; k++)
         if (run->map[k] != NULL)
@@ -673,7 +623,10 @@ main(int argc, char **argv)
                                    .list = frames,
                                    .tells = tells,
                                    .keys = set_keys,
-                                   .course.stepped = put_step}};
+                                   .course.stepped = put_step},
+                             .beside = {{"wear-coefficient", &run.map[COEFFICIENT]},
+                                        {"hardness", &run.map[HARD]},
+                                        {"slip", &run.map[SLIP]}}};
     struct rc_grid *g;
 
     tool_start(&run.d.t, &info, argc, argv, &args);
@@ -698,7 +651,7 @@ main(int argc, char **argv)
         do_case(&run, g);
         rc_grid_free(g);
     }
-    drop_maps(&run);
+    tool_free_frames(run.beside);
     rc_grid_free(run.counter);
     report_close(&run.steps);
     return drive_close(&run.d);

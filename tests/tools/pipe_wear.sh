@@ -56,6 +56,7 @@ rc-solve --quiet --periodic --load 1mN --estar 1GPa -o pressed.rcg rough.rcg
 volume() { "$@" --quiet --report volume.tsv -o volume.rcg pressed.rcg && column wear_volume 1 volume.tsv; }
 near "$(volume rc-wear --coefficient 2e-6mm3/Nm --distance 1m)" 2e-18 1e-12 "in mm3/Nm"
 near "$(volume rc-wear --coefficient 2e-15m2/N,0 --distance 1m)" 2e-18 1e-12 "in m2/N"
+near "$(volume rc-wear --coefficient "2e-6 1/GPa" --distance 1m)" 2e-18 1e-12 "in 1/GPa"
 near "$(volume rc-wear --archard 4e-6 --hardness 2GPa --distance 1m)" 2e-18 1e-12 "by Archard's number"
 near "$(volume rc-wear --energy 1e-5mm3/J --mu 0.2 --distance 1m)" 2e-18 1e-12 "by energy"
 claim "a worn surface wears on" bash -c "

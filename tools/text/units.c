@@ -51,6 +51,7 @@ static const struct { /* units that are a power of ten of the SI unit but have a
 static const struct {
     const char *name, *usual;
     const char *also; /* further units, for messages; NULL: none */
+    bool needed;      /* only 0 has no unit */
 } names[] = {
     [UNIT_NONE] = {"", "", NULL},
     [UNIT_M] = {"m", "nm um mm m", "inch, mil or microinch"},
@@ -68,6 +69,8 @@ static const struct {
     [UNIT_HZ] = {"Hz", "Hz kHz", NULL},
     [UNIT_W_MK] = {"W/mK or S/m", "W/mK", NULL},
     [UNIT_S_M] = {"W/mK or S/m", "S/m", NULL},
+    [UNIT_WEAR] = {"m2/N", "mm3/Nm", "mm3/Nm or 1/GPa", true},
+    [UNIT_WEAR_ENERGY] = {"m3/J", "mm3/J", NULL, true},
 };
 
 const char *
@@ -183,6 +186,9 @@ static const struct quotient {
     {UNIT_SPEED, "m", "h", 1, 0, 3600, false}, {UNIT_DIFFUSIVITY, "m", "s", 2, 0, 1, false},
     {UNIT_HEAT, "J", "m3K", 1, 0, 1, false},   {UNIT_HEAT, "J", "cm3K", 1, 6, 1, false},
     {UNIT_W_MK, "W", "K", 1, 0, 1, true},      {UNIT_S_M, "S", "", 1, 0, 1, true},
+    {UNIT_WEAR, "m", "Nm", 3, 0, 1, false},    {UNIT_WEAR, "m", "N", 2, 0, 1, false},
+    {UNIT_WEAR, "1", "Pa", 1, 0, 1, false},    {UNIT_WEAR, "1", "MPa", 1, -6, 1, false},
+    {UNIT_WEAR, "1", "GPa", 1, -9, 1, false},  {UNIT_WEAR_ENERGY, "m", "J", 3, 0, 1, false},
 };
 
 /* The letters and digits of text[0..n). */
@@ -243,7 +249,7 @@ apply_unit(const char *digits, size_t length, const char *suffix, size_t n, enum
     if (unit == UNIT_BYTES)
         return false;
     if (n == 0)
-        return true;
+        return !names[unit].needed || *value == 0;
     if (unit == UNIT_NONE)
         return false;
     if (unit == UNIT_HARD && is_vickers(suffix, n)) {

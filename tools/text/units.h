@@ -25,6 +25,8 @@ enum unit {
     UNIT_HZ,          /* per second                        */
     UNIT_W_MK,        /* watts per metre and kelvin        */
     UNIT_S_M,         /* siemens per metre                 */
+    UNIT_WEAR,        /* volume per force and distance     */
+    UNIT_WEAR_ENERGY, /* volume per energy of friction     */
 };
 
 struct numbers {
