@@ -5,7 +5,6 @@
 #include "solve.h"
 
 #include <math.h>
-#include <stdlib.h>
 #include <string.h>
 
 static const double resolved = 1.5;   /* nodes in the cohesive length: with fewer the grid pins
