@@ -69,12 +69,6 @@ number_of(const struct numbers *list, size_t k)
     return list->n == 0 ? 0 : list->v[list->n == 1 ? 0 : k];
 }
 
-static size_t
-larger(size_t a, size_t b)
-{
-    return a > b ? a : b;
-}
-
 /* True if a criterion needs endurance limits. */
 static bool
 needs_limits(unsigned wanted)
@@ -86,32 +80,32 @@ void
 fatigue_limits_read(struct tool *t, const struct fatigue_limits_asked *asked, unsigned wanted,
                     struct fatigue_limits *l)
 {
-    const bool both = asked->bending.n > 0 && asked->torsion.n > 0;
-    const bool any = asked->bending.n + asked->torsion.n + asked->yield.n > 0;
+    const struct numbers *const list[] = {&asked->bending, &asked->torsion, &asked->yield};
+    size_t most = 0;
 
     l->asked = asked;
-    if (asked->table != NULL && any)
+    for (int i = 0; i < 3; i++)
+        most = list[i]->n > most ? list[i]->n : most;
+    if (asked->table != NULL && most > 0)
         tool_usage(t, "--limits has all limits: leave out the options with numbers");
-    if (asked->table == NULL && needs_limits(wanted) && !both)
+    if (asked->table == NULL && needs_limits(wanted) &&
+        (asked->bending.n == 0 || asked->torsion.n == 0))
         tool_usage(
             t, "give both endurance limits, --bending-limit and --torsion-limit: every criterion "
                "needs the two, and their ratio differs between materials");
     if (asked->table != NULL) {
         read_table(t, l);
     } else {
-        l->n = larger(1, larger(asked->bending.n, larger(asked->torsion.n, asked->yield.n)));
+        l->n = most > 0 ? most : 1;
         l->at = tool_room(t, l->n, sizeof *l->at, "limits");
-        for (size_t k = 0; k < l->n; k++) {
-            if ((asked->bending.n > 1 && asked->bending.n != l->n) ||
-                (asked->torsion.n > 1 && asked->torsion.n != l->n) ||
-                (asked->yield.n > 1 && asked->yield.n != l->n))
+        for (int i = 0; i < 3; i++)
+            if (list[i]->n > 1 && list[i]->n != l->n)
                 tool_usage(
                     t, "the limits of materials must be lists of the same length, or one number "
                        "for all");
-            l->at[k] = (struct rc_fatigue_limits){number_of(&asked->bending, k),
-                                                  number_of(&asked->torsion, k),
-                                                  number_of(&asked->yield, k)};
-        }
+        for (size_t k = 0; k < l->n; k++)
+            l->at[k] = (struct rc_fatigue_limits){number_of(list[0], k), number_of(list[1], k),
+                                                  number_of(list[2], k)};
     }
     for (size_t k = 0; k < l->n; k++)
         if (rc_fatigue_check_limits(wanted, &l->at[k], &t->err) != RC_OK)
