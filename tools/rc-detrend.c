@@ -153,7 +153,6 @@ mirror(struct tool *t, struct rc_grid *g, const struct step *step, struct rc_err
 {
     struct rc_shape from = rc_grid_shape(g), to = rc_reflect_shape(&from);
     double times = (double)(to.nx / from.nx) * (double)(to.ny / from.ny);
-    size_t nodes, bytes;
     double *v;
 
     (void)t, (void)step;
@@ -165,10 +164,9 @@ mirror(struct tool *t, struct rc_grid *g, const struct step *step, struct rc_err
             err, "--mirror has no effect, because the map is already periodic: leave it out");
     if (from.nx * from.ny == 1)
         return rc_err_set(err, "--mirror: a single node is not a map");
-    if (rc_shape_check(&to, err) != RC_OK || rc_size_mul(to.nx, to.ny, &nodes, err) != RC_OK ||
-        rc_size_mul(nodes, sizeof *v, &bytes, err) != RC_OK)
+    if (rc_shape_check(&to, err) != RC_OK)
         return RC_FAIL;
-    if ((v = malloc(bytes)) == NULL)
+    if ((v = malloc(to.nx * to.ny * sizeof *v)) == NULL)
         return rc_err_set(err, "out of memory for %zu x %zu nodes", to.nx, to.ny);
     rc_reflect(&from, g->v, v);
     free(g->v);

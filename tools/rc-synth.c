@@ -230,7 +230,6 @@ main(int argc, char **argv)
     struct rc_shape shape;
     struct rc_grid *g;
     struct tool t;
-    size_t nodes, bytes;
     bool periodic = false;
 
     tool_start(&t, &info, argc, argv, &args);
@@ -242,9 +241,7 @@ main(int argc, char **argv)
         row->check(&t, &args, &shape);
     t.remedy = "take fewer nodes: --nx, --ny";
     tool_must(&t, NULL, rc_shape_check(&shape, &t.err));
-    tool_must(&t, NULL, rc_size_mul(shape.nx, shape.ny, &nodes, &t.err));
-    tool_must(&t, NULL, rc_size_mul(nodes, sizeof *g->v, &bytes, &t.err));
-    tool_must(&t, NULL, tool_ask_memory(&t, &shape, bytes, &t.err));
+    tool_must(&t, NULL, tool_ask_memory(&t, &shape, shape.nx * shape.ny * sizeof *g->v, &t.err));
     g = rc_grid_new(&shape, "height", "m", &t.err);
     if (g == NULL || row->make(&args, &shape, g->v, &periodic, &t.err) != RC_OK)
         tool_die(&t, "%s", t.err.text);

@@ -125,22 +125,6 @@ read_rotate(const char *text, struct request *r, struct rc_err *err)
 
 /* ---- maps ---- */
 
-static enum rc_status
-new_map(const struct rc_grid *g, const struct rc_shape *shape, struct rc_grid **to,
-        struct rc_err *err)
-{
-    size_t nodes, bytes;
-
-    if (rc_shape_check(shape, err) != RC_OK ||
-        rc_size_mul(shape->nx, shape->ny, &nodes, err) != RC_OK ||
-        rc_size_mul(nodes, sizeof *g->v, &bytes, err) != RC_OK)
-        return RC_FAIL;
-    if (bytes > SIZE_MAX / 2)
-        return rc_err_set(err, "%zu nodes are more than this machine can address", nodes);
-    *to = rc_grid_new(shape, g->channel, g->unit, err);
-    return *to == NULL ? RC_FAIL : RC_OK;
-}
-
 /* Moves the grid and values of `to` into g, and frees `to`. */
 static void
 replace(struct rc_grid *g, struct rc_grid *to)
@@ -158,6 +142,7 @@ replace(struct rc_grid *g, struct rc_grid *to)
 
 /* ---- keys ---- */
 
+/* Removes keys that no longer hold: counts of the points, because the points are new, and the load. */
 static enum rc_status
 remove_keys(struct rc_grid *g, const char *const *name, struct rc_err *err)
 {
@@ -166,13 +151,6 @@ remove_keys(struct rc_grid *g, const char *const *name, struct rc_err *err)
     for (; *name != NULL && status == RC_OK; name++)
         status = rc_grid_set(g, *name, NULL, err);
     return status;
-}
-
-/* Removes keys that count points, because the points are new. */
-static enum rc_status
-forget_counts(struct rc_grid *g, struct rc_err *err)
-{
-    return remove_keys(g, (const char *const[]){"filled", "outliers", NULL}, err);
 }
 
 /* The map is no longer a whole period. */
@@ -230,9 +208,9 @@ crop(struct tool *t, struct rc_grid *g, const struct request *r, struct rc_err *
         return RC_OK;
     g->nx = to.nx;
     g->ny = to.ny;
-    if (forget_period(t, g, err) != RC_OK || forget_counts(g, err) != RC_OK)
+    if (forget_period(t, g, err) != RC_OK)
         return RC_FAIL;
-    return remove_keys(g, (const char *const[]){"load", "taper", NULL}, err);
+    return remove_keys(g, (const char *const[]){"filled", "outliers", "load", "taper", NULL}, err);
 }
 
 static enum rc_status
@@ -257,7 +235,7 @@ resample(struct tool *t, struct rc_grid *g, const struct request *r, struct rc_e
     struct rc_shape from = rc_grid_shape(g), to;
     bool periodic = map_says(g, "periodic", "yes") || map_says(g, "boundary", "periodic"), covers,
          same;
-    struct rc_grid *map = NULL;
+    struct rc_grid *map;
 
     if (new_shape(&from, r, &to, err) != RC_OK)
         return RC_FAIL;
@@ -265,7 +243,7 @@ resample(struct tool *t, struct rc_grid *g, const struct request *r, struct rc_e
     same = covers && from.nx == to.nx && from.ny == to.ny;
     if (same && from.dx == to.dx && from.dy == to.dy)
         return RC_OK;
-    if (new_map(g, &to, &map, err) != RC_OK)
+    if ((map = rc_grid_new(&to, g->channel, g->unit, err)) == NULL)
         return RC_FAIL;
     if (rc_resample(&from, g->v, periodic, &to, map->v, err) != RC_OK) {
         rc_grid_free(map);
@@ -274,7 +252,8 @@ resample(struct tool *t, struct rc_grid *g, const struct request *r, struct rc_e
     for (size_t k = 0; strcmp(g->channel, CONTACT_CHANNEL) == 0 && k < to.nx * to.ny; k++)
         map->v[k] = map->v[k] < 0.5 ? 0 : 1; /* 1 if most of the cell is in contact */
     replace(g, map);
-    if ((!covers && forget_period(t, g, err) != RC_OK) || (!same && forget_counts(g, err) != RC_OK))
+    if ((!covers && forget_period(t, g, err) != RC_OK) ||
+        (!same && remove_keys(g, (const char *const[]){"filled", "outliers", NULL}, err) != RC_OK))
         return RC_FAIL;
     if (covers && to.nx <= from.nx && to.ny <= from.ny)
         return RC_OK;
@@ -294,10 +273,10 @@ static enum rc_status
 rotate(struct tool *t, struct rc_grid *g, const struct request *r, struct rc_err *err)
 {
     struct rc_shape from = rc_grid_shape(g), to = rc_rotate_shape(&from, (size_t)r->v[0]);
-    struct rc_grid *map = NULL;
+    struct rc_grid *map;
 
     (void)t;
-    if (new_map(g, &to, &map, err) != RC_OK)
+    if ((map = rc_grid_new(&to, g->channel, g->unit, err)) == NULL)
         return RC_FAIL;
     rc_rotate(&from, g->v, (size_t)r->v[0], map->v);
     replace(g, map);
