@@ -113,7 +113,7 @@ find_au(struct rc_gap *g)
     double sums[RC_GAP_SUMS];
 
     rc_sums_clear(&g->sums);
-    rc_whole_inverse_rows(g->whole, u_in, u_out, g);
+    rc_whole_rows(g->whole, RC_WHOLE_INVERSE, u_in, u_out, g);
     rc_sums_total(&g->sums, sums);
     take_mean(g, g->au, sums[0] / (double)g->n);
     g->convolutions++;
@@ -419,7 +419,7 @@ find_ad(struct rc_gap *g)
     double sums[RC_GAP_SUMS], mean;
 
     rc_sums_clear(&g->sums);
-    rc_whole_rough_inverse_rows(g->whole, d_in, ad_out, g);
+    rc_whole_rows(g->whole, RC_WHOLE_ROUGH_INVERSE, d_in, ad_out, g);
     rc_sums_total(&g->sums, sums);
     g->convolutions += 0.5;
     mean = g->control == RC_GAP_LOAD ? sums[3] / (double)g->n : 0;
@@ -584,7 +584,7 @@ rise(struct rc_gap *g, bool known, double *least)
         rows(g, step_row, g, sums);
     } else {
         rc_sums_clear(&g->sums);
-        rc_whole_rough_inverse_rows(g->whole, step_in, step_out, g);
+        rc_whole_rows(g->whole, RC_WHOLE_ROUGH_INVERSE, step_in, step_out, g);
         rc_sums_total(&g->sums, sums);
         g->convolutions += 0.5;
         g->told.cut = 0;
@@ -763,7 +763,7 @@ find_z(struct rc_gap *g, double *old, double *sum_z)
         return 0;
     }
     rc_sums_clear(&g->sums);
-    rc_whole_rough_rows(g->whole, r_in, z_out, g);
+    rc_whole_rows(g->whole, RC_WHOLE_ROUGH, r_in, z_out, g);
     rc_sums_total(&g->sums, sums);
     g->convolutions += 0.5;
     *old = sums[1];

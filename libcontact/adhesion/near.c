@@ -56,7 +56,7 @@ find_coefficients(struct rc_gap *g)
     if (g->n < FEWEST || g->px <= 2 * REACH || g->py <= 2 * REACH ||
         (g->near.a = malloc(SIDE * SIDE * sizeof *g->near.a)) == NULL)
         return false;
-    rc_whole_inverse_rows(g->whole, one_in, one_out, g);
+    rc_whole_rows(g->whole, RC_WHOLE_INVERSE, one_in, one_out, g);
     rc_sums_total(&g->sums, sums);
     g->convolutions++;
     for (size_t k = 0; k < SIDE * SIDE; k++)
@@ -91,7 +91,7 @@ static void
 find_ah(struct rc_gap *g)
 {
     if (!g->near.known)
-        rc_whole_rough_inverse_rows(g->whole, h_in, h_out, g);
+        rc_whole_rows(g->whole, RC_WHOLE_ROUGH_INVERSE, h_in, h_out, g);
     g->convolutions += g->near.known ? 0 : 0.5;
     g->near.known = true;
 }

@@ -90,7 +90,7 @@ apply_k(struct rc_gap *g, const float *from, float *to)
     double sums[RC_GAP_SUMS];
 
     rc_sums_clear(&g->sums);
-    rc_whole_rough_rows(g->whole, take_row, give_row, &p);
+    rc_whole_rows(g->whole, RC_WHOLE_ROUGH, take_row, give_row, &p);
     rc_sums_total(&g->sums, sums);
     g->convolutions += 0.5;
     add_mean(&p, g->control == RC_GAP_MEAN && sums[3] > 0 ? -sums[1] / sums[3]
@@ -120,7 +120,7 @@ apply_stiffness(struct rc_gap *g, const float *from, float *to)
     double sums[RC_GAP_SUMS];
 
     rc_sums_clear(&g->sums);
-    rc_whole_rough_inverse_rows(g->whole, take_row, give_row, &p);
+    rc_whole_rows(g->whole, RC_WHOLE_ROUGH_INVERSE, take_row, give_row, &p);
     rc_sums_total(&g->sums, sums);
     g->convolutions += 0.5;
     add_mean(&p, g->control == RC_GAP_LOAD ? -sums[0] / (double)g->n : 0);

@@ -153,8 +153,12 @@ enum rc_status rc_whole_scales(const struct rc_shape *shape, const struct rc_pai
 void rc_whole_apply(struct rc_whole *whole, const double *p, double *u);
 /* p = A u in double precision with rows of doubles; u = K p and p = A u in single precision with rows of
  * floats. Rows are those of the whole grid. */
-void rc_whole_inverse_rows(struct rc_whole *whole, rc_row *in, rc_row *out, void *ctx);
-void rc_whole_rough_rows(struct rc_whole *whole, rc_row *in, rc_row *out, void *ctx);
-void rc_whole_rough_inverse_rows(struct rc_whole *whole, rc_row *in, rc_row *out, void *ctx);
+enum rc_whole_factor {
+    RC_WHOLE_INVERSE,
+    RC_WHOLE_ROUGH,
+    RC_WHOLE_ROUGH_INVERSE
+};
+void rc_whole_rows(struct rc_whole *whole, enum rc_whole_factor which, rc_row *in, rc_row *out,
+                   void *ctx);
 
 #endif

@@ -208,35 +208,15 @@ rc_whole_apply(struct rc_whole *whole, const double *p, double *u)
     rc_fft_apply(w->fft, w->kernel, p, u);
 }
 
-static void
-chain(struct rc_fft *fft, const struct rc_spectrum *factor, rc_row *in, rc_row *out, void *ctx)
+void
+rc_whole_rows(struct rc_whole *whole, enum rc_whole_factor which, rc_row *in, rc_row *out,
+              void *ctx)
 {
-    const struct rc_spectrum *factors[] = {factor};
+    struct own *w = (struct own *)whole;
+    const struct rc_spectrum *factors[] = {[RC_WHOLE_INVERSE] = w->inverse,
+                                           [RC_WHOLE_ROUGH] = w->rough_kernel,
+                                           [RC_WHOLE_ROUGH_INVERSE] = w->rough_inverse};
     rc_row *rows[] = {in, out};
 
-    rc_fft_chain(fft, 1, factors, rows, ctx);
-}
-
-void
-rc_whole_inverse_rows(struct rc_whole *whole, rc_row *in, rc_row *out, void *ctx)
-{
-    struct own *w = (struct own *)whole;
-
-    chain(w->fft, w->inverse, in, out, ctx);
-}
-
-void
-rc_whole_rough_rows(struct rc_whole *whole, rc_row *in, rc_row *out, void *ctx)
-{
-    struct own *w = (struct own *)whole;
-
-    chain(w->rough, w->rough_kernel, in, out, ctx);
-}
-
-void
-rc_whole_rough_inverse_rows(struct rc_whole *whole, rc_row *in, rc_row *out, void *ctx)
-{
-    struct own *w = (struct own *)whole;
-
-    chain(w->rough, w->rough_inverse, in, out, ctx);
+    rc_fft_chain(which == RC_WHOLE_INVERSE ? w->fft : w->rough, 1, &factors[which], rows, ctx);
 }
