@@ -231,6 +231,14 @@ rc_store_copy(struct rc_store *s, size_t n, size_t size, const void *from)
     return at != NULL ? memcpy(at, from, n * size) : NULL;
 }
 
+bool
+rc_store_need(struct rc_store *store, size_t n, double **v)
+{
+    if (*v == NULL)
+        *v = rc_store_zeros(store, n, sizeof **v);
+    return *v != NULL;
+}
+
 void
 rc_store_free(struct rc_store *s)
 {

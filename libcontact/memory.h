@@ -36,6 +36,8 @@ void *rc_store_take(struct rc_store *store, size_t n, size_t size);
 /* The same, with zeros, or with a copy of `from`. */
 void *rc_store_zeros(struct rc_store *store, size_t n, size_t size);
 void *rc_store_copy(struct rc_store *store, size_t n, size_t size, const void *from);
+/* Makes a map of n zeros where it is missing (*v NULL); false: memory is short. */
+bool rc_store_need(struct rc_store *store, size_t n, double **v);
 void rc_store_free(struct rc_store *store);
 
 /* Allocations of this thread between rc_memory_lend and rc_memory_lent do not count. They take the place of

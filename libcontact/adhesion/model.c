@@ -148,15 +148,6 @@ look(struct rc_model *m, struct rc_point *at, struct rc_err *err)
     return RC_OK;
 }
 
-/* Makes the map of the dents where it is missing; false: memory is short. */
-static bool
-has_dent(struct adhesive *a)
-{
-    if (a->dent == NULL)
-        a->dent = rc_store_zeros(&a->base.own, a->n, sizeof *a->dent);
-    return a->dent != NULL;
-}
-
 static enum rc_status
 keep(struct rc_model *m, struct rc_err *err)
 {
@@ -165,7 +156,7 @@ keep(struct rc_model *m, struct rc_err *err)
     a->pulls = false;
     if (a->figures.adhesion.plastic_nodes == 0)
         return RC_OK;
-    if (!has_dent(a))
+    if (!rc_store_need(&a->base.own, a->n, &a->dent))
         return rc_err_set(err, "out of memory for the shape after yield");
     for (size_t k = 0; k < a->n; k++)
         a->dent[k] -= a->h[k];
@@ -218,7 +209,7 @@ read_dent(struct adhesive *a, struct rc_state *s, bool some)
     bool differ = false;
     struct rc_err err;
 
-    if (!has_dent(a)) {
+    if (!rc_store_need(&a->base.own, a->n, &a->dent)) {
         rc_state_refuse(s, "memory is short");
         return;
     }
@@ -349,17 +340,11 @@ const struct rc_model_row rc_model_adhesive = {
     .summary = "bodies that attract each other, with a hardness",
     .needs = 1u << RC_LOAD,
     .takes = 1u << RC_LOAD | 1u << RC_APPROACH,
-    .figures = sets,
+    RC_MODEL_VERBS,
     .frame = frames,
-    .go = go,
-    .step = step,
-    .look = look,
-    .fill = fill,
-    .state = state,
     .free = release,
     .keep = keep,
     .heights = set_heights,
-    .progress = progress,
     .plan = plan,
 };
 

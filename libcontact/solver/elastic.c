@@ -224,15 +224,6 @@ look(struct rc_model *m, struct rc_point *at, struct rc_err *err)
     return RC_OK;
 }
 
-/* Makes the map of the dents where it is missing; false: memory is short. */
-static bool
-has_dent(struct elastic *e)
-{
-    if (e->dent == NULL)
-        e->dent = rc_store_zeros(&e->base.own, e->n, sizeof *e->dent);
-    return e->dent != NULL;
-}
-
 /* Finds the shape after elastic unloading, and the dents: this shape minus the undeformed heights. */
 static enum rc_status
 dent(struct elastic *e, struct rc_err *err)
@@ -240,7 +231,7 @@ dent(struct elastic *e, struct rc_err *err)
     RC_OWNED double *left = rc_alloc(e->n, sizeof *left);
     enum rc_status status;
 
-    if (left == NULL || !has_dent(e))
+    if (left == NULL || !rc_store_need(&e->base.own, e->n, &e->dent))
         return rc_err_set(err, "out of memory for the shape after yield");
     shape(e, left);
     for (size_t k = 0; k < e->n; k++)
@@ -379,7 +370,7 @@ read_dent(struct elastic *e, struct rc_state *s, bool some)
     bool others = false;
     struct rc_err err;
 
-    if (h == NULL || !has_dent(e)) {
+    if (h == NULL || !rc_store_need(&e->base.own, e->n, &e->dent)) {
         rc_state_refuse(s, "memory is short");
         return;
     }
