@@ -186,6 +186,15 @@ check_place(struct tool *t, const struct rc_shape *shape)
             args.place.v[0], args.place.v[1], x, y);
 }
 
+static void
+check_radii(struct tool *t, const struct synth_shape *row)
+{
+    if (row->radii == 1 && args.radius.n != 1)
+        tool_usage(t, "--radius takes one radius of a %s, not %zu", row->name, args.radius.n);
+    if (row->radii == 2 && args.radius.n != 2)
+        tool_usage(t, "--radius takes the two radii of a paraboloid, R1,R2");
+}
+
 static struct rc_shape
 wanted_shape(struct tool *t)
 {
@@ -208,11 +217,8 @@ static void
 add_keys(struct tool *t, const struct synth_shape *row, struct rc_grid *g, bool periodic)
 {
     char step[1024], source[64];
-    bool seeded = false;
 
-    for (const char *const *name = row->takes; *name != NULL; name++)
-        seeded |= strcmp(*name, "seed") == 0;
-    if (seeded)
+    if (listed(row->takes, "seed"))
         snprintf(source, sizeof source, "%s-seed-%zu", row->name, args.seed);
     else
         snprintf(source, sizeof source, "%s", row->name);
@@ -237,6 +243,7 @@ main(int argc, char **argv)
     check_options(&t, row);
     shape = wanted_shape(&t);
     check_place(&t, &shape);
+    check_radii(&t, row);
     if (row->check != NULL)
         row->check(&t, &args, &shape);
     t.remedy = "take fewer nodes: --nx, --ny";

@@ -57,22 +57,6 @@ or_default(double value)
     return isnan(value) ? 0 : value;
 }
 
-static void
-check_radius(struct tool *t, const struct synth_args *a, const struct rc_shape *shape)
-{
-    (void)shape;
-    if (a->radius.n != 1)
-        tool_usage(t, "--radius takes one radius of a %s, not %zu", t->operand[0], a->radius.n);
-}
-
-static void
-check_paraboloid(struct tool *t, const struct synth_args *a, const struct rc_shape *shape)
-{
-    (void)shape;
-    if (a->radius.n != 2)
-        tool_usage(t, "--radius takes the two radii of a paraboloid, R1,R2");
-}
-
 static struct rc_place
 apex(const struct synth_args *a)
 {
@@ -170,15 +154,14 @@ make_selfaffine(const struct synth_args *a, const struct rc_shape *shape, double
 
 /* clang-format off */
 const struct synth_shape synth_shapes[] = {
-    {.name = "sphere", .needs = {"radius"}, .takes = {"place"}, .check = check_radius,
+    {.name = "sphere", .needs = {"radius"}, .radii = 1, .takes = {"place"}, .make = make_paraboloid},
+    {.name = "cylinder", .needs = {"radius"}, .radii = 1, .takes = {"direction", "place"},
+     .make = make_cylinder},
+    {.name = "paraboloid", .needs = {"radius"}, .radii = 2, .takes = {"direction", "place"},
      .make = make_paraboloid},
-    {.name = "cylinder", .needs = {"radius"}, .takes = {"direction", "place"},
-     .check = check_radius, .make = make_cylinder},
-    {.name = "paraboloid", .needs = {"radius"}, .takes = {"direction", "place"},
-     .check = check_paraboloid, .make = make_paraboloid},
     {.name = "cone", .needs = {"slope"}, .takes = {"place"}, .make = make_cone},
-    {.name = "punch", .needs = {"radius", "height"}, .takes = {"edge", "place"},
-     .check = check_radius, .make = make_punch},
+    {.name = "punch", .needs = {"radius", "height"}, .radii = 1, .takes = {"edge", "place"},
+     .make = make_punch},
     {.name = "wave", .needs = {"amplitude", "wavelength"}, .check = check_wave,
      .make = make_wave},
     {.name = "selfaffine", .needs = {"hurst"},

@@ -21,6 +21,7 @@ struct synth_args {
 struct synth_shape {
     const char *name;
     const char *needs[4], *takes[12]; /* options, ended by NULL                     */
+    size_t radii;                     /* numbers of --radius; 0: none               */
     /* NULL, or ends the tool when options contradict each other or do not suit the grid. */
     void (*check)(struct tool *tool, const struct synth_args *args, const struct rc_shape *shape);
     /* Sets *periodic if the surface continues across the edges of the map. */
