@@ -330,10 +330,9 @@ estar_of(const struct rc_pair *p)
     if (p->estar > 0)
         return p->estar;
     for (int b = 0; b < 2; b++) {
-        const bool coated = bodies[b]->layers > 0;
-        const double e = coated ? bodies[b]->layer[0].e : bodies[b]->e;
-        const double nu = coated ? bodies[b]->layer[0].nu : bodies[b]->nu;
-        compliance += e > 0 && !isinf(e) ? (1 - nu * nu) / e : 0;
+        const struct rc_layer *top = bodies[b]->layers > 0 ? bodies[b]->layer : NULL;
+        compliance += top != NULL ? bodies_compliance(top->e, top->nu)
+                                  : bodies_compliance(bodies[b]->e, bodies[b]->nu);
     }
     return 1 / compliance;
 }

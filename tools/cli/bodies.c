@@ -152,8 +152,8 @@ layer_read(const char *text, struct rc_layer *m, double *residual, double relaxe
 
 /* ---- the pair ---- */
 
-static double
-compliance(double e, double nu)
+double
+bodies_compliance(double e, double nu)
 {
     return e == 0 || isinf(e) ? 0 : (1 - nu * nu) / e;
 }
@@ -162,7 +162,8 @@ static double
 estar_of(const struct rc_pair *p)
 {
     return p->estar > 0 ? p->estar
-                        : 1 / (compliance(p->one.e, p->one.nu) + compliance(p->two.e, p->two.nu));
+                        : 1 / (bodies_compliance(p->one.e, p->one.nu) +
+                               bodies_compliance(p->two.e, p->two.nu));
 }
 
 enum rc_status

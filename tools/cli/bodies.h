@@ -31,6 +31,8 @@ void layers_free(struct layers *layers);
 enum rc_status layer_read(const char *text, struct rc_layer *layer, double *residual,
                           double relaxes, bool *is, struct rc_err *err);
 
+/* (1 - nu^2)/E of a half-space; 0 for a rigid one, whose E is infinite, or 0 in struct rc_body. */
+double bodies_compliance(double e, double nu);
 /* Reads both bodies from the keys of the frame: from its `layers`, if it has any, or from E*. RC_FAIL if the
  * keys do not define them. */
 enum rc_status bodies_read(const struct rc_grid *grid, const struct layers *layers,

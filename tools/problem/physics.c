@@ -81,12 +81,6 @@ check_steps(struct tool *t, const struct physics *a)
                   name);
 }
 
-static double
-plane_compliance(double e, double nu)
-{
-    return isinf(e) ? 0 : (1 - nu * nu) / e;
-}
-
 static void
 check_elasticity(struct tool *t, struct physics *a)
 {
@@ -115,7 +109,7 @@ check_elasticity(struct tool *t, struct physics *a)
     a->pair.one = (struct rc_body){.e = a->e1, .nu = base ? 0 : a->nu1};
     if (!rigid)
         a->pair.two = (struct rc_body){.e = a->e2, .nu = a->nu2};
-    a->surface_estar = 1 / (plane_compliance(a->e1, a->nu1) + plane_compliance(a->e2, a->nu2));
+    a->surface_estar = 1 / (bodies_compliance(a->e1, a->nu1) + bodies_compliance(a->e2, a->nu2));
 }
 
 /* Warns of a residual stress outside the range from a millionth of the modulus to the modulus. */
@@ -170,7 +164,7 @@ check_layers(struct tool *t, struct physics *a)
     a->pair.one.layers = n;
     a->pair.one.layer = a->layers;
     a->surface_estar =
-        1 / (plane_compliance(a->layers[0].e, a->layers[0].nu) + plane_compliance(a->e2, a->nu2));
+        1 / (bodies_compliance(a->layers[0].e, a->layers[0].nu) + bodies_compliance(a->e2, a->nu2));
 }
 
 static void
