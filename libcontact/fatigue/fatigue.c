@@ -442,18 +442,11 @@ place_of(const struct rc_fatigue *f, const struct worst *worst, size_t n)
     return at;
 }
 
-static double
-larger(double a, double b)
-{
-    return isnan(b) || a > b ? a : b;
-}
-
 /* The figures of this depth join those of all depths. */
 static void
 gather_figures(struct rc_fatigue *f)
 {
     struct rc_fatigue_figures *d = &f->depth, *all = &f->all;
-    double index = NAN, least = -d->least_hydrostatic;
 
     for (int c = 0; c <= RC_CRITERIA; c++) {
         if (f->worsts[c] > 0)
@@ -470,17 +463,17 @@ gather_figures(struct rc_fatigue *f)
     }
     for (int k = 0; k < 2; k++) {
         struct rc_fatigue_figures *to = k == 0 ? d : all;
-        index = NAN;
+        double index = NAN;
         to->sampling_error = NAN;
         for (int c = 0; c <= RC_CRITERIA; c++) {
-            to->sampling_error = larger(to->largest[c].sampling_error, to->sampling_error);
+            to->sampling_error = fmax(to->largest[c].sampling_error, to->sampling_error);
             if (c < RC_CRITERIA)
-                index = larger(to->largest[c].value, index);
+                index = fmax(to->largest[c].value, index);
         }
         to->safety = 1 / index;
     }
-    all->least_hydrostatic = -larger(least, -all->least_hydrostatic);
-    all->largest_hydrostatic = larger(d->largest_hydrostatic, all->largest_hydrostatic);
+    all->least_hydrostatic = fmin(d->least_hydrostatic, all->least_hydrostatic);
+    all->largest_hydrostatic = fmax(d->largest_hydrostatic, all->largest_hydrostatic);
     d->depths = 1;
     d->histories = f->result.nx * f->result.ny;
     d->bands = all->bands = (f->shape.ny + f->band - 1) / f->band;
@@ -535,8 +528,8 @@ compute(struct rc_fatigue *f, const struct rc_fatigue_rule *rule, size_t from, s
             high = v.largest > high ? v.largest : high;
         }
     }
-    f->depth.least_hydrostatic = -larger(-low, -f->depth.least_hydrostatic);
-    f->depth.largest_hydrostatic = larger(high, f->depth.largest_hydrostatic);
+    f->depth.least_hydrostatic = fmin(low, f->depth.least_hydrostatic);
+    f->depth.largest_hydrostatic = fmax(high, f->depth.largest_hydrostatic);
 }
 
 static enum rc_status
