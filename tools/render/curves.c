@@ -145,7 +145,7 @@ curve_log(const struct curve_style *s, char axis)
 
 /* ---- the columns asked for ---- */
 
-/* Divides the list at its commas into names, after the n names of `word`; text: the argument of the option. */
+/* Divides a list at its commas into names, after the n names of `word`. text: the argument of the option. */
 static void
 split_list(struct curves *c, const char *option, const char *text, const char *must, char *list,
            const char **word, size_t most, size_t *n)
