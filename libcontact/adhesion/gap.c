@@ -32,6 +32,13 @@ enum {
 
 /* ---- rows ---- */
 
+/* As fmax, which is a call for each node. */
+static double
+larger(double a, double b)
+{
+    return b > a ? b : a;
+}
+
 static double
 hard_at(const struct rc_gap *g, size_t j, size_t i)
 {
@@ -178,7 +185,7 @@ hold_row(void *ctx, size_t j, double *sums)
         r[i] = held ? 0 : -at;
         sums[0] += r[i];
         sums[1] += !held;
-        sums[RC_GAP_MOST] = fmax(sums[RC_GAP_MOST], fabs(r[i]));
+        sums[RC_GAP_MOST] = larger(sums[RC_GAP_MOST], fabs(r[i]));
     }
 }
 
@@ -278,7 +285,7 @@ direction_row(void *ctx, size_t j, double *sums)
         sums[0] += g->r[at] * is;
         sums[1] += is;
         sums[2] += is != 0;
-        sums[RC_GAP_MOST] = fmax(sums[RC_GAP_MOST], fabs(is));
+        sums[RC_GAP_MOST] = larger(sums[RC_GAP_MOST], fabs(is));
     }
 }
 
@@ -335,7 +342,8 @@ ad_out(void *ctx, size_t j, void *from)
 {
     struct rc_gap *g = ctx;
     const float *row = from;
-    const double *d = g->d + j * g->px;
+    const double *d = g->d + j * g->px, *au = g->au + j * g->px;
+    const double plus = (g->control == RC_GAP_LOAD ? g->given : 0) - g->level;
     double *ad = g->ad + j * g->px, *sums = rc_sums_of(&g->sums, j);
     float *az = g->mode.e[RC_GAP_AZ] + j * g->px;
     size_t m = rc_gap_on_map(g, j);
@@ -344,7 +352,7 @@ ad_out(void *ctx, size_t j, void *from)
         double is = (double)row[i] * g->way.unit;
         if (i < m) {
             sums[0] += fabs(is - g->way.beta * ad[i]);
-            sums[1] += fabs(rc_gap_pressure_at(g, j * g->px + i));
+            sums[1] += fabs(au[i] + plus);
             sums[6] += fabs(is);
         }
         sums[2] += is * d[i];
@@ -491,7 +499,7 @@ lower_row(void *ctx, size_t j, double *sums)
         size_t at = j * g->px + i;
         double to = g->x[at] + g->step[at];
         if (to > 0) {
-            to = fmax(to - c->a, 0);
+            to = larger(0, to - c->a);
             g->step[at] = to - g->x[at];
         }
         sums[1] += to;
@@ -707,21 +715,35 @@ go(struct rc_gap *g, struct line *l, double a)
     g->stuck = true;
 }
 
-/* The largest values of |d|, of the step after which an open node reaches 0, and of -x. */
 static void
 largest_row(void *ctx, size_t j, double *sums)
 {
     const struct rc_gap *g = ctx;
-    const double *x = g->x + j * g->px, *d = g->d + j * g->px;
-    double *most = sums + RC_GAP_MOST;
 
-    most[2] = -INFINITY;
-    for (size_t i = 0; i < rc_gap_on_map(g, j); i++) {
-        most[0] = fmax(most[0], fabs(d[i]));
+    for (size_t i = 0; i < rc_gap_on_map(g, j); i++)
+        sums[RC_GAP_MOST] = larger(sums[RC_GAP_MOST], fabs(g->d[j * g->px + i]));
+}
+
+/* The largest step before an open node reaches 0. */
+static void
+reach_row(void *ctx, size_t j, double *sums)
+{
+    const struct rc_gap *g = ctx;
+    const double *x = g->x + j * g->px, *d = g->d + j * g->px;
+
+    for (size_t i = 0; i < rc_gap_on_map(g, j); i++)
         if (x[i] > 0 && d[i] < 0)
-            most[1] = fmax(most[1], -x[i] / d[i]);
-        most[2] = fmax(most[2], -x[i]);
-    }
+            sums[RC_GAP_MOST] = larger(sums[RC_GAP_MOST], -x[i] / d[i]);
+}
+
+static void
+nearest_row(void *ctx, size_t j, double *sums)
+{
+    const struct rc_gap *g = ctx;
+
+    sums[RC_GAP_MOST] = -INFINITY;
+    for (size_t i = 0; i < rc_gap_on_map(g, j); i++)
+        sums[RC_GAP_MOST] = larger(sums[RC_GAP_MOST], -g->x[j * g->px + i]);
 }
 
 /* The longest step under a given load, where a uniform motion has no other bound. If the bodies separate,
@@ -734,9 +756,9 @@ longest(struct rc_gap *g)
 
     if (g->control != RC_GAP_LOAD || g->way.mean == 0 || (g->way.mean > 0 && g->given >= 0))
         return INFINITY;
-    rows(g, largest_row, g, sums);
+    rows(g, g->way.mean < 0 ? reach_row : largest_row, g, sums);
     if (g->way.mean < 0)
-        return sums[RC_GAP_MOST + 1] > 0 ? sums[RC_GAP_MOST + 1] : INFINITY;
+        return sums[RC_GAP_MOST] > 0 ? sums[RC_GAP_MOST] : INFINITY;
     return 4 * g->law.range / sums[RC_GAP_MOST];
 }
 
@@ -849,10 +871,11 @@ rc_gap_move(struct rc_gap *g)
         g->way.restart = true;
         g->stuck = false;
     }
-    if (g->control != RC_GAP_LOAD || g->given >= 0 || !(g->way.mean > 0))
-        return;
-    rows(g, largest_row, g, sums);
-    g->parting = -sums[RC_GAP_MOST + 2] > 20 * g->law.range;
+    g->parting = g->control == RC_GAP_LOAD && g->given < 0 && g->way.mean > 0;
+    if (g->parting) {
+        rows(g, nearest_row, g, sums);
+        g->parting = -sums[RC_GAP_MOST] > 20 * g->law.range;
+    }
 }
 
 /* ---- states ---- */
