@@ -96,6 +96,12 @@ refuses 2 'only once' "two equal times" "$solve --relaxation 1MPa,9MPa:1s,2MPa:1
 refuses 2 'at least 0' "a negative modulus" "$solve --relaxation 1MPa,-9MPa:1s --time 0 $more"
 refuses 2 'No such file' "no file" "$solve --relaxation none.tsv --time 0 $more"
 refuses 2 'heading' "another heading" "$solve --relaxation ball.rcg --time 0 $more"
+long=$(printf 'x%.0s' {1..60}) # a unit that filled the place of one and more
+for tan in tandelta/1 "tan/$long" "tan/${long}${long}${long}"; do
+    printf 'frequency/Hz storage/MPa loss/MPa %s\n1 1 1 1\n' "$tan" >four.txt
+    refuses 2 'more than 3 columns: keep .*such as tan delta' "a fourth column ${tan:0:9}" \
+        "$solve --relaxation four.txt --time 0 $more"
+done
 refuses 2 '--time LIST' "no times" "$solve $solid $more"
 refuses 2 'must rise' "times that fall" "$solve $solid --time 0,2,1 $more"
 refuses 2 'equal length' "other times than loads" "$solve $solid --time 0,2 --load 1uN,2uN,3uN -o x.rcg ball.rcg"

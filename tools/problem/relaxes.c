@@ -124,6 +124,12 @@ split(char *line, char *word[COLUMNS + 1])
 static enum rc_status
 read_heading(struct table *t, size_t n, char *word[], struct rc_err *err)
 {
+    if (n > COLUMNS)
+        return rc_err_set(err,
+                          "it has more than %d columns: keep `tau E`, `frequency storage "
+                          "loss` or `omega storage loss`, and remove the others, such as tan "
+                          "delta",
+                          COLUMNS);
     for (size_t c = 0; c < n; c++) {
         char *slash = strchr(word[c], '/');
         t->kind[c] = OTHER;
