@@ -69,6 +69,39 @@ echo "notes of a user" >notes.txt
 refuses 1 'no pressure can be read from it \(.notes of a user. is in place of a frame' "a file that is none" \
     "$solve --load 0.1N --checkpoint notes.txt --resume -o x.rcg rough.rcg"
 claim "the file stays unchanged" grep -qx "notes of a user" notes.txt
+# ---- frames with right checksums whose numbers are false ----
+
+# changed KEY VALUE: fresh.rcg, of one frame, with another value of this key.
+changed() { perl -0777 -pe "s/^\Q$1\E=.*\$/$1=$2/m" fresh.rcg | reseal; }
+resumed="$solve --load 0.3N --resume -o x.rcg rough.rcg --checkpoint"
+{ cat fresh.rcg fresh.rcg && changed checkpoint.map 18014398509481984; } >far.rcg
+refuses 1 'frame 3 has checkpoint.map=18014398509481984, which is not a whole number from 0' \
+    "the number of a map that no file holds" "$resumed far.rcg"
+for map in -1 0.5 nan 1e300 none ''; do
+    changed checkpoint.map "$map" >false.rcg
+    refuses 1 "frame 1 has checkpoint.map=$map, which is not a whole number" "a map $map" "$resumed false.rcg"
+done
+for case in 0 -1 0.5 inf; do
+    changed checkpoint.case "$case" >false.rcg
+    refuses 1 "frame 1 has checkpoint.case=$case, which is not a whole number from 1" "a case $case" "$resumed false.rcg"
+done
+changed checkpoint.map 1 >second.rcg
+refuses 1 'case 1 cannot be continued \(frames are missing\)' "a second map without a first" "$resumed second.rcg"
+cat fresh.rcg second.rcg >twice.rcg
+refuses 1 'frames are missing' "  or after the last map of another state" "$resumed twice.rcg"
+{
+    perl -0777 -ne 's/^checkpoint\.numbers=.*\n//m; s/^n[xy]=\K.*$/1/mg; /^(.*?\n\n.{8})/s; print "$1crc32 00000000\nRCGEND 1\n"' \
+        fresh.rcg | reseal
+    cat second.rcg
+} >narrow.rcg
+refuses 1 'it belongs to another grid, 1 x 1 nodes' "a first map of one node" "$resumed narrow.rcg"
+changed checkpoint.numbers "$(sed -n 's/^checkpoint.numbers=//p' fresh.rcg | head -n 1) x" >words.rcg
+refuses 1 'its header holds something else than numbers' "a word among the numbers" "$resumed words.rcg"
+for numbers in '' 1 '1 2' '1e300 1' '-1 1' 'nan 1' values; do
+    changed checkpoint.numbers "$numbers" >few.rcg
+    refuses 1 'cannot be continued|another grid' "the numbers '$numbers'" "$resumed few.rcg"
+done
+
 refuses 2 '--resume and --interval need --checkpoint' "--resume alone" "$solve --load 0.1N --resume -o x.rcg rough.rcg"
 # killed inside the first frame: starting again loses nothing
 head -c 5000 kept.rcg >first.rcg

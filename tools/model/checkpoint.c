@@ -10,6 +10,7 @@
 #include "model.h"
 
 #include <inttypes.h>
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/types.h>
@@ -18,8 +19,11 @@
 #include "tools/journal/journal.h"
 
 enum {
-    FEW = 1024 /* numbers in a header */
+    FEW = 1024,    /* numbers in a header */
+    MOST = 1 << 30 /* number of a case or of a map */
 };
+/* Instead of numbers in the header: all values of the state stand in one row. */
+static const char in_a_row[] = "values";
 
 struct checkpoint {
     struct tool *t;
@@ -35,23 +39,39 @@ struct checkpoint {
 
 /* ---- the file ---- */
 
+/* A whole number of at least `least` in the header, of a frame that was just read. */
+static size_t
+whole_number(const struct checkpoint *c, const struct rc_grid *g, const char *key, double least,
+             const char *missing)
+{
+    double v;
+
+    if (rc_grid_get(g, key) == NULL)
+        tool_die(c->t, "--checkpoint %s: %s", c->journal.name, missing);
+    if (!rc_grid_number(g, key, &v) || !(v >= least && v <= MOST) || v != floor(v))
+        tool_die(c->t,
+                 "--checkpoint %s: frame %zu has %s=%.40s, which is not a whole number from %g: "
+                 "remove the file to start again",
+                 c->journal.name, c->count + 1, key, rc_grid_get(g, key), least);
+    return (size_t)v;
+}
+
 static void
 note(struct checkpoint *c, const struct rc_grid *g, off_t at)
 {
     struct saved *more = realloc(c->saved, (c->count + 1) * sizeof *more);
-    double number, map;
 
     if (more == NULL)
         tool_die(c->t, "out of memory for the cases of --checkpoint");
     c->saved = more;
-    if (!rc_grid_number(g, "checkpoint.case", &number))
-        tool_die(c->t, "--checkpoint %s: a grid stream, but no checkpoint: name another file",
-                 c->journal.name);
-    if (!rc_grid_number(g, "checkpoint.map", &map))
-        tool_die(c->t, "--checkpoint %s: another version wrote it: remove the file to start again",
-                 c->journal.name);
-    c->saved[c->count++] = (struct saved){(size_t)number, (size_t)map,
-                                          rc_grid_get(g, "checkpoint.numbers") != NULL, at};
+    c->saved[c->count] = (struct saved){
+        .number = whole_number(c, g, "checkpoint.case", 1,
+                               "a grid stream, but no checkpoint: name another file"),
+        .map = whole_number(c, g, "checkpoint.map", 0,
+                            "another version wrote it: remove the file to start again"),
+        .last = rc_grid_get(g, "checkpoint.numbers") != NULL,
+        .at = at};
+    c->count++;
 }
 
 /* True if the first frame, complete or not, belongs to a checkpoint. */
@@ -165,14 +185,15 @@ checkpoint_refuse(const struct course *c, const char *why)
 
 /* ---- reading ---- */
 
+/* Refuses a frame of another grid or problem; map: its values are a map, not a row of values. */
 static void
 compare(const struct course *c, const struct rc_grid *saved, bool map)
 {
     const struct rc_grid *g = c->g;
     const char *name = c->checkpoint->journal.name;
 
-    if ((map && (saved->nx != g->nx || saved->ny != g->ny)) || saved->dx != g->dx ||
-        saved->dy != g->dy)
+    if (saved->dx != g->dx || saved->dy != g->dy ||
+        (map ? saved->nx != g->nx || saved->ny != g->ny : saved->ny != 1))
         tool_refuse(c->t, g, "--checkpoint %s: it belongs to another grid, %zu x %zu nodes", name,
                     saved->nx, saved->ny);
     for (size_t k = 0; k < c->marks; k++) {
@@ -187,7 +208,7 @@ compare(const struct course *c, const struct rc_grid *saved, bool map)
 
 /* Reads numbers from the header; returns how many. */
 static size_t
-read_numbers(const char *text, double to[FEW])
+read_numbers(const struct course *c, const char *text, double to[FEW])
 {
     size_t n = 0;
     char *end;
@@ -197,7 +218,33 @@ read_numbers(const char *text, double to[FEW])
         if (end == text)
             break;
     }
+    if (*text != '\0')
+        checkpoint_refuse(c, "its header holds something else than numbers");
     return n;
+}
+
+/* The frames of the last state of this case: returns the first, *maps is their number; 0: there is none. */
+static const struct saved *
+last_state(const struct course *course, size_t *maps)
+{
+    const struct checkpoint *c = course->checkpoint;
+    const struct saved *first;
+    size_t k = c->count;
+
+    *maps = 0;
+    while (k > 0 && (c->saved[k - 1].number != course->number || !c->saved[k - 1].last))
+        k--;
+    if (k == 0)
+        return NULL;
+    *maps = c->saved[k - 1].map + 1;
+    if (*maps > k)
+        checkpoint_refuse(course, "frames are missing");
+    first = &c->saved[k - *maps];
+    for (size_t j = 0; j < *maps; j++)
+        if (first[j].number != course->number || first[j].map != j ||
+            first[j].last != (j + 1 == *maps))
+            checkpoint_refuse(course, "frames are missing");
+    return first;
 }
 
 double *
@@ -205,32 +252,30 @@ checkpoint_load(struct course *course, size_t *n)
 {
     struct checkpoint *c = course->checkpoint;
     double numbers[FEW], *v = NULL;
-    struct rc_grid *g;
-    size_t k, maps, nodes = 0, few = 0;
+    const struct saved *saved;
+    size_t maps, nodes = 0, few = 0;
 
     if (c == NULL)
         return NULL;
     c->began = tool_now();
     c->next = c->wait;
-    for (k = c->count; k > 0 && (c->saved[k - 1].number != course->number || !c->saved[k - 1].last);
-         k--)
-        ;
-    if (k == 0)
-        return NULL;
-    maps = c->saved[k - 1].map + 1;
+    saved = last_state(course, &maps);
     for (size_t j = maps; j-- > 0;) {
-        g = journal_read(&c->journal, c->saved[k - maps + j].at);
+        RC_OWN(rc_grid, g) = journal_read(&c->journal, saved[j].at);
         if (j + 1 == maps) { /* frames are read from the last one backwards */
-            few = read_numbers(rc_grid_get(g, "checkpoint.numbers"), numbers);
-            compare(course, g, few > 0);
+            const char *text = rc_grid_get(g, "checkpoint.numbers");
+            if (strcmp(text, in_a_row) != 0)
+                few = read_numbers(course, text, numbers);
+            if (few == 0 && maps > 1)
+                checkpoint_refuse(course, "its numbers are missing");
             nodes = rc_grid_nodes(g);
             *n = few + maps * nodes;
             if ((v = malloc((*n + 1) * sizeof *v)) == NULL)
                 tool_refuse(c->t, course->g, "out of memory for a state of --checkpoint");
             memcpy(v, numbers, few * sizeof *v);
         }
+        compare(course, g, few > 0);
         memcpy(v + few + j * nodes, g->v, nodes * sizeof *v);
-        rc_grid_free(g);
     }
     return v;
 }
@@ -288,7 +333,7 @@ checkpoint_save(struct course *c, const double *state, size_t n)
     if (c->checkpoint == NULL || c->checkpoint->journal.file == NULL)
         return;
     if (maps == 0 || numbers > FEW) {
-        (void)add(c, &row, state, 0, "values");
+        (void)add(c, &row, state, 0, in_a_row);
         return;
     }
     for (size_t k = 0; k < numbers; k++)
