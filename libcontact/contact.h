@@ -1133,7 +1133,7 @@ struct rc_rolling_contact {
 };
 /* The contact rolls towards +x. Body 2 moves over body 1 by (creep_x - spin y, creep_y + spin x) per
  * length rolled, with x and y from the middle of the contact. The middle is at RC_POSITION (0 if it is
- * never given). This is minus the creepage of railway textbooks, where body 1 moves over body 2. In a
+ * never given), in the middle row; on a periodic map that of the nearest period. This is minus the creepage of railway textbooks, where body 1 moves over body 2. In a
  * steady state, tractions and slip at each place of the contact do not change with time. On a path, the
  * bodies are pressed together at the first point, and each further point is a step of rolling from the
  * last point kept. */
@@ -1149,10 +1149,12 @@ struct rc_rolling_problem {
     const struct rc_rolling_contact *known;
 };
 struct rc_rolling_figures {
-    double load, limit;             /* N: normal; the largest that friction can carry         */
-    double creep[2], spin;          /* creepage per length rolled, and spin in rad/m. NAN: not
+    double load, limit;    /* N: normal; the largest that friction can carry         */
+    double creep[2], spin; /* creepage per length rolled, and spin in rad/m. NAN: not
                                        yet */
-    double force[2], moment;        /* N, on body 1; N m, about the middle of the contact     */
+    /* N, on body 1; N m, about the middle of the contact, NAN where a contact on a periodic map reaches half
+     * a period from there */
+    double force[2], moment;
     size_t stick_nodes, slip_nodes; /* numbers of the nodes that carry load */
     double stick_fraction;          /* share of the nodes that carry load                     */
     double power;                   /* J/m: tractions times the motion of the bodies          */
@@ -1173,8 +1175,8 @@ struct rc_rolling_figures {
  * if the inner model is NULL. Beside the axes of the inner model it takes RC_CREEP_X and RC_CREEP_Y, or
  * two forces, and RC_SPIN and RC_POSITION. The position may not fall on a path. Frames: pressure,
  * traction-x, traction-y (Pa), slip-x, slip-y (per length rolled), state (as for friction). RC_FAIL
- * during a path if no node is in contact, or friction cannot carry the force. RC_FAIL too if the contact
- * reaches the last column (the leading edge), or a column that comes in. Sources: Kalker 1990, Three-
+ * during a path if no node is in contact, friction cannot carry the force, or a contact with spin reaches
+ * half a period from its middle. RC_FAIL too if the contact reaches the last column (the leading edge), or a column that comes in. Sources: Kalker 1990, Three-
  * dimensional elastic bodies in rolling contact; Newton's method as in libcontact/slip/steady.c. */
 RC_API struct rc_model *rc_rolling_new(struct rc_model *inner,
                                        const struct rc_rolling_problem *problem,

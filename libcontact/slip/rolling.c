@@ -44,6 +44,7 @@ struct level {
     struct rc_steady *d;
     double unit, length; /* m/Pa; m: length of a step         */
     double x, y;         /* m: first node, from the middle of the contact */
+    double period[2];    /* m; 0: the map does not repeat                 */
 };
 
 struct rolling {
@@ -135,14 +136,50 @@ spin_of(const struct rolling *f)
     return rc_point_has(&f->base.to, RC_SPIN) ? f->base.to.at[RC_SPIN] : 0;
 }
 
+/* m: a point `ahead` of node k, from the middle of the contact. A periodic map has a contact in each period;
+ * the point belongs to the nearest one. */
+static void
+from_middle(const struct level *l, size_t k, double ahead, double at[2])
+{
+    const struct rc_shape *s = &l->d->shape;
+
+    at[0] = l->x + (double)(k % s->nx) * s->dx + ahead;
+    at[1] = l->y + (double)(k / s->nx) * s->dy;
+    for (int c = 0; c < 2 && l->period[0] > 0; c++)
+        at[c] -= l->period[c] * round(at[c] / l->period[c]);
+}
+
 /* The motion of body 2 over body 1 due to the spin, per length rolled, after node k. */
 static void
 spin_at(const struct level *l, double spin, size_t k, double v[2])
 {
-    const struct rc_shape *s = &l->d->shape;
+    double at[2];
 
-    v[0] = -spin * (l->y + (double)(k / s->nx) * s->dy);
-    v[1] = spin * (l->x + (double)(k % s->nx) * s->dx + 0.5 * l->length);
+    from_middle(l, k, 0.5 * l->length, at);
+    v[0] = -spin * at[1];
+    v[1] = spin * at[0];
+}
+
+/* True if the contact, in a step of this length, reaches the line between two periods from both sides, or
+ * crosses it. Distances from the middle jump there. */
+static bool
+spans_period(const struct level *l, double length)
+{
+    const double size[2] = {l->d->shape.dx + length, l->d->shape.dy};
+    bool low[2] = {false, false}, high[2] = {false, false};
+
+    for (size_t k = 0; k < l->d->n && l->period[0] > 0; k++) {
+        double at[2];
+        if (!(l->d->g[k] > 0))
+            continue;
+        from_middle(l, k, 0.5 * length, at);
+        for (int c = 0; c < 2; c++) {
+            const double end = 0.5 * (l->period[c] - size[c]), near = 1e-9 * l->period[c];
+            low[c] |= at[c] < near - end || at[c] > end + near;
+            high[c] |= at[c] > end - near || at[c] < -end - near;
+        }
+    }
+    return (low[0] && high[0]) || (low[1] && high[1]);
 }
 
 /* ---- grids ---- */
@@ -176,6 +213,10 @@ make_level(struct rolling *f, size_t l, struct rc_err *err)
         at->x += (double)first_of(shape.nx) * shape.dx;
         at->y += (double)first_of(shape.ny) * shape.dy;
         shape = rc_shape_coarser(&shape);
+    }
+    if (o->boundary == RC_PERIODIC) {
+        at->period[0] = (double)shape.nx * shape.dx;
+        at->period[1] = (double)shape.ny * shape.dy;
     }
     at->unit = sqrt(shape.dx) * sqrt(shape.dy) / f->shear.estar;
     at->length = f->problem.path ? f->length : shape.dx;
@@ -247,19 +288,26 @@ run_of(const struct rc_shape *s, const double *p)
     return runs > 0 ? (double)loaded / (double)runs : 0;
 }
 
-/* The columns from the first to the last one with a load; *end: the column behind it. */
+/* The length of the contact in columns; *end: the column behind its last one. On a periodic map all columns
+ * but the longest row of free ones. */
 static size_t
-columns_of(const struct rc_shape *s, const double *p, size_t *end)
+columns_of(const struct rc_shape *s, const double *p, bool repeats, size_t *end)
 {
-    size_t first = s->nx;
+    size_t first = s->nx, gap = 0;
 
     *end = 0;
-    for (size_t k = 0; k < s->nx * s->ny; k++)
-        if (p[k] > 0) {
-            first = k % s->nx < first ? k % s->nx : first;
-            *end = k % s->nx + 1 > *end ? k % s->nx + 1 : *end;
-        }
-    return *end - first;
+    for (size_t i = 0; i < s->nx; i++) {
+        size_t j = 0;
+        while (j < s->ny && !(p[j * s->nx + i] > 0))
+            j++;
+        if (j == s->ny)
+            continue;
+        gap = first < i && i - *end > gap ? i - *end : gap;
+        first = i < first ? i : first;
+        *end = i + 1;
+    }
+    gap = first + s->nx - *end > gap ? first + s->nx - *end : gap;
+    return repeats ? s->nx - gap : *end - first;
 }
 
 static enum rc_status
@@ -288,6 +336,10 @@ pose_step(struct rolling *f, size_t columns, struct rc_err *err)
     if (make_level(f, 0, err) != RC_OK)
         return RC_FAIL;
     pose_level(f, l, f->p);
+    if (spin_of(f) != 0 && spans_period(l, f->length))
+        return rc_err_set(
+            err, "the contact reaches half a period from its middle, where the spin of a periodic "
+                 "map jumps: take a map with a longer period, or the free boundary");
     f->levels = 1;
     l->d->asked.tol *= f->rolls ? 1 - f->kept : 1;
     for (int c = 0; c < 2; c++) {
@@ -303,7 +355,7 @@ static enum rc_status
 pose(struct rolling *f, struct rc_err *err)
 {
     const struct rc_shape *s = &f->base.shape;
-    const bool path = f->problem.path;
+    const bool path = f->problem.path, free_map = f->problem.slip.boundary == RC_FREE;
     const double *p = f->p, moved = f->rolls ? round((middle_of(f) - f->x) / s->dx) : 0;
     const size_t come = path ? (size_t)fmax(moved, 0) : 1;
     size_t end;
@@ -312,8 +364,8 @@ pose(struct rolling *f, struct rc_err *err)
         return rc_err_set(err, "no node is in contact, so that nothing rolls: give a larger load");
     if (moved < 0)
         return rc_err_set(err, "the map moves back by %g columns: rolling is towards +x", -moved);
-    f->kept = exp(-forgets * f->length / ((double)columns_of(s, p, &end) * s->dx));
-    if (f->problem.slip.boundary == RC_FREE && end + come > s->nx)
+    f->kept = exp(-forgets * f->length / ((double)columns_of(s, p, !free_map, &end) * s->dx));
+    if (free_map && end + come > s->nx)
         return rc_err_set(
             err,
             "the contact reaches the leading edge of the map, column %zu of %zu: rolling is "
@@ -397,7 +449,7 @@ look_at(const struct rolling *f, const struct level *l, struct rc_rolling_figure
 {
     const struct rc_steady *d = l->d;
     const struct rc_shape *s = &d->shape;
-    const double cell = s->dx * s->dy, spin = spin_of(f);
+    const double cell = s->dx * s->dy, spin = spin_of(f), none = spans_period(l, 0) ? NAN : 0;
     double n = 0, m[4] = {0}, kalker[3];
 
     *to = (struct rc_rolling_figures){.load = f->f.load, .spin = spin};
@@ -406,30 +458,31 @@ look_at(const struct rolling *f, const struct level *l, struct rc_rolling_figure
                        : l->length > 0   ? d->v[c] / step_of(l)
                                          : NAN;
     for (size_t k = 0; k < d->n; k++) {
-        const double x = l->x + (double)(k % s->nx) * s->dx, y = l->y + (double)(k / s->nx) * s->dy;
-        double v[2];
+        double v[2], at[2];
         if (!(d->g[k] > 0))
             continue;
         spin_at(l, spin, k, v);
+        from_middle(l, k, 0, at);
         to->limit += d->g[k] * cell;
-        to->moment += (x * d->q[1][k] - y * d->q[0][k]) * cell;
+        to->moment += (at[0] * d->q[1][k] - at[1] * d->q[0][k]) * cell;
         for (int c = 0; c < 2; c++) {
             to->force[c] += d->q[c][k] * cell;
             to->power += d->q[c][k] * (to->creep[c] + v[c]) * cell;
             to->power_slip -= d->q[c][k] * (d->s[c][k] / step_of(l)) * cell;
         }
         n++;
-        m[0] += x;
-        m[1] += y;
-        m[2] += x * x;
-        m[3] += y * y;
+        for (int c = 0; c < 2; c++) {
+            m[c] += at[c];
+            m[2 + c] += at[c] * at[c];
+        }
     }
+    to->moment += none;
     rc_kalker(sqrt((m[2] - m[0] * m[0] / n) / (m[3] - m[1] * m[1] / n)),
               f->shear.kap / (1 + f->shear.kap), kalker);
     for (int c = 0; c < 2; c++)
-        to->kalker_force[c] =
-            n * cell / RC_PI * f->shear.estar / (1 + f->shear.kap) *
-            (kalker[c] * to->creep[c] + (c == 1 ? kalker[2] * sqrt(n * cell / RC_PI) * spin : 0));
+        to->kalker_force[c] = none + n * cell / RC_PI * f->shear.estar / (1 + f->shear.kap) *
+                                         (kalker[c] * to->creep[c] +
+                                          (c == 1 ? kalker[2] * sqrt(n * cell / RC_PI) * spin : 0));
     to->stick_nodes = d->found.stick;
     to->slip_nodes = d->found.slipping;
     to->stick_fraction = (double)d->found.stick / (double)(d->found.stick + d->found.slipping);

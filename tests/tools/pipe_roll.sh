@@ -109,6 +109,23 @@ claim "  and rolls on from case to case" test "$(number "$(column force_x whole.
 rc-solve $travel --window 16x40 rough.rcg -o narrow.rcg
 refuses 1 'leading edge of the map' "a window that the contact fills" 'rc-slip --mu 0.3 --creep 1e-3,0 -o x.rcg narrow.rcg'
 
+# ---- a periodic map has a contact in each period ----
+
+awk 'BEGIN { for (j = 0; j < 32; j++) for (i = 0; i < 32; i++) printf "0%s", i < 31 ? "," : "\n" }' |
+    rc-import --format ascii --dx 1um --z-unit m -o round-map.rcg -
+soft="--E1 1GPa --nu1 0.3 --E2 1GPa --nu2 0.3"
+for start in -6 10; do
+    rc-solve --quiet --periodic --radius 0.1mm --load 0.2mN $soft --tol 1e-8 --travel=${start}um:$((start + 7))um:8 round-map.rcg |
+        rc-slip --mu 0.3 --creep 1e-3,5e-3,2000 --tol 1e-6 --quiet --report "round$start.tsv" -o x.rcg
+done
+for f in force_x force_y moment kalker_force_y; do
+    near "$(column $f round10.tsv 8)" "$(column $f round-6.tsv 8)" 1e-5 "half a period further on, over the end of the map: $f is the same"
+done
+rc-solve --quiet --periodic --radius 0.1mm --load 60mN $soft --travel=0,1um round-map.rcg -o wide.rcg
+refuses 1 'reaches half a period from its middle.*longer period' "spin where two periods meet" 'rc-slip --mu 0.3 --creep 0,0,2000 --quiet -o x.rcg wide.rcg'
+claim "  without spin it has no moment" says '"moment": null.*"moment": null' \
+    bash -c "rc-slip --mu 0.3 --creep 1e-3,0 --quiet --report - wide.rcg | tr '\\n' ' '"
+
 # ---- refusals: the reason, and a way out ----
 
 refuses 1 'limit|slide; give the creepage instead' "a force beyond the limit" 'rc-slip --mu 0.3 --creep-force 100N --steady -o x.rcg ball.rcg'
