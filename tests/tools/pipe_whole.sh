@@ -158,5 +158,15 @@ interrupted() {
     [ $? = 3 ]
 }
 claim "after SIGTERM the best state is written completely, and the signal ends the tool" interrupted
+twice() {
+    rc-solve --load 1N:50N:1000 --estar 100GPa --tol 1e-9 --progress line -o twice.rcg big.rcg 2>progress.txt &
+    until grep -q 'iteration [1-9]' progress.txt || ! kill -0 $!; do sleep 0.02; done
+    kill -TERM $!
+    sleep 0.02
+    kill -TERM $!
+    wait $!
+    [ $? = 143 ] && ! ls twice.rcg.*
+}
+claim "a second SIGTERM leaves no incomplete file" twice
 
 finish

@@ -49,7 +49,7 @@ note_signal(int number)
     if (together != NULL && whole_file_is_half(&output))
         end_in_time(number); /* one of several processes may have died */
     interrupted = number;
-    signal(number, SIG_DFL); /* a second signal ends the tool */
+    signal(number, end_by); /* a second signal ends the tool */
     if (together != NULL)
         ranks_hurry(together);
 }
