@@ -3,6 +3,7 @@
 Tables come from the file tables.json beside this module, which the build makes, or from the tools
 themselves (`rc-solve --completions json`).
 """
+import contextlib
 import json
 import keyword
 import os
@@ -25,6 +26,7 @@ FUNCTIONS['open'] = 'rc-import'
 # Options that the functions set themselves, or that print text for people at a terminal.
 HIDDEN = {'o', 'report', 'json', 'help', 'version', 'verbose', 'debug', 'progress', 'formats', 'list', 'dry-run'}
 PIPE_BYTES = 1 << 20
+PATIENCE = 0.4  # seconds that an interrupted tool has after each of two signals, before it is killed
 PROGRESS_AFTER = 2.0  # seconds without progress, so that short runs show none
 # What repr() shows of a report.
 SHOWN_FIGURES = ('load', 'contact_area', 'contact_fraction', 'max_pressure', 'mean_pressure', 'approach',
@@ -38,6 +40,9 @@ class ToolWarning(UserWarning):
         super().__init__(text)
         self.tool = tool
 
+    def __reduce__(self):
+        return ToolWarning, (str(self), self.tool), self.__dict__
+
 
 class NotConverged(Error):
     """A tool stopped short of the requested accuracy: `result` holds the best result it found."""
@@ -45,6 +50,9 @@ class NotConverged(Error):
     def __init__(self, text, result):
         super().__init__(text, 3, result.frames, result.lines)
         self.result = result
+
+    def __reduce__(self):
+        return NotConverged, (str(self), self.result), self.__dict__
 
 
 # ---- folders of the tools and their tables ----
@@ -115,43 +123,71 @@ def execute(command, data=None, timeout=None, progress=False, folder=None, start
     progress (the share of the case that is done, or None), tool and text. folder: where the command runs.
     started: a function of the process, through which another thread can end it.
     """
-    shown = _progress_of(progress)
+    shown, failures, messages = _progress_of(progress), [], []
+    if timeout is not None and not 0 <= timeout <= threading.TIMEOUT_MAX:
+        raise ValueError('timeout=%r: it must be a number of seconds' % (timeout,))
     try:
         child = subprocess.Popen([place(command[0])] + command[1:] + ['--progress=json'] * (shown is not None),
                                  stdout=subprocess.PIPE, stderr=subprocess.PIPE, cwd=folder,
                                  stdin=subprocess.DEVNULL if data is None else subprocess.PIPE)
     except FileNotFoundError:
         raise Error('%s: not found: install the tools, or name their folder in PATH or RC_BIN' % command[0], 127) from None
-    if started is not None:
-        started(child)
-    messages = []
-    threads = [threading.Thread(target=_listen, args=(child.stderr, messages, shown), daemon=True)]
+
+    def failing(act, *given):
+        """What a thread does: if it fails, it ends the tool, and the exception is raised below."""
+        try:
+            act(*given)
+        except BaseException as e:
+            failures.append(e)
+            _end(child)
+
+    threads = [threading.Thread(target=failing, args=(_listen, child.stderr, messages, shown), daemon=True)]
     if data is not None:
-        threads.append(threading.Thread(target=_feed, args=(child.stdin, data), daemon=True))
-    watch = threading.Timer(timeout, child.terminate) if timeout is not None else None
-    _widen(child.stdout)
-    for thread in threads + [watch] * (watch is not None):
-        thread.start()
+        threads.append(threading.Thread(target=failing, args=(_feed, child.stdin, data), daemon=True))
+    if timeout is not None:
+        threads.append(threading.Timer(timeout, child.terminate))
+    limit = None
     try:
+        if started is not None:
+            started(child)
+        _widen(child.stdout)
+        for thread in threads:
+            thread.start()
         output = _taken(child.stdout)
         child.wait()
-    except BaseException:  # Ctrl-C: the tool removes its files when it is asked to end
-        child.terminate()
-        child.wait()
+    except BaseException:  # Ctrl-C
+        limit = PATIENCE  # processes that the tool started may hold its pipes
+        child.stdout.close()  # nobody reads any more: the tool must not wait for a reader
+        _end(child)
         raise
     finally:
-        if watch is not None:
-            watch.cancel()
+        if timeout is not None:
+            threads[-1].cancel()
         for thread in threads:
-            thread.join()
-        child.stdout.close()
-        child.stderr.close()
+            if thread.ident is not None:  # it was started
+                thread.join(limit)
+        for pipe in (child.stdout, child.stderr) if not any(thread.is_alive() for thread in threads) else ():
+            pipe.close()
         if hasattr(shown, 'end'):
             shown.end()
+    if failures:
+        raise failures[0]
     words = b''.join(messages).decode('utf-8', 'replace').strip()
     if child.returncode < 0 and not words:
         words = '%s: ended by signal %d' % (command[0], -child.returncode)
     return child.returncode, output, words
+
+
+def _end(child):
+    """Ends a tool. After the first signal it finishes an iteration and writes; a second one ends it at once."""
+    try:
+        for _ in range(2):
+            child.terminate()
+            with contextlib.suppress(subprocess.TimeoutExpired):
+                child.wait(PATIENCE)
+    finally:
+        child.kill()
+        child.wait()
 
 
 def _listen(pipe, messages, shown):
@@ -221,13 +257,16 @@ def _taken(pipe):
 
 
 def _feed(pipe, data):
-    _widen(pipe)
+    """Writes the input of a tool, and always ends it: a tool waits for the end."""
     try:
+        _widen(pipe)
         for part in data:
             pipe.write(part)
-        pipe.close()
     except BrokenPipeError:
         pass  # the tool ended before it had read everything, and its messages say why
+    finally:
+        with contextlib.suppress(BrokenPipeError):
+            pipe.close()
 
 
 def _reported(command, data, has_report, timeout=None, progress=False):
@@ -253,18 +292,23 @@ def _frames_of(tool, output):
 
 # ---- arguments ----
 
-def _text(value):
-    """An argument as text: a number in SI, (60, 'N') and quantities of pint and astropy with their unit."""
+PLAIN_UNITS = ('m', 'N', 'Pa', 's', 'm/s', 'Hz', 'K')  # spelled alike in the tables, pint and astropy
+
+
+def _text(value, unit=''):
+    """An argument as text: a number in SI, (60, 'N') and quantities of pint and astropy, which must fit the unit of the option."""
     if isinstance(value, tuple) and len(value) == 2 and isinstance(value[1], str) and not isinstance(value[0], str):
         return stream._text(value[0]) + value[1]
     if hasattr(value, 'to_base_units') and hasattr(value, 'magnitude'):
-        return stream._text(float(value.to_base_units().magnitude))
+        return stream._text(float((value.to(unit) if unit in PLAIN_UNITS else value.to_base_units()).magnitude))
     if hasattr(value, 'si') and hasattr(value.si, 'value'):
-        return stream._text(float(value.si.value))
+        return stream._text(float(value.to_value(unit) if unit in PLAIN_UNITS else value.si.value))
     if hasattr(value, '__fspath__'):
         return os.fspath(value)
     if isinstance(value, tuple):
-        return ','.join(map(_text, value))
+        return ','.join(_text(one, unit) for one in value)
+    if isinstance(value, numpy.ndarray) and value.ndim == 0:
+        value = value[()]
     return stream._text(value)
 
 
@@ -285,8 +329,8 @@ def _arguments(row, keyword_, value):
         raise TypeError('%s=%r: the option is True or False' % (keyword_, value))
     if row['repeats']:
         return [word for one in (value if _is_list(value) else [value])
-                for word in ([dashed] if one is True else [dashed, _text(one)])]
-    text = ','.join(map(_text, value)) if _is_list(value) else _text(value)
+                for word in ([dashed] if one is True else [dashed, _text(one, row['unit'])])]
+    text = ','.join(_text(one, row['unit']) for one in (value if _is_list(value) else [value]))
     for word in text.split(',') if row['type'] == 'words' else [text] if row['type'] == 'choice' else []:
         if row['only_words'] and row['words'] and word not in row['words']:
             raise ValueError('%s=%r: %s' % (keyword_, word, _one_of(word, row['words'])))
@@ -314,21 +358,77 @@ def arguments(tool, given):
 
 
 def frames_from(surface, dx=None):
-    """The frames of a Result, a Frame or a list of frames, an array with dx=, a DataArray of xarray, or a file."""
+    """The frames of a Result, a Frame or several, or a file; of an array or a nested list with dx=; of a DataArray of xarray."""
+    frames = _ready(surface)
+    if frames and dx is not None:
+        raise TypeError('dx= is the spacing of an array: frames and files have their own')
+    if frames is not None and dx is None:
+        return frames
+    if hasattr(surface, 'dims') and hasattr(surface, 'coords'):
+        return [_from_xarray(surface, dx)]
+    if dx is None:
+        raise TypeError('%s has no spacing: give dx= in metres, or (dx, dy)'
+                        % ('the array' if hasattr(surface, '__array__') else 'a ' + type(surface).__name__))
+    return [stream.frame('height', surface, *_steps(dx))]
+
+
+def _ready(surface):
+    """The frames of what has some; None for anything else."""
     if isinstance(surface, Frame):
         return [surface]
     if isinstance(surface, Result):
         return surface.frames
     if isinstance(surface, str) or hasattr(surface, '__fspath__'):
         return open_file(surface).frames
-    if hasattr(surface, 'dims') and hasattr(surface, 'coords'):
-        steps = [float(surface.coords[d].values[1] - surface.coords[d].values[0]) for d in surface.dims]
-        return [stream.frame(surface.name or 'height', surface.values, dx=steps[-1], dy=steps[0])]
-    if isinstance(surface, numpy.ndarray):
-        if dx is None:
-            raise TypeError('the array has no spacing: give dx= in metres, or (dx, dy)')
-        return [stream.frame('height', surface, *(dx if isinstance(dx, tuple) else (dx,)))]
-    return list(surface)
+    if isinstance(surface, (list, tuple)) or hasattr(surface, '__next__'):
+        found = surface if isinstance(surface, (list, tuple)) else list(surface)
+        if hasattr(surface, '__next__') or not found or any(isinstance(one, (Frame, Result)) for one in found):
+            return stream._frames(found)
+    return None
+
+
+def _steps(dx):
+    """dx and dy of the argument dx=."""
+    steps = tuple(dx) if isinstance(dx, (tuple, list)) else (dx, dx)
+    if len(steps) != 2:
+        raise TypeError('dx=%r: give dx in metres, or (dx, dy)' % (dx,))
+    return steps
+
+
+METRES = ('m', 'metre', 'metres', 'meter', 'meters')
+
+
+def _from_xarray(surface, dx):
+    """A Frame of a DataArray: its dimensions are rows and columns, its coordinates are even and in metres."""
+    if hasattr(surface, 'data_vars'):
+        raise TypeError('a Dataset has several maps: give one of them, as dataset[%r]' % next(iter(surface.data_vars), 'height'))
+    if set(surface.dims) == {'x', 'y'}:
+        surface = surface.transpose('y', 'x')
+    channel, unit = surface.name or 'height', surface.attrs.get('units')
+    known = stream.UNITS.get(channel, unit)
+    if unit is not None and unit != known and not (known == 'm' and unit in METRES):
+        raise ValueError('%s in %s: it must be in %s' % (channel, unit, known))
+    steps = {d: _step(surface.coords[d]) for d in surface.dims if d in surface.coords and surface.coords[d].size > 1}
+    if steps and dx is not None:
+        raise TypeError('dx= is the spacing of an array without coordinates: this one has the coordinates %s' % ', '.join(map(str, steps)))
+    if not steps and dx is None:
+        raise TypeError('the array has no coordinates: give dx= in metres, or (dx, dy)')
+    along = _steps(dx) if not steps else [steps.get(d, next(iter(steps.values()))) for d in reversed(surface.dims)]
+    return stream.frame(channel, surface.values, along[0], along[-1], unit=known)
+
+
+def _step(coordinate):
+    """The even spacing of a coordinate, in metres."""
+    unit, places = coordinate.attrs.get('units', 'm'), numpy.asarray(coordinate.values)
+    if unit not in METRES:
+        raise ValueError('coordinate %s in %s: it must be in metres' % (coordinate.name, unit))
+    if places.dtype.kind not in 'iuf':
+        raise TypeError('coordinate %s of type %s: it must be numbers' % (coordinate.name, places.dtype))
+    steps = numpy.diff(places.astype(float))
+    step = float(places[-1] - places[0]) / len(steps)
+    if not (step > 0 and abs(steps - step).max() <= 1e-3 * step):
+        raise ValueError('coordinate %s is not even and increasing: sort it, or interpolate it on even places' % coordinate.name)
+    return step
 
 
 def _data(surface, dx=None):
@@ -349,6 +449,9 @@ class Result:
         self.tool, self.command = tool, command
         self.lines, self.warnings = list(lines), list(warnings_)
         self._output, self._frames = output, frames
+
+    def __getstate__(self):
+        return dict(self.__dict__, _frames=self.frames, _output=None)  # for pickle and copy: without views of bytes
 
     @property
     def frames(self):
@@ -622,8 +725,10 @@ def add_two(a, b, dx=None, **given):
     """The sum of two surfaces that face each other, or with subtract=True their difference."""
     with tempfile.TemporaryDirectory() as folder:
         names = [os.path.join(folder, 'a.rcg'), os.path.join(folder, 'b.rcg')]
-        for name, surface in zip(names, (a, b)):
-            stream.write(name, frames_from(surface, dx))
+        ready = [_ready(surface) for surface in (a, b)]
+        for name, surface, frames in zip(names, (a, b), ready):
+            own = frames is not None and None in ready  # dx= is for the other
+            stream.write(name, frames_from(surface if frames is None else frames, None if own else dx))
         return call('rc-add', None, names, **given)
 
 
@@ -648,6 +753,8 @@ def function(name):
     rows = options_of(tool)
 
     def solver(surface, *, dx=None, timeout=None, progress=None, **given):
+        if surface is None:
+            raise TypeError('the surface is None, not a map: give a result, frames, an array with dx=, or the name of a file')
         return call(tool, surface, spacing=dx, timeout=timeout, progress=progress, **given)
 
     inner = SPECIAL.get(name, solver)

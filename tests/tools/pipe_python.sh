@@ -95,6 +95,10 @@ else
     echo "not tried: type hints, which this build does not have: no Python had numpy"
 fi
 claim "progress can go to a function or to a line" check progress
+claim "Ctrl-C ends a call and its tool, whatever the tool does" check interrupts
+claim "arrays, keys and options that no tool can take raise an exception with a reason; all others arrive unchanged" check hostile
+claim "results, frames, errors and warnings can be pickled and copied" check pickles ball.rcg
+claim "a pool of processes gives the results of one process" check pool 6
 version=$(rc-info --version | grep -o '[0-9.]*$')
 claim "the version is that of the tools" says "^$version\$" "$python" -c 'import rcg; print(rcg.__version__)'
 

@@ -1,10 +1,18 @@
 """The checks of pipe_python.sh for the package rcg, one function each: python_rcg.py NAME ARGUMENT..."""
+import concurrent.futures
+import copy
+import functools
 import io
 import json
 import math
+import multiprocessing
 import os
+import pickle
+import signal
 import subprocess
 import sys
+import threading
+import time
 import warnings
 import zlib
 
@@ -513,6 +521,12 @@ def progress():
     assert silent == '' and lines[1].startswith('rc-solve: ') and lines[-1] == '' and not lines[-2].strip(), lines
 
 
+def table_of(height):
+    """The values as a DataFrame."""
+    import pandas
+    return pandas.DataFrame(height.values)
+
+
 def data_sets(name):
     """to_xarray and to_pandas: the values, names, units and places of the frames."""
     ball = rcg.open(name)
@@ -529,6 +543,22 @@ def data_sets(name):
     assert one.pressure.dims == ('y', 'x') and one.attrs['load'] == solved.cases[0].load
     back = rcg.solve(ball.to_xarray().height, load=[0.5, 1], estar='114GPa', quiet=True)
     assert numpy.allclose(back.pressure, solved.pressure, rtol=1e-6, atol=1e3)
+    height = ball.to_xarray().height
+    assert rcg.dumps(rcg.tools.frames_from(height.transpose('x', 'y'))) == rcg.dumps(rcg.tools.frames_from(height))
+    bare = height.drop_vars(['x', 'y'])
+    assert rcg.tools.frames_from(bare, (1e-6, 2e-6))[0].dy == 2e-6
+    uneven, micrometres = height.copy(), height.copy()
+    uneven['x'] = uneven.x.values ** 2
+    micrometres['x'] = micrometres.x.copy()
+    micrometres.x.attrs['units'] = 'um'
+    nanometres = height.copy()
+    nanometres.attrs = {'units': 'nm'}
+    for kind, words, surface, dx in ((TypeError, 'dx=', bare, None), (TypeError, 'has the coordinates', height, 1e-6),
+                                     (ValueError, 'even', uneven, None), (ValueError, 'even', height[:, ::-1], None), (ValueError, 'coordinate x in um', micrometres, None),
+                                     (ValueError, 'height in nm', nanometres, None), (TypeError, "dataset['height']", ball.to_xarray(), None),
+                                     (ValueError, 'shape', cube.pressure.assign_attrs(units='Pa'), None), (TypeError, 'dx=', table_of(height), None)):
+        assert words in str(raised(kind, rcg.solve, surface, dx=dx, load=1e-6, estar=1e9)), words
+    assert (rcg.pick(table_of(height), dx=1e-6, crop='0,0,33,47').height == ball.height).all()
     table = solved.to_pandas()
     assert list(table.load) == list(solved.load) and len(table) == 2 and table.converged.all()
     assert list(table['contact_area']) == [case.contact_area for case in solved.cases]
@@ -548,4 +578,198 @@ def drawn(script):
         assert abs(line['contact_area'] - math.pi * a ** 2) < crossed, line
 
 
-globals()[sys.argv[1]](*sys.argv[2:])
+# ---- what hangs ----
+
+class Late(BaseException):
+    """A call that has not returned in time."""
+
+
+def timed(seconds, call):
+    """The exception that the call raises, or None, if it returns in time."""
+    def late(*_):
+        raise Late('no end after %g s' % seconds)
+
+    before = signal.signal(signal.SIGALRM, late)
+    signal.setitimer(signal.ITIMER_REAL, seconds)
+    try:
+        call()
+    except Exception as error:
+        return error
+    except KeyboardInterrupt as error:
+        return error
+    finally:
+        signal.setitimer(signal.ITIMER_REAL, 0)
+        signal.signal(signal.SIGALRM, before)
+
+
+def children():
+    """The processes that this one started, zombies included."""
+    done = subprocess.run(['ps', '-o', 'ppid=,args='], stdout=subprocess.PIPE, universal_newlines=True).stdout
+    return [line for line in done.splitlines() if line.split()[0] == str(os.getpid()) and ' ps ' not in line]
+
+
+def interrupts():
+    """Ctrl-C ends a call while the tool computes, writes more than a pipe holds, does not read, or ignores signals."""
+    def stop(said):
+        if 'iteration' in said['text']:
+            signal.pthread_kill(threading.main_thread().ident, signal.SIGINT)
+
+    def writing(*_):
+        raise KeyboardInterrupt
+
+    signal.signal(signal.SIGINT, signal.default_int_handler)
+    rough = rcg.synth('selfaffine', nx=512, dx='1um', hurst=0.8, rms_slope=0.1)
+    wanted = dict(load='1N:60N:300', estar='100GPa', tol=1e-9, periodic=True)
+
+    def soon(call):
+        threading.Timer(0.5, stop, [{'text': 'iteration'}]).start()
+        call()
+
+    def filled(call):
+        fill, rcg.stream._fill = rcg.stream._fill, writing
+        try:
+            call()
+        finally:
+            rcg.stream._fill = fill
+
+    for name, call in (('computes', lambda: rcg.solve(rough, progress=stop, **wanted)),
+                       ('writes', lambda: filled(lambda: rcg.solve(rough, load='1N', estar='100GPa', quiet=True))),
+                       ('does not read', lambda: soon(lambda: rcg.run('sleep', rough.frames, '60'))),
+                       ('ignores signals', lambda: soon(lambda: rcg.run('sh', rough.frames, '-c', 'trap "" TERM INT; while :; do sleep 1; done')))):
+        began = time.monotonic()
+        error = timed(20, call)
+        assert isinstance(error, KeyboardInterrupt), (name, error)
+        print('%s: ended after %.1f s' % (name, time.monotonic() - began))
+        assert not children(), (name, children())
+
+
+def hostile():
+    """What cannot be sent to a tool raises an exception with a reason before the tool runs, and what can arrives unchanged."""
+    a = numpy.arange(12.0).reshape(3, 4) * 1e-9
+
+    def bad(**changes):
+        made = rcg.frame('height', a, 1e-6)
+        for name, value in changes.items():
+            setattr(made, name, value)
+        return made
+
+    class Quantity(numpy.ndarray):  # as in astropy
+        unit, si = 'um', None
+
+    class Measured:  # as in pint
+        magnitude = 60.0
+
+        def to(self, unit):
+            if unit != 'N':
+                raise TypeError('newton is no ' + unit)
+            return self
+
+        to_base_units = to
+
+    assert rcg.tools.arguments('rc-solve', {'load': [Measured(), 1]}) == ['--load', '60,1']
+
+    def broken():
+        yield rcg.frame('height', a, 1e-6)
+        raise KeyError('my own')
+
+    keys = rcg.frame('height', a, 1e-6).keys
+    masked = numpy.ma.masked_greater
+    for kind, words, surface, dx in (
+            (TypeError, 'dx=', [[0.0, 1e-7], [0.0, 1e-7]], None), (TypeError, 'dx=', a, None), (TypeError, 'is None', None, None),
+            (ValueError, 'shape', numpy.zeros((0, 3)), 1e-6), (ValueError, 'shape', numpy.zeros((2, 2, 2)), 1e-6), (ValueError, 'shape', [], 1e-6),
+            (TypeError, 'not a map', 3.0, 1e-6), (TypeError, 'not a map', numpy.float64(3), 1e-6), (TypeError, 'not a map', None, 1e-6),
+            (TypeError, 'dict', {'z': a}, 1e-6), (TypeError, 'not a map', b'RCG1', 1e-6), (TypeError, 'complex', a * 1j, 1e-6),
+            (TypeError, 'complex', masked(a, 1) * 1j, 1e-6), (TypeError, 'object', [[1.0, None]], 1e-6), (TypeError, 'object', a.astype(object), 1e-6),
+            (TypeError, 'not real numbers', masked(numpy.array([['1', '2']]), 'z'), 1e-6), (TypeError, 'object', [[2**70]], 1e-6),
+            ((TypeError, ValueError), '', [[1.0], [1.0, 2.0]], 1e-6), (TypeError, 'datetime64', a.astype('M8[s]'), 1e-6),
+            (TypeError, 'um', a.view(Quantity), 1e-6), (TypeError, 'um', [a.view(Quantity)], 1e-6),
+            (ValueError, 'do not fit', numpy.array([[2**53 + 1, 0]]), 1e-6), (ValueError, 'do not fit', numpy.array([[2**64 - 1]], 'u8'), 1e-6),
+            (ValueError, 'dx=', a, -1e-6), (ValueError, 'dx=', a, math.nan), (TypeError, 'neither', a, 1e-6j), (TypeError, '(dx, dy)', a, (1e-6, 1e-6, 'um')),
+            (TypeError, 'own', bad(), 1e-6), (TypeError, 'own', [bad()], 1e-6), (TypeError, 'number 2', [bad(), a], None),
+            (TypeError, 'number 1', iter([a]), None), (KeyError, 'my own', broken(), None),
+            (TypeError, 'not a map', bad(values=None), None), (TypeError, 'complex', bad(values=a * 1j), None), (ValueError, 'shape', bad(values=a[:0]), None),
+            (ValueError, 'key b', bad(keys={**keys, b'note': 'x'}), None), (ValueError, 'key None', bad(keys={**keys, None: 'x'}), None),
+            (ValueError, 'key', bad(keys={**keys, 'no\nte': 'x'}), None), (ValueError, 'must be a text', bad(keys={**keys, 'load': 1.0}), None),
+            (ValueError, 'must be a text', bad(keys={**keys, 'load': b'1'}), None), (ValueError, 'bytes', bad(keys={**keys, 'note': 'x' * 70000}), None),
+            (ValueError, '', bad(keys={**keys, 'note': '\ud800'}), None), (ValueError, 'without the key', bad(keys={'channel': 'height'}), None),
+            (ValueError, 'case', bad(keys={**keys, 'case': '0'}), None)):
+        error = timed(20, lambda: rcg.solve(surface, dx=dx, load=1e-6, estar=1e9, quiet=True))
+        assert isinstance(error, kind) and words in str(error), (surface, dx, error)
+        assert not isinstance(error, rcg.Error), 'the tool ran: %s' % error
+        assert not children(), children()
+    if numpy.finfo(numpy.longdouble).max > numpy.finfo(float).max:
+        assert 'do not fit' in str(timed(20, lambda: rcg.frame('height', numpy.array([[numpy.longdouble('1e400')]]), 1e-6)))
+    # rows with masks; views; other types, as heights: each arrives unchanged
+    wide = numpy.zeros((6, 8))
+    wide[::2, ::2] = a
+    hidden = numpy.ma.masked_equal(a, a[1, 1])
+    for values in (a, a.tolist(), tuple(map(tuple, a)), wide[::2, ::2], a[::-1].copy()[::-1], a.T.copy().T, a.astype('>f8'), a.astype('f4'), a.astype('>f4'),
+                   a[0], a[0].tolist(), numpy.matrix(a), list(hidden), hidden, (a * 1e9).astype('i8'), (a * 1e9).astype('u1'), a > 0):
+        sent = []
+        error = timed(20, lambda: sent.append(rcg.pick(values, dx=1e-6, crop='0,0,4,%d' % numpy.atleast_2d(numpy.ma.array(values)).shape[0]).height))
+        expected = numpy.atleast_2d(numpy.ma.array(values).astype(float).filled(numpy.nan))
+        assert error is None and numpy.array_equal(sent[0], expected, equal_nan=True), (values, error)
+    assert numpy.array_equal(rcg.pick((f for f in [bad()]), crop='0,0,4,3').height, a)
+    # what the tool is told, and what watches it
+    wanted = dict(load=1e-6, estar=1e9, quiet=True)
+    rough = rcg.synth('selfaffine', nx=128, dx='1um', hurst=0.8, rms_slope=0.1)
+    for kind, words, more in ((ValueError, 'timeout', {'timeout': -1}), (ValueError, 'timeout', {'timeout': math.nan}), (TypeError, '', {'timeout': '5'}),
+                              (TypeError, 'neither', {'load': 1j}), (TypeError, 'neither', {'load': b'1N'}), (TypeError, 'neither', {'load': [[1, 2]]}),
+                              (ValueError, 'null', {'load': '1\0'}), (TypeError, 'newton is no Pa', {'estar': Measured()}),
+                              (ZeroDivisionError, '', {'progress': lambda said: 1 / 0, 'load': '1N:60N:300', 'quiet': False})):
+        error = timed(20, lambda: rcg.solve(rough, **{**wanted, **more}))
+        assert isinstance(error, kind) and words in str(error) and not children(), (more, error)
+
+
+# ---- several processes ----
+
+def same(a, b):
+    return rcg.dumps(a.frames) == rcg.dumps(b.frames) and repr(a) == repr(b) and (a.report, a.warnings, a.command) == (b.report, b.warnings, b.command)
+
+
+def pickles(name):
+    """Results, frames, errors and warnings can be pickled and copied."""
+    whole = rcg.read(name)[0]
+    solved = rcg.solve(name, load='0.5N', estar='114GPa', quiet=True)
+    short = raised(rcg.NotConverged, rcg.solve, rcg.synth('selfaffine', nx=64, dx='1um', hurst=0.8, rms_height='100nm', seed=5),
+                   periodic=True, load='0.1N', estar='100GPa', tol=1e-17)
+    wrong = raised(rcg.Error, rcg.solve, name, load='1K', estar='1GPa')
+    warned = rcg.ToolWarning('loud', 'rc-solve')
+    for copied in [copy.copy, copy.deepcopy] + [lambda thing, p=p: pickle.loads(pickle.dumps(thing, p)) for p in range(pickle.HIGHEST_PROTOCOL + 1)]:
+        again = copied(solved)
+        assert same(again, solved) and type(again) is rcg.Result and rcg.dumps(again.frames) == b''.join(again.stream())
+        assert same(copied(solved.cases[0]), solved.cases[0])
+        other = copied(whole)
+        assert rcg.dumps(other) == rcg.dumps(whole) and type(other) is rcg.Frame
+        other = copied(short)
+        assert type(other) is rcg.NotConverged and str(other) == str(short) and other.status == 3 and same(other.result, short.result)
+        assert rcg.dumps(other.frames) == rcg.dumps(short.frames) and other.lines == short.lines
+        other = copied(wrong)
+        assert type(other) is rcg.Error and (str(other), other.status, other.frames, other.lines) == (str(wrong), 2, [], [])
+        other = copied(warned)
+        assert (type(other), str(other), other.tool) == (rcg.ToolWarning, 'loud', 'rc-solve')
+        assert type(copied(rcg.tools.Picture(b'x'))) is rcg.Picture and type(copied(rcg.tools.Page('x'))) is rcg.Page
+    deep = copy.deepcopy(solved)
+    deep.pressure[:] = 0
+    assert solved.pressure.max() > 0
+
+
+def pool(count):
+    """A pool of four processes solves the maps that one process solves, and raises what the tools raise."""
+    maps = [rcg.synth('selfaffine', nx=32, dx='1um', hurst=0.8, rms_height='50nm', seed=seed) for seed in range(1, int(count) + 1)]
+    solve = functools.partial(rcg.solve, periodic=True, mean_pressure='100MPa', estar='100GPa', quiet=True)
+    alone = [solve(surface) for surface in maps]
+    for method in ('fork', 'spawn'):
+        with concurrent.futures.ProcessPoolExecutor(4, mp_context=multiprocessing.get_context(method)) as workers:
+            for one, other in zip(workers.map(solve, maps), alone):
+                assert rcg.dumps(one.frames) == rcg.dumps(other.frames) and one.load == other.load
+            error = workers.submit(solve, maps[0], tol=1e-17).exception(60)
+            assert isinstance(error, rcg.NotConverged) and error.result.pressure.shape == (32, 32), error
+            error = workers.submit(solve, maps[0], estar='1K').exception(60)
+            assert type(error) is rcg.Error and 'unknown unit' in str(error), error
+    with multiprocessing.Pool(4) as workers:
+        assert [rcg.dumps(one.frames) for one in workers.map(solve, maps)] == [rcg.dumps(one.frames) for one in alone]
+
+
+if __name__ == '__main__':  # not in the processes of a pool
+    globals()[sys.argv[1]](*sys.argv[2:])
