@@ -1423,7 +1423,7 @@ struct rc_heat_figures {
     double peclet_1, peclet_2, cell_peclet_1, cell_peclet_2;
     double max_temperature;  /* K above the bulk of body 1             */
     double max_x, max_y;     /* its place, m                           */
-    double mean_temperature; /* K above the bulk of body 1, in contact */
+    double mean_temperature; /* K above the bulk of body 1, in contact; of the hotter body */
     /* The largest difference of the temperatures in contact, over the largest rise of a body above its
      * bulk. */
     double mismatch;

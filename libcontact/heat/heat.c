@@ -64,7 +64,7 @@ const struct rc_figure rc_figures_heat[] = {
     {FIGURE(max_temperature), "K", "Largest temperature", .says = "above the bulk of body 1"},
     {FIGURE(max_x), "m", "Place of the largest temperature along x"},
     {FIGURE(max_y), "m", "Place of the largest temperature along y"},
-    {FIGURE(mean_temperature), "K", "Mean temperature in contact"},
+    {FIGURE(mean_temperature), "K", "Mean temperature in contact", .says = "of the hotter body"},
     {FIGURE(mismatch), NULL, "Mismatch of the temperatures",
      .says = "largest difference of the bodies over the largest rise", .role = RC_FIGURE_ERROR,
      .by = "tol"},
@@ -354,7 +354,7 @@ finish(struct rc_heat *h)
     const struct rc_shape *s = &h->shape;
     const size_t nodes = s->nx * s->ny;
     struct rc_heat_figures *f = &h->figures;
-    double sum = 0, most = -INFINITY, differs = 0;
+    double sum[2] = {0, 0}, most = -INFINITY, differs = 0;
     size_t hottest = 0;
 
     for (size_t k = 0; k < nodes; k++)
@@ -371,7 +371,8 @@ finish(struct rc_heat *h)
     for (size_t i = 0; i < h->n; i++) {
         const size_t k = h->node[i];
         const double one = h->rise[0][k], two = h->rise[1][k] + h->drop;
-        sum += (one + two) / 2;
+        sum[0] += one;
+        sum[1] += two;
         differs = fmax(differs, fabs(one - two));
         if (fmax(one, two) > most) {
             most = fmax(one, two);
@@ -381,7 +382,7 @@ finish(struct rc_heat *h)
     f->max_temperature = most;
     f->max_x = ((double)(hottest % s->nx) - (double)(s->nx - 1) / 2) * s->dx;
     f->max_y = ((double)(hottest / s->nx) - (double)(s->ny - 1) / 2) * s->dy;
-    f->mean_temperature = sum / (double)h->n;
+    f->mean_temperature = fmax(sum[0], sum[1]) / (double)h->n;
     f->hot_nodes = row_of_nodes(h, hottest);
     f->heat_power_1 = rc_sum(h->flux[0], nodes) * s->dx * s->dy;
     f->share_1 = f->heat_power != 0 ? f->heat_power_1 / f->heat_power : NAN;

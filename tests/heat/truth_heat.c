@@ -391,13 +391,40 @@ disc(void **state)
     rc_heat_free(h);
 }
 
+/* The mean of a uniform square of half side a at rest is 4 q a/(3 pi k) [3 ln(1 + r) + 1 - r], r = sqrt(2):
+ * 0.946 q a/k (Jaeger 1942). All heat goes into one body, and the other stays cold. */
+static void
+mean_of_square(void **state)
+{
+    static struct source s;
+    const struct rc_shape shape = {N, N, 1, 1};
+    const double root = sqrt(2), truth = 4 * (3 * log(1 + root) + 1 - root) / (3 * RC_PI);
+    (void)state;
+
+    make_source(0, &s);
+    for (int into = 0; into < 2; into++) {
+        const struct rc_heat_problem problem = {.body = {{1, 1, {0, 0}, 0}, {1, 1, {0, 0}, 0}},
+                                                .partition = RC_HEAT_SHARE,
+                                                .share = into == 0,
+                                                .threads = 1};
+        struct rc_err err = {""};
+        struct rc_heat *h = rc_heat_new(&shape, &problem, s.q, NULL, &err);
+
+        if (h == NULL)
+            fail_msg("%s", err.text);
+        assert_int_equal(rc_heat_step(h, &err), RC_OK);
+        near(rc_heat_result(h)->mean_temperature / s.half, truth, 1e-3 * truth, "mean of a square");
+        rc_heat_free(h);
+    }
+}
+
 int
 main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(coefficients), cmocka_unit_test(ended), cmocka_unit_test(balance),
-        cmocka_unit_test(symbols),      cmocka_unit_test(table), cmocka_unit_test(band),
-        cmocka_unit_test(disc),
+        cmocka_unit_test(coefficients), cmocka_unit_test(ended),          cmocka_unit_test(balance),
+        cmocka_unit_test(symbols),      cmocka_unit_test(table),          cmocka_unit_test(band),
+        cmocka_unit_test(disc),         cmocka_unit_test(mean_of_square),
     };
 
     return cmocka_run_group_tests(tests, set_rule, NULL);
