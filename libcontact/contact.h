@@ -1419,7 +1419,9 @@ struct rc_heat_problem {
  * patch; for a cell it is the side of the cell along the motion. */
 struct rc_heat_figures {
     double heat_power, heat_power_1;           /* W: of the contact, into body 1               */
-    double share_1, share_blok, share_charron; /* of body 1; NAN: no heat                      */
+    /* Of body 1. NAN: no heat; share_1 also where bulk temperatures drive more heat from body to body than
+     * the contact has. */
+    double share_1, share_blok, share_charron;
     double peclet_1, peclet_2, cell_peclet_1, cell_peclet_2;
     double max_temperature;  /* K above the bulk of body 1             */
     double max_x, max_y;     /* its place, m                           */

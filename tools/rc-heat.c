@@ -24,8 +24,8 @@ static const char *const partitions[] = {
 #define ABOVE_0 .min = 0, .max = INFINITY, .above = true, .result = true
 /* clang-format off */
 static const struct opt opts[] = {
-    {.name = "mu", .type = OPT_NUMBER, AT(mu), ABOVE_0, .arg = "COEFFICIENT",
-     .help = "coefficient of friction: the heat is mu times pressure times speed"},
+    {.name = "mu", .type = OPT_NUMBER, AT(mu), .min = 0, .max = INFINITY, .result = true,
+     .arg = "COEFFICIENT", .help = "coefficient of friction: the heat is mu times pressure times speed"},
     {.name = "frequency", .type = OPT_NUMBER, .unit = UNIT_HZ, AT(frequency), ABOVE_0, .arg = "F",
      .help = "cycles per second: heat from the frames dissipation of rc-slip, summed over the cases"},
     {.name = "speed", .type = OPT_NUMBERS, .unit = UNIT_SPEED, AT(speed), .min = -INFINITY,
@@ -137,9 +137,19 @@ read_source(struct run *run)
 
     if (friction && cycles)
         tool_usage(t, "--mu and --frequency are two sources of heat: give one of them");
-    if (friction && run->speed == 0)
-        tool_usage(t, "the bodies do not slide, so that friction makes no heat: give a speed with "
-                      "--speed, as in --speed 1m/s");
+    if (friction && run->speed * args.mu == 0 &&
+        run->problem.body[0].bulk == run->problem.body[1].bulk)
+        tool_usage(t,
+                   "%s, so that friction makes no heat, and the bodies have the same bulk "
+                   "temperature: give %s, or two temperatures with --bulk",
+                   run->speed == 0 ? "the bodies do not slide" : "--mu is 0",
+                   run->speed == 0 ? "a speed with --speed, as in --speed 1m/s"
+                                   : "a coefficient above 0");
+    if (friction && run->speed * args.mu == 0 && run->problem.partition != RC_HEAT_MATCHED)
+        tool_usage(t,
+                   "--partition %s shares the heat of friction, and there is none: leave it out, "
+                   "for the heat between the bulk temperatures",
+                   args.partition);
     run->channel = friction ? "pressure" : cycles ? "dissipation" : "heat";
 }
 
@@ -192,15 +202,15 @@ read_options(struct run *run)
     p->tol = args.tol;
     p->threads = t->threads;
     read_motion(run);
-    read_source(run);
     read_partition(run);
+    read_source(run);
 }
 
 /* ---- a case ---- */
 
-/* Turns the main frame into heat flux: friction times speed, or energy a cycle times frequency. */
-static void
-find_heat(struct run *run, struct rc_grid *g)
+/* Checks the main frame. Its heat flux is the values times this factor: friction times speed, or frequency. */
+static double
+heat_factor(struct run *run, const struct rc_grid *g)
 {
     const bool friction = tool_given(&run->t, "mu");
     const char *unit = friction ? "Pa" : tool_given(&run->t, "frequency") ? "J/m2" : "W/m2";
@@ -224,8 +234,8 @@ find_heat(struct run *run, struct rc_grid *g)
                 "pressure %g Pa at column %zu, row %zu: friction of bodies that attract each "
                 "other is not implemented: give the heat in a frame heat",
                 g->v[k], k % g->nx, k / g->nx);
-        g->v[k] *= factor;
     }
+    return factor;
 }
 
 /* Adds the nodes in contact of a case, and those that slipped in a cycle. */
@@ -259,12 +269,12 @@ next_heat(struct run *run)
     if (tool_given(&run->t, "mu"))
         beside[1] = beside[2];
     while ((g = tool_channel_with(&run->t, run->channel, tool_take_frames, beside)) != NULL) {
-        find_heat(run, g);
+        const double factor = heat_factor(run, g);
         if (sum != NULL)
             tool_demand_grid_of(&run->t, g, sum);
         add_contact(run, g);
-        for (size_t k = 0; k < rc_grid_nodes(g) && sum != NULL; k++)
-            g->v[k] += sum->v[k];
+        for (size_t k = 0; k < rc_grid_nodes(g); k++)
+            g->v[k] = factor * g->v[k] + (sum != NULL ? sum->v[k] : 0);
         rc_grid_free(sum);
         tool_free_frames(beside);
         sum = g;

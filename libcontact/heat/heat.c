@@ -53,7 +53,8 @@ struct rc_heat {
 const struct rc_figure rc_figures_heat[] = {
     {FIGURE(heat_power), "W", "Heat", .says = "of the contact"},
     {FIGURE(heat_power_1), "W", "Heat into body 1"},
-    {FIGURE(share_1), NULL, "Share of body 1"},
+    {FIGURE(share_1), NULL, "Share of body 1",
+     .says = "none where more heat crosses between bulk temperatures than the contact has"},
     {FIGURE(share_blok), NULL, "Share of body 1 of Blok",
      .says = "one number, for equal largest temperatures"},
     {FIGURE(share_charron), NULL, "Share of body 1 without motion"},
@@ -347,6 +348,17 @@ row_of_nodes(struct rc_heat *h, size_t k)
     return last - first + 1;
 }
 
+/* The share of body 1. Between bodies of different bulk temperatures more heat may cross than the contact
+ * has; it is then no share. */
+static double
+share_of(const struct rc_heat *h)
+{
+    const struct rc_heat_figures *f = &h->figures;
+    const double share = f->heat_power != 0 ? f->heat_power_1 / f->heat_power : NAN;
+
+    return h->drop == 0 || (share >= 0 && share <= 1) ? share : NAN;
+}
+
 /* Keeps the heat in flux[0] of this time step; finds temperatures and figures at its end. */
 static void
 finish(struct rc_heat *h)
@@ -385,7 +397,7 @@ finish(struct rc_heat *h)
     f->mean_temperature = fmax(sum[0], sum[1]) / (double)h->n;
     f->hot_nodes = row_of_nodes(h, hottest);
     f->heat_power_1 = rc_sum(h->flux[0], nodes) * s->dx * s->dy;
-    f->share_1 = f->heat_power != 0 ? f->heat_power_1 / f->heat_power : NAN;
+    f->share_1 = share_of(h);
     f->mismatch = fmax(h->worst, differs / h->scale);
     f->iterations = h->earlier + h->steps;
     f->convolutions = h->c->count;
@@ -561,7 +573,7 @@ share_heat(struct rc_heat *h)
                                                  : h->problem.share;
 
     for (size_t k = 0; k < h->n; k++)
-        h->flux[0][h->node[k]] = share * h->q[h->node[k]];
+        h->flux[0][h->node[k]] = h->q[h->node[k]] != 0 ? share * h->q[h->node[k]] : 0;
 }
 
 enum rc_status

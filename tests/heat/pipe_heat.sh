@@ -50,6 +50,20 @@ between 1.004 "$(awk "BEGIN { print $(column max_temperature t16.tsv) / $(column
 claim "degrees Celsius" test "$(rc-heat --quiet --speed 1 $steel --bulk 20degC,25degC --report - given.rcg | sed 's/.*max_temp/max_temp/; s/"seconds.*//')" = \
     "$(rc-heat --quiet --speed 1 $steel --bulk 293.15,298.15 --report - given.rcg | sed 's/.*max_temp/max_temp/; s/"seconds.*//')"
 
+# like bodies that move alike past the contact: by symmetry both surfaces are half-way between the bulks
+for mu in 0.3 0; do
+    rc-heat --quiet --mu $mu --moving 30m/s,30m/s --bulk 0,150 $steel --tol 1e-6 --report t.json -o rolling.rcg ball.rcg
+    near "$(field max_temperature t.json)" 75 1e-6 "bodies of two bulk temperatures roll without sliding, mu $mu: the largest temperature"
+    near "$(field mean_temperature t.json)" 75 1e-6 "  the mean"
+    claim "  no heat, and no share of it" test "$(field heat_power t.json) $(field share_1 t.json)" = "0 null"
+done
+crossing=$(field heat_power_1 t.json)
+rc-heat --quiet --mu 0.3 --moving 30m/s,30.0001m/s --bulk 0,150 $steel --tol 1e-6 --report t.json -o rolling.rcg ball.rcg
+near "$(field heat_power_1 t.json)" "$crossing" 1e-4 "  at a small slip the same heat crosses"
+claim "    and is no share of the heat of friction" test "$(field share_1 t.json)" = null
+between 0 "$(rc-heat --quiet --mu 0.3 --moving 1m/s,40m/s --bulk 0,1 $steel --report - ball.rcg >t.json && field share_1 t.json)" 1 \
+    "    at a large one it is"
+
 rc-synth sphere --nx 32 --dx 10um --radius 7.5mm | rc-solve --quiet --load 50N --E1 210GPa --nu1 0.3 --E2 70GPa --nu2 0.3 -o pressed.rcg
 rc-slip --quiet --mu 0.3 --coupling goodman --path '50N,0,0; 50N,8N,0; 50N,-8N,0; 50N,8N,0' --output pressure,dissipation --report loop.tsv -o loop.rcg pressed.rcg
 rc-pick --case 3,4 loop.rcg | rc-heat --frequency 50Hz $steel --report t.tsv -o fretting.rcg
@@ -70,6 +84,8 @@ rc-synth sphere --nx 16 --dx 20um --radius 1mm | rc-solve --quiet --estar 114GPa
 refuses 2 "must be above 0" "negative conductivity" "rc-heat --mu 0.3 --speed 1 --conductivity -45,45 --diffusivity 1e-5,1e-5 ball.rcg"
 refuses 2 "must be above 0" "no diffusivity" "rc-heat --mu 0.3 --speed 1 --conductivity 45,45 --diffusivity 0,1e-5 ball.rcg"
 refuses 2 "do not slide" "equal speeds" "rc-heat --mu 0.3 --moving 2,2 $steel ball.rcg"
+refuses 2 "mu is 0" "no friction" "rc-heat --mu 0 --moving 2,1 --bulk 7,7 $steel ball.rcg"
+refuses 2 "there is none: leave it out" "a share of no heat" "rc-heat --mu 0 --moving 2,2 --bulk 7,8 --partition blok $steel ball.rcg"
 refuses 2 "two sources of heat" "friction and cycles" "rc-heat --mu 0.3 --speed 1 --frequency 5 $steel ball.rcg"
 refuses 2 "from 0 to 1" "a share above 1" "$heat --partition 1.5 ball.rcg"
 refuses 2 "needs --time" "time steps of a steady state" "$heat --time-steps 4 ball.rcg"
