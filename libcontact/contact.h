@@ -1446,11 +1446,11 @@ RC_API enum rc_status rc_heat_expect(const struct rc_shape *shape,
                                      struct rc_expected *expected, struct rc_err *err);
 /* Temperatures of the surfaces of two half-spaces due to the heat flux q of their contact, nx ny W/m2
  * (Jaeger 1942, J. Proc. R. Soc. N.S.W. 76, 203). They are exact at all speeds for a flux that is
- * constant in each cell, and on a periodic map for a band-limited flux. A profile (ny = 1) continues
- * along y without end. rc_in_contact finds the contact from `contact`, a pressure or a map of 1 and 0;
- * with NULL, contact is where q is not 0. Heat can flow from body to body only in contact. NULL when q is
- * not finite, or is not 0 out of contact; when no node is in contact; when there is no steady state
- * (periodic maps, profiles with a body at rest); or when memory is short. The maps are copied. */
+ * constant in each cell, and on a periodic map for a band-limited flux. A profile, which has one row or one
+ * column, continues across without end. rc_in_contact finds the contact from `contact`, a pressure or a map
+ * of 1 and 0; with NULL, contact is where q is not 0. Heat can flow from body to body only in contact. NULL
+ * when q is not finite, or is not 0 out of contact; when no node is in contact; when there is no steady state
+ * (periodic maps, profiles along which a body does not move); or when memory is short. The maps are copied. */
 RC_API struct rc_heat *rc_heat_new(const struct rc_shape *shape,
                                    const struct rc_heat_problem *problem, const double *q,
                                    const double *contact, struct rc_err *err);

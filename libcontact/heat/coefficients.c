@@ -70,7 +70,8 @@ panel_end(double from, double p, double first)
 static void
 add_panels(struct rc_heat_cells *c, const struct rc_shape *s, const struct rc_heated *b)
 {
-    const double p = hypot(b->px, b->py), side = s->ny > 1 ? fmin(s->dx, s->dy) : s->dx;
+    const double p = hypot(b->px, b->py);
+    const double side = s->ny == 1 ? s->dx : s->nx == 1 ? s->dy : fmin(s->dx, s->dy);
     const double r = hypot(hypot((double)s->nx * s->dx, (double)s->ny * s->dy), b->depth);
     double end =
         p > 0 ? (reach + 0.5 + sqrt((reach + 0.5) * (reach + 0.5) + 2 * p * r)) / p : 2 * r;
@@ -165,7 +166,7 @@ rc_heat_cells_new(const struct rc_shape *s, const struct rc_heated *b, struct rc
             const double z = b->depth / c->tau[k];
             c->w[k] *= exp(-z * z) / (b->k * sqrt(RC_PI));
         }
-        if (factor_new(&c->x, c, s->nx, s->dx, b->px) &&
+        if (factor_new(&c->x, c, s->nx, s->dx, s->nx > 1 ? b->px : 0) &&
             factor_new(&c->y, c, s->ny, s->dy, s->ny > 1 ? b->py : 0))
             return rc_give(&c);
     }

@@ -79,6 +79,16 @@ const struct rc_figure rc_figures_heat[] = {
 
 /* ---- the problem ---- */
 
+/* True if a body has a steady state: a map, or a profile (a row or a column) along which material comes.
+ * A single node is a plane without edge. */
+static bool
+is_cooled(const struct rc_shape *shape, const double velocity[2])
+{
+    const bool row = shape->ny == 1, column = shape->nx == 1;
+
+    return (!row && !column) || (!column && velocity[0] != 0) || (!row && velocity[1] != 0);
+}
+
 enum rc_status
 rc_heat_check(const struct rc_shape *shape, const struct rc_heat_problem *p, struct rc_err *err)
 {
@@ -95,10 +105,10 @@ rc_heat_check(const struct rc_shape *shape, const struct rc_heat_problem *p, str
         if (!isfinite(body->velocity[0]) || !isfinite(body->velocity[1]) || !isfinite(body->bulk))
             return rc_err_set(err, "velocity or bulk temperature of body %d is not a number",
                               b + 1);
-        if (shape->ny == 1 && p->boundary == RC_FREE && !(p->time > 0) && body->velocity[0] == 0)
+        if (p->boundary == RC_FREE && !(p->time > 0) && !is_cooled(shape, body->velocity))
             return rc_err_set(err,
-                              "body %d stands still, and a profile has no end along y: it becomes "
-                              "warmer without end: give a time",
+                              "body %d does not move along the profile, which has no end across: "
+                              "it becomes warmer without end: give a time",
                               b + 1);
     }
     if (!(p->time >= 0) || isinf(p->time))
@@ -122,7 +132,7 @@ heated(const struct rc_heat *h, int b, double depth, size_t lag)
 
     return (struct rc_heated){
         .k = body->conductivity,
-        .px = body->velocity[0] / (2 * body->diffusivity),
+        .px = h->shape.nx == 1 ? 0 : body->velocity[0] / (2 * body->diffusivity),
         .py = h->shape.ny == 1 ? 0 : body->velocity[1] / (2 * body->diffusivity),
         .diffusion = time > 0 ? 2 * sqrt(body->diffusivity * time * (double)(lag + 1)) : INFINITY,
         .ended = 2 * sqrt(body->diffusivity * time * (double)lag),

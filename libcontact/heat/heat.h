@@ -27,8 +27,8 @@ struct rc_heated {
 /* ---- coefficients.c: temperatures of cells ---- */
 
 struct rc_heat_cells;
-/* Coefficients of cells of this shape, for offsets up to nx - 1 and ny - 1 nodes. With ny = 1 they are
- * those of strips without end along y. NULL when memory is short. */
+/* Coefficients of cells of this shape, for offsets up to nx - 1 and ny - 1 nodes. With nx = 1 or ny = 1 they
+ * are those of strips without end along x or y. NULL when memory is short. */
 struct rc_heat_cells *rc_heat_cells_new(const struct rc_shape *offsets,
                                         const struct rc_heated *body, struct rc_err *err);
 void rc_heat_cells_free(struct rc_heat_cells *cells); /* NULL is allowed */

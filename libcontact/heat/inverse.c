@@ -25,24 +25,24 @@ struct rc_heat_inverse {
 
 struct decrease {
     struct rc_heat_waves body[2];
-    bool line; /* a profile */
+    bool row, column; /* a profile along x, along y */
 };
 
-/* The power a of the decrease C ~ q^-a, a mean over both directions. */
+/* The power a of the decrease C ~ q^-a, a mean over the directions. */
 static double
 power(const void *of, double q)
 {
     const struct decrease *d = of;
     double mean = 0;
 
-    for (int y = 0; y < (d->line ? 1 : 2); y++) {
+    for (int y = d->column; y < (d->row ? 1 : 2); y++) {
         double size[2];
         for (int k = 0; k < 2; k++) {
             const double x = y == 0 ? (1 + k) * q : 0, across = y == 0 ? 0 : (1 + k) * q;
             size[k] = cabs(rc_heat_symbol(&d->body[0], x, across) +
                            rc_heat_symbol(&d->body[1], x, across));
         }
-        mean += log2(size[0] / size[1]) / (d->line ? 1 : 2);
+        mean += log2(size[0] / size[1]) / (d->row || d->column ? 1 : 2);
     }
     return mean;
 }
@@ -83,7 +83,8 @@ rc_heat_inverse_new(struct rc_conduction *c, const struct rc_heated bodies[2], s
     RC_OWN(rc_heat_inverse, e) = calloc(1, sizeof *e);
     const struct decrease decrease = {
         .body = {rc_heat_waves_of(&bodies[0]), rc_heat_waves_of(&bodies[1])},
-        .line = c->shape.ny == 1};
+        .row = c->shape.ny == 1,
+        .column = c->shape.nx == 1 && c->shape.ny > 1};
     struct rc_pyramid_base base = {
         .shape = c->shape, .count = 1, .round = c->boundary == RC_PERIODIC, .threads = c->threads};
 

@@ -156,6 +156,51 @@ periodic(void **state)
     }
 }
 
+/* A column is a row that is turned: motion along it cools, motion across it does nothing. Without motion along
+ * it a profile has no steady state, and a single node, a plane without edge, never has one. */
+static void
+column(void **state)
+{
+    const struct rc_shape row = {N, 1, 1e-6, 3e-6}, turned = {1, N, 3e-6, 1e-6},
+                          node = {1, 1, 1, 1};
+    struct rc_err err = {""};
+    (void)state;
+
+    set_heat();
+    for (int k = 0; k < 3; k++) {
+        struct rc_heat_problem along = steel(k == 0 ? 0.3 : k == 1 ? 30 : 0), across;
+        struct rc_heat *a, *b;
+
+        along.body[0].velocity[0] = k == 2 ? 0 : -0.1;
+        along.time = k == 2 ? 1e-5 : 0;
+        along.tol = 1e-10;
+        across = along;
+        for (int i = 0; i < 2; i++) {
+            across.body[i].velocity[1] = across.body[i].velocity[0];
+            across.body[i].velocity[0] = along.body[i].velocity[1] = 1 + i;
+        }
+        a = run(&row, &along, q + (size_t)(25 * N), NULL);
+        b = run(&turned, &across, q + (size_t)(25 * N), NULL);
+        for (int i = 0; i < N; i++)
+            near(rc_heat_flux(b, 0)[i], rc_heat_flux(a, 0)[i], 1e-7 * 1e9, "heat of a column");
+        near(rc_heat_result(b)->max_temperature, rc_heat_result(a)->max_temperature,
+             1e-9 * rc_heat_result(a)->max_temperature, "temperature of a column");
+        rc_heat_free(a);
+        rc_heat_free(b);
+        if (k == 2)
+            continue;
+        along.body[0].velocity[0] = across.body[1].velocity[1] = 0;
+        assert_null(rc_heat_new(&row, &along, q + (size_t)(25 * N), NULL, &err));
+        assert_null(rc_heat_new(&turned, &across, q + (size_t)(25 * N), NULL, &err));
+        assert_non_null(strstr(err.text, "give a time"));
+    }
+    for (int k = 0; k < 2; k++) {
+        struct rc_heat_problem problem = steel(1);
+        problem.body[0].velocity[0] = problem.body[k].velocity[1] = 1;
+        assert_null(rc_heat_new(&node, &problem, &q[20 + 25 * N], NULL, &err));
+    }
+}
+
 /* ---- partition ---- */
 
 /* Without motion each node gives body 1 the share k1/(k1 + k2); heat is conserved. */
