@@ -35,7 +35,7 @@ static const struct opt opts[] = {
      .help = "instead of the force: displacement of body 2 over body 1"},
     {.name = "path", .type = OPT_TEXT, AT(path), .result = true, .arg = "P,FX,FY;...",
      .help = "loads and forces, each a case, starting separated: '240N,0,0; 240N,40N,0'"},
-    {.name = "history", .type = OPT_TEXT, AT(history), .arg = "FILE",
+    {.name = "history", .type = OPT_TEXT, AT(history), .result = true, .arg = "FILE",
      .help = "the same path from a file with lines of load, force along x, force along y"},
     {.name = "creep", .type = OPT_NUMBERS, AT(creep), .min = -INFINITY, .max = INFINITY,
      .result = true, .arg = "XI,ETA[,SPIN]",
@@ -126,13 +126,16 @@ check_arguments(struct slip_run *run)
 int
 main(int argc, char **argv)
 {
+    static const char *const reads[] = {"boundary", "estar", "e1",       "nu",
+                                        "e2",       "nu2",   "window_x", NULL};
     static struct slip_run run = {
-        .d = {.args = &args.drive, .output = &args.output, .list = slip_frames}};
+        .d = {.args = &args.drive, .output = &args.output, .list = slip_frames, .reads = reads}};
     struct tool_frame beside[] = {
         {"gap", &run.gap}, {"height", &run.height}, {CONTACT_CHANNEL, &run.contact}, {NULL, NULL}};
 
     tool_start(&run.d.t, &info, argc, argv, &args);
     check_arguments(&run);
+    run.d.beside = beside;
     drive_open(&run.d, NULL);
     while (tool_interrupted() == 0 &&
            (run.p = tool_channel_with(&run.d.t, "pressure", tool_take_frames, beside)) != NULL) {

@@ -157,18 +157,29 @@ check_arguments(struct run *run)
 int
 main(int argc, char **argv)
 {
-    static struct run run = {
-        .d = {.args = &args.drive, .output = &args.output, .list = solve_frames}};
-    struct rc_grid *hardness;
+    /* Values of lists are points; with another tolerance the iteration continues. */
+    static const char *const changeable[] = {"tol",   "load",   "mean-pressure", "approach", "time",
+                                             "speed", "travel", "passes",        "pull-off", NULL};
+    static const char *const reads[] = {"periodic", HEIGHT_ERROR, NULL};
+    static struct run run = {.d = {.args = &args.drive,
+                                   .output = &args.output,
+                                   .list = solve_frames,
+                                   .reads = reads,
+                                   .changeable = changeable}};
+    const struct tool_frame beside[] = {
+        {"hardness", &run.hardness}, {"counter", &run.travelling.counter}, {NULL, NULL}};
 
     tool_start(&run.d.t, &info, argc, argv, &args);
     check_arguments(&run);
+    run.d.beside = beside;
+    if (run.yielding.wanted) /* the increments share the tolerance */
+        run.d.changeable = changeable + 1;
     drive_open(&run.d, NULL);
     while (tool_interrupted() == 0 &&
-           (run.g = tool_channel_beside(&run.d.t, "height", "hardness", &hardness)) != NULL) {
-        solve_case(&run, hardness);
+           (run.g = tool_channel_beside(&run.d.t, "height", "hardness", &run.hardness)) != NULL) {
+        solve_case(&run);
         rc_grid_free(run.g);
-        rc_grid_free(hardness);
+        rc_grid_free(run.hardness);
     }
     return drive_close(&run.d);
 }

@@ -88,6 +88,7 @@ struct run {
     double k[2];                /* 1/Pa: of the options                                */
     struct rc_grid *map[MAPS];  /* of the case; NULL: none                             */
     struct tool_frame beside[MAPS + 1]; /* their channels */
+    struct tool_frame maps[MAPS + 2];   /* and body 2     */
     double *part;                       /* k of each node over the largest one; NULL: 1        */
     struct rc_grid *counter;            /* heights of body 2; NULL: smooth                     */
 };
@@ -272,7 +273,6 @@ multiply(struct run *run, const struct rc_grid *map, double scale)
         run->part[k] =
             map->v[k] / scale *
             (run->map[COEFFICIENT] == NULL || map == run->map[COEFFICIENT] ? 1 : run->part[k]);
-    run->d.maps = rc_crc32_add(run->d.maps, map->v, n * sizeof *map->v);
 }
 
 /* The law of the case, from the options and its maps. */
@@ -297,7 +297,6 @@ find_law(struct run *run, const struct rc_grid *g)
                         ? "it has a frame slip, the path of a cycle: give --cycles"
                         : "--cycles needs a frame slip, the path of a cycle, as "
                           "rc-slip --output height,slip writes it");
-    run->d.maps = 0;
     memcpy(run->law.k, run->k, sizeof run->k);
     if (run->map[COEFFICIENT] != NULL)
         multiply(run, run->map[COEFFICIENT],
@@ -378,7 +377,6 @@ add_counter(struct run *run, const struct rc_grid *g)
         tool_refuse(t, g, "--motion sliding with a hardness is not implemented");
     physics_counter_beside(t, args.counter, run->counter, g, true);
     run->law.h2 = run->counter->v;
-    run->d.maps = rc_crc32_add(run->d.maps, run->counter->v, rc_grid_nodes(g) * sizeof *g->v);
     rc_measure(rc_shape_of(g), run->counter->v, &other);
     run->relief += other.maximum - other.minimum;
 }
@@ -617,15 +615,23 @@ main(int argc, char **argv)
                                         "steps",
                                         "convolutions",
                                         NULL};
+    static const char *const reads[] = {"boundary", "estar",    "layers", "e2",
+                                        "nu2",      "hardness", NULL};
     static struct run run = {.d = {.args = &args.drive,
                                    .output = &args.output,
                                    .list = frames,
                                    .tells = tells,
+                                   .beside = run.maps,
+                                   .reads = reads,
                                    .keys = set_keys,
                                    .course.stepped = put_step},
                              .beside = {{"wear-coefficient", &run.map[COEFFICIENT]},
                                         {"hardness", &run.map[HARD]},
-                                        {"slip", &run.map[SLIP]}}};
+                                        {"slip", &run.map[SLIP]}},
+                             .maps = {{"wear-coefficient", &run.map[COEFFICIENT]},
+                                      {"hardness", &run.map[HARD]},
+                                      {"slip", &run.map[SLIP]},
+                                      {"counter", &run.counter}}};
     struct rc_grid *g;
 
     tool_start(&run.d.t, &info, argc, argv, &args);

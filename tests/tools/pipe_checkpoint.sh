@@ -55,12 +55,14 @@ near "$(field approach near2.json)" "$(field approach near.json)" "$(awk 'BEGIN 
 cp kept.rcg other.rcg
 refuses 1 'the file exists.*--resume' "a checkpoint is not written over" \
     "$solve --load 0.1N --checkpoint other.rcg -o x.rcg rough.rcg"
-refuses 1 'another problem: checkpoint.load was 0.1, is 0.2' "that of another load" \
+refuses 1 'another problem: load was 0.1, is 0.2' "that of another load" \
     "$solve --load 0.2N --checkpoint other.rcg --resume -o x.rcg rough.rcg"
-refuses 1 'another problem: estar was 1000000000, is 2000000000' "of another modulus" \
+refuses 1 'another problem: --estar was 1000000000, is 2000000000' "of another modulus" \
     "rc-solve --periodic --estar 2GPa --load 0.1N --checkpoint other.rcg --resume -o x.rcg rough.rcg"
-refuses 1 'another problem: checkpoint.surface was [0-9a-f]{8}, is [0-9a-f]{8}$' "of other heights" \
+refuses 1 'another problem: --radius was not given, is 1$' "of another form" \
     "$solve --radius 1m --load 0.1N --checkpoint other.rcg --resume -o x.rcg rough.rcg"
+refuses 1 'another problem: frame height: the values differ$' "of other heights" \
+    "rc-pick --mirror x rough.rcg | $solve --load 0.1N --checkpoint other.rcg --resume -o x.rcg"
 refuses 1 'another grid, 200 x 150' "of another grid" \
     "rc-synth sphere --nx 20 --dx 1um --radius 1mm | $solve --load 0.1N --checkpoint other.rcg --resume -o x.rcg"
 refuses 1 'rough.rcg: a grid stream, but no checkpoint: name another' "a stream that is none" \

@@ -94,7 +94,7 @@ sed '$s/0[.]12/0.02/' long.txt >other.txt
 long='rc-slip --quiet --mu 0.3 --increments 1 --checkpoint long-kept.rcg -o long.rcg small.rcg'
 $long --history long.txt
 claim "the history of a long path is complete" bash -c "rc-info long.rcg | grep -c ';1,0.124055789012345,0 --increments 1'"
-refuses 1 'belongs to another problem: checkpoint.path' "  and another last corner is another path" "$long --resume --history other.txt"
+refuses 1 'belongs to another problem: --path was CRC-32 [0-9a-f]{8}, is CRC-32' "  and another last corner is another path" "$long --resume --history other.txt"
 rc-slip --quiet --mu 0.3 --path '100N,0,0; 240N,43.2N,0; 120N,20N,0; 0,0,0' --report grow.tsv -o grow.rcg ball.rcg
 near "$(column load 1 grow.tsv)" 100 1e-9 "loads change: contacts are solved on the way"
 rc-solve --quiet --load 100N $steel -o less.rcg sphere.rcg

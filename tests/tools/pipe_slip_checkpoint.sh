@@ -56,8 +56,8 @@ between 1 "$(work on.tsv)" "$(awk -v w="$(work straight.tsv)" 'BEGIN { print 0.9
 # ---- refusals ----
 
 refuses 1 'the file exists.*--resume' "a checkpoint is not written over" "$slip --checkpoint kept.rcg -o x.rcg alike.rcg"
-refuses 1 'belongs to another problem: friction was 0.3, is 0.2' "that of another coefficient" "${slip/0.3/0.2} --checkpoint kept.rcg --resume -o x.rcg alike.rcg"
-refuses 1 'belongs to another problem: checkpoint.pressure' "  of other bodies" "$slip --checkpoint kept.rcg --resume -o x.rcg rigid.rcg"
+refuses 1 'belongs to another problem: --mu was 0.3, is 0.2' "that of another coefficient" "${slip/0.3/0.2} --checkpoint kept.rcg --resume -o x.rcg alike.rcg"
+refuses 1 'belongs to another problem: key estar was' "  of other bodies" "$slip --checkpoint kept.rcg --resume -o x.rcg rigid.rcg"
 cp alike.rcg stream.rcg
 refuses 1 'a grid stream, but no checkpoint' "a stream that is none" "$slip --checkpoint stream.rcg --resume -o x.rcg alike.rcg"
 echo "notes of a user" >notes.txt

@@ -65,11 +65,11 @@ for row in 1 2 3 4 5; do
 done
 near "$(column pull_off_load 5 on.tsv)" "$(column pull_off_load 5 straight.tsv)" 2e-3 "  and so is the pull-off"
 between 0 "$(column iterations 2 on.tsv)" 3 "  what was there is not found again"
-refuses 1 'another problem: checkpoint.adhesion was 0.05,jkr,0, is 0.04,jkr,0' "a checkpoint of another attraction" \
+refuses 1 'another problem: --adhesion was 50mJ/m2,jkr, is 40mJ/m2,jkr' "a checkpoint of another attraction" \
     "$soft --adhesion 40mJ/m2,jkr --approach=-1um,2um --checkpoint half.rcg --resume ball.rcg -o y.rcg"
-refuses 1 'another problem: checkpoint.approach was -1e-06, is 1e-06' "  of none" \
+refuses 1 'another problem: --adhesion was 50mJ/m2,jkr, is not given' "  of none" \
     "$soft --approach 1um,2um --checkpoint half.rcg --resume ball.rcg -o y.rcg"
-refuses 1 'another problem: checkpoint.approach was -1e-06, is -2e-06' "  of another way" \
+refuses 1 'another problem: approach was -1e-06, is -2e-06' "  of another way" \
     "$soft --adhesion 50mJ/m2,jkr --approach=-2um,2um --checkpoint half.rcg --resume ball.rcg -o y.rcg"
 
 # ---- later tools ----

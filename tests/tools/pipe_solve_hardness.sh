@@ -72,8 +72,8 @@ claim "a history with a map keeps the shape" bash -c '
 solve --checkpoint state --output pressure case.rcg -o first.rcg
 claim "a run continues from its checkpoint" bash -c 'solve --checkpoint state --resume --output pressure case.rcg -o again.rcg && cmp first.rcg again.rcg'
 beside h.rcg even.rcg >other.rcg
-refuses 1 'checkpoint.hardness' "  but not under another map" "solve --checkpoint state --resume other.rcg -o /dev/null"
-refuses 1 'checkpoint.hardness' "  nor without one" "solve --checkpoint state --resume h.rcg -o /dev/null"
+refuses 1 'frame hardness: the values differ' "  but not under another map" "solve --checkpoint state --resume other.rcg -o /dev/null"
+refuses 1 'frame hardness was given, is not given' "  nor without one" "solve --checkpoint state --resume h.rcg -o /dev/null"
 
 # ---- refusals ----
 

@@ -33,9 +33,9 @@ claim "another run continues from it" bash -c "
     $rough --tol 1e-4 --report straight.json -o straight.rcg rough.rcg"
 near "$(tail -1 on.json | sed 's/.*"mean_settlement": \([^,]*\),.*/\1/')" \
     "$(tail -1 straight.json | sed 's/.*"mean_settlement": \([^,]*\),.*/\1/')" 1e-6 "to the same settlement"
-refuses 1 'another problem: tau was 2, is 3' "the state of another problem" \
+refuses 1 'another problem: --tau was 2, is 3' "the state of another problem" \
     "${rough/tau 2s/tau 3s} --checkpoint kept.rcg --resume -o x.rcg rough.rcg"
-refuses 1 'another problem: checkpoint.points' "the state of another history" \
+refuses 1 'another problem: load was 0.002, is 0.003' "the state of another history" \
     "${rough/1mN,2mN/1mN,3mN} --checkpoint kept.rcg --resume -o x.rcg rough.rcg"
 refuses 2 '--load has 2 values and --time 3: give lists of equal length' "lists of two lengths" \
     "${rough/1s,4s/1s,4s,5s} -o x.rcg rough.rcg"

@@ -425,6 +425,7 @@ json_option(struct json *json, const struct opt *o)
     json_words(json, o);
     json_bool(json, "only_words", o->type == OPT_CHOICE || o->type == OPT_WORDS);
     json_bool(json, "optional", o->optional);
+    json_bool(json, "result", o->result);
     json_bool(json, "repeats", o->type == OPT_TEXTS || o->type == OPT_STEP);
     json_text(json, "help", o->help);
     json_end(json, '}');

@@ -101,6 +101,27 @@ add_steps(struct line *line, const struct steps *steps)
     }
 }
 
+/* True if the option was given and changes the result. */
+static bool
+is_told(const struct tool *t, size_t k)
+{
+    return t->option.given[k] && t->option.row[k].result;
+}
+
+/* Adds an option with its value. All steps are in one list, in the order of the line. */
+static void
+add_option(struct line *line, const struct tool *t, const struct opt *o)
+{
+    const void *at = (const char *)t->args + o->at;
+
+    if (o->type == OPT_STEP || o->type == OPT_TEXTS) {
+        add_steps(line, at);
+        return;
+    }
+    add(line, " --", o->name);
+    add_value(line, o, at);
+}
+
 static void
 fill(struct tool *t, struct line *line)
 {
@@ -112,18 +133,10 @@ fill(struct tool *t, struct line *line)
     add(line, " ", rc_version());
     for (size_t k = 0; k < t->option.n; k++) {
         const struct opt *o = &t->option.row[k];
-        const void *at = (const char *)t->args + o->at;
-        if (!t->option.given[k] || !o->result)
-            continue;
-        if (o->type == OPT_STEP ||
-            o->type == OPT_TEXTS) { /* all such options are in one list, in the order of the line */
-            if (!steps_done)
-                add_steps(line, at);
-            steps_done = true;
-            continue;
-        }
-        add(line, " --", o->name);
-        add_value(line, o, at);
+        const bool step = o->type == OPT_STEP || o->type == OPT_TEXTS;
+        if (is_told(t, k) && !(step && steps_done))
+            add_option(line, t, o);
+        steps_done = steps_done || (step && is_told(t, k));
     }
 }
 
@@ -134,6 +147,21 @@ tool_history(struct tool *t)
 
     fill(t, &line);
     return line.text;
+}
+
+const char *
+tool_result_value(struct tool *t, size_t k)
+{
+    static struct line line = {.between = ' '};
+    const struct opt *o = &t->option.row[k];
+    const size_t name = strlen(" --") + strlen(o->name);
+
+    if (!is_told(t, k))
+        return "";
+    line.tool = t;
+    line.n = 0;
+    add_option(&line, t, o);
+    return line.n > name ? line.text + name + 1 : "yes";
 }
 
 size_t

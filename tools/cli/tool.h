@@ -62,7 +62,7 @@ struct opt {
     double min, max; /* bounds of each number, checked if min < max                        */
     bool above;      /* min itself is out of bounds                                        */
     bool real;       /* OPT_STEP without a unit: not only whole numbers                    */
-    bool result;     /* changes the result: goes into the history                          */
+    bool result;     /* changes the result: goes into the history and the marks of a checkpoint */
     bool text;       /* with this option the tool writes text                              */
     bool optional;   /* the argument may be omitted: OPT_NUMBER then keeps the default,
                         OPT_CHOICE gets "" */
@@ -205,6 +205,9 @@ bool tool_given(const struct tool *tool, const char *name);
 /* This tool's line for the history of a stream: name, version, the options that change the result, in SI.
  * Valid until the next call. */
 const char *tool_history(struct tool *tool);
+/* The value of the option of row k as in that line, "yes" for a flag; "" if it was not given or does not change
+ * the result. Valid until the next call. */
+const char *tool_result_value(struct tool *tool, size_t k);
 /* The same options as separate words for another command; at most `most` words. Valid until the next call. */
 size_t tool_result_words(struct tool *tool, const char *word[], size_t most);
 

@@ -9,7 +9,7 @@
  */
 #include "model.h"
 
-#include <inttypes.h>
+#include <ctype.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -167,20 +167,52 @@ checkpoint_close(struct checkpoint *c)
 }
 
 void
-checkpoint_crc(struct tool *t, const struct rc_grid *g, char text[16])
-{
-    size_t bytes = rc_grid_nodes(g) * sizeof *g->v;
-
-    snprintf(text, 16, "%08" PRIx32, ranks_crc(t, rc_crc32_add(0, g->v, bytes), bytes));
-}
-
-void
 checkpoint_refuse(const struct course *c, const char *why)
 {
     tool_refuse(
         c->t, c->g,
         "--checkpoint %s: case %zu cannot be continued (%s): remove the file to start again",
         c->checkpoint->journal.name, c->number, why);
+}
+
+/* ---- marks ---- */
+
+static const struct {
+    const char *key, *shown;
+    bool hidden; /* the value is a CRC-32, which tells the user nothing */
+} kinds[] = {
+    [MARK_OPTION] = {"option", "--", false},  [MARK_FILE] = {"file", "contents of --", true},
+    [MARK_FRAME] = {"frame", "frame ", true}, [MARK_KEY] = {"key", "key ", false},
+    [MARK_POINT] = {"point", "", false},      [MARK_EARLIER] = {"earlier", "earlier ", true}};
+
+/* The key of a mark in a frame. */
+static const char *
+key_of(const struct mark *mark, char key[64])
+{
+    snprintf(key, 64, "%s.%s", kinds[mark->kind].key, mark->name);
+    for (char *c = key; *c != '\0'; c++)
+        *c = (char)tolower((unsigned char)*c);
+    return key;
+}
+
+/* Ends the tool because the state belongs to another problem; was: "" if it was not given. */
+static void
+refuse_mark(const struct course *c, const struct mark *mark, const char *was)
+{
+    const char *is = mark->value, *shown = kinds[mark->kind].shown;
+
+    if (kinds[mark->kind].hidden && was[0] != '\0' && is[0] != '\0')
+        tool_refuse(c->t, c->g,
+                    "--checkpoint %s: it belongs to another problem: %s%s: the values differ",
+                    c->checkpoint->journal.name, shown, mark->name);
+    tool_refuse(c->t, c->g, "--checkpoint %s: it belongs to another problem: %s%s was %s, is %s",
+                c->checkpoint->journal.name, shown, mark->name,
+                was[0] == '\0'             ? "not given"
+                : kinds[mark->kind].hidden ? "given"
+                                           : was,
+                is[0] == '\0'              ? "not given"
+                : kinds[mark->kind].hidden ? "given"
+                                           : is);
 }
 
 /* ---- reading ---- */
@@ -198,11 +230,12 @@ compare(const struct course *c, const struct rc_grid *saved, bool map)
                     saved->nx, saved->ny);
     for (size_t k = 0; k < c->marks; k++) {
         const struct mark *mark = &c->mark[k];
-        const char *was = rc_grid_get(saved, mark->name);
-        if (strcmp(was == NULL ? "" : was, mark->value) != 0)
-            tool_refuse(c->t, g, "--checkpoint %s: it belongs to another problem: %s was %s, is %s",
-                        name, mark->name, was == NULL ? "not given" : was,
-                        mark->value[0] == '\0' ? "not given" : mark->value);
+        char key[64];
+        const char *was = rc_grid_get(saved, key_of(mark, key));
+        if (was == NULL)
+            was = "";
+        if (strcmp(was, mark->value) != 0)
+            refuse_mark(c, mark, was);
     }
 }
 
@@ -287,12 +320,13 @@ static struct rc_grid *
 new_frame(const struct course *c)
 {
     const struct rc_shape one = {1, 1, c->g->dx, c->g->dy};
+    char key[64];
     struct rc_grid *out = tool_made(c->t, c->g, rc_grid_new(&one, "state", "1", &c->t->err));
 
     tool_set_number(c->t, out, "checkpoint.case", (double)c->number);
     for (size_t k = 0; k < c->marks; k++)
         if (c->mark[k].value[0] != '\0')
-            tool_set(c->t, out, c->mark[k].name, c->mark[k].value);
+            tool_set(c->t, out, key_of(&c->mark[k], key), c->mark[k].value);
     tool_sign(c->t, out);
     return out;
 }

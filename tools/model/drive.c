@@ -94,75 +94,109 @@ drive_close(struct drive *d)
 
 /* ---- what a state of a checkpoint must agree in ---- */
 
-char *
-course_mark(struct course *c, const char *name)
+void
+course_mark(struct course *c, enum mark_kind kind, const char *name, const char *value)
 {
-    struct mark *m = &c->mark[c->marks++];
+    struct mark *m = c->mark;
 
-    *m = (struct mark){.name = name};
-    return m->value;
+    while (m < c->mark + c->marks && (m->kind != kind || strcmp(m->name, name) != 0))
+        m++;
+    if (m == c->mark + COURSE_MARKS)
+        tool_die(c->t, "more than %d marks of --checkpoint", COURSE_MARKS);
+    if (m == c->mark + c->marks)
+        c->marks++;
+    m->kind = kind;
+    m->name = name;
+    if (strlen(value) < sizeof m->value)
+        strcpy(m->value, value);
+    else
+        snprintf(m->value, sizeof m->value, "CRC-32 %08" PRIx32,
+                 rc_crc32_add(0, value, strlen(value)));
 }
 
 void
-course_mark_number(struct course *c, const char *name, double value)
+course_mark_crc(struct course *c, enum mark_kind kind, const char *name, uint32_t crc)
 {
-    rc_number_text(course_mark(c, name), value);
+    char text[16];
+
+    snprintf(text, sizeof text, "%08" PRIx32, crc);
+    course_mark(c, kind, name, text);
 }
 
 void
-course_mark_crc(struct course *c, const char *name, uint32_t crc)
+course_mark_map(struct course *c, const char *name, const struct rc_grid *map)
 {
-    snprintf(course_mark(c, name), sizeof c->mark->value, "%08" PRIx32, crc);
+    const size_t bytes = map == NULL ? 0 : rc_grid_nodes(map) * sizeof *map->v;
+
+    if (map == NULL)
+        course_mark(c, MARK_FRAME, name, "");
+    else
+        course_mark_crc(c, MARK_FRAME, name,
+                        ranks_crc(c->t, rc_crc32_add(0, map->v, bytes), bytes));
 }
 
+static bool
+is_among(const char *name, const char *const *list)
+{
+    while (list != NULL && *list != NULL && strcmp(*list, name) != 0)
+        list++;
+    return list != NULL && *list != NULL;
+}
+
+/* True if the option gives an axis, whose values are marks of the points. */
 static bool
 is_axis(const struct drive *d, const char *option)
 {
     const struct drive_axis *a = d->axes;
 
-    while (a->list != NULL && strcmp(name_of(d, a), option) != 0)
+    while (a != NULL && a->list != NULL && strcmp(name_of(d, a), option) != 0)
         a++;
-    return a->list != NULL;
+    return a != NULL && a->list != NULL;
 }
 
-/* The surface, each option that changes results, and all of them together; the points come by themselves. */
+/* Each option that changes results, the maps, and the keys. Options come first, so that the message about
+ * another problem names the option, not the map that it changes. */
 static void
-mark_case(struct drive *d, const struct rc_grid *g)
+mark_case(struct drive *d)
 {
-    const char *word[2 * TOOL_OPTIONS];
-    const size_t n = tool_result_words(&d->t, word, 2 * TOOL_OPTIONS);
-    uint32_t all = d->maps;
+    struct course *c = &d->course;
 
-    d->course.marks = 0;
-    checkpoint_crc(&d->t, g, course_mark(&d->course, "checkpoint.surface"));
-    for (size_t k = 0, end; k < n; k = end) {
-        const char *value = k + 1 < n ? word[k + 1] : "";
-        for (end = k + 1; end < n && strncmp(word[end], "--", 2) != 0; end++)
-            ;
-        if (is_axis(d, word[k] + 2))
-            continue;
-        for (size_t j = k; j < end; j++)
-            all = rc_crc32_add(all, word[j], strlen(word[j]) + 1);
-        if (d->course.marks + 2 < COURSE_MARKS && end == k + 2 &&
-            strlen(value) < sizeof d->course.mark->value)
-            strcpy(course_mark(&d->course, word[k] + 2), value);
+    c->marks = 0;
+    if (d->checkpoint == NULL)
+        return;
+    for (size_t k = 0; k < d->t.option.n; k++) {
+        const struct opt *o = &d->t.option.row[k];
+        if (o->result && !is_axis(d, o->name) && !is_among(o->name, d->changeable))
+            course_mark(c, MARK_OPTION, o->name, tool_result_value(&d->t, k));
     }
-    course_mark_crc(&d->course, "checkpoint.options", all);
+    for (const char *const *key = d->reads; key != NULL && *key != NULL; key++) {
+        const char *value = rc_grid_get(c->g, *key);
+        course_mark(c, MARK_KEY, *key, value != NULL ? value : "");
+    }
+    for (const struct tool_frame *f = d->beside; f != NULL && f->channel != NULL; f++)
+        course_mark_map(c, f->channel, *f->frame);
+    course_mark_map(c, c->g->channel, c->g);
+    if (d->mark != NULL)
+        d->mark(d);
 }
 
+/* The axes of the point, and all points before it. */
 static void
-mark_point(struct drive *d, struct rc_model *m)
+mark_point(struct drive *d)
 {
+    const struct rc_point *p = &d->point[d->at];
     uint32_t crc = 0;
 
-    (void)m;
-    if (d->at > 0)
-        d->course.marks--;
-    for (size_t k = 0; k <= d->at; k++) {
+    if (d->checkpoint == NULL)
+        return;
+    for (enum rc_axis k = 0; k < RC_AXES; k++)
+        course_mark(&d->course, MARK_POINT, rc_axis_info(k)->name,
+                    (p->given >> k & 1) ? rc_number(p->at[k]) : "");
+    for (size_t k = 0; k < d->at && !d->independent; k++) {
         crc = rc_crc32_add(crc, &d->point[k].given, sizeof d->point[k].given);
         crc = rc_crc32_add(crc, d->point[k].at, sizeof d->point[k].at);
     }
-    course_mark_crc(&d->course, "checkpoint.points", crc);
+    course_mark_crc(&d->course, MARK_EARLIER, "points", crc);
 }
 
 /* ---- frames ---- */
@@ -469,6 +503,7 @@ drive_points(struct drive *d, const struct rc_grid *g, struct rc_model *m)
     struct course *c = &d->course;
 
     c->g = g;
+    mark_case(d);
     d->ended = false;
     for (d->at = 0; d->at < d->points && !d->ended; d->at++) {
         if (d->at > 0 && tool_interrupted() != 0)
@@ -476,7 +511,9 @@ drive_points(struct drive *d, const struct rc_grid *g, struct rc_model *m)
         d->began = tool_now();
         c->number++;
         c->checkpoint = d->checkpoint;
-        (d->begin != NULL ? d->begin : mark_point)(d, m);
+        mark_point(d);
+        if (d->begin != NULL)
+            d->begin(d, m);
         course_set(c, m, &d->point[d->at]);
         d->setup = tool_now() - d->began;
         tool_catch_signals(); /* a tool may release them for the first plan */
@@ -500,6 +537,5 @@ drive_case(struct drive *d, const struct rc_grid *g, struct rc_model *m, const s
         return;
     }
     tool_demand_memory(&d->t, g, plan_of(d, g, m).memory);
-    mark_case(d, g);
     drive_points(d, g, m);
 }

@@ -36,12 +36,20 @@
 #include "tools/cli/cli.h"
 
 enum {
-    COURSE_MARKS = 64,
+    COURSE_MARKS = TOOL_OPTIONS + RC_AXES + 32,
     COURSE_WARNINGS = 16
 };
 
-/* A key that a frame of --checkpoint and the resumed case must share; empty: neither has the key. */
+/* A value in which a state of --checkpoint and the resumed case must agree; empty: neither has it. */
 struct mark {
+    enum mark_kind {
+        MARK_OPTION, /* of the command line */
+        MARK_FILE,   /* CRC-32 of what an option has read from a file */
+        MARK_FRAME,  /* CRC-32 of a map     */
+        MARK_KEY,    /* of the input        */
+        MARK_POINT,  /* an axis of the point */
+        MARK_EARLIER /* CRC-32 of the points before it */
+    } kind;
     const char *name;
     char value[2 * RC_NUMBER_SIZE];
 };
@@ -72,10 +80,11 @@ struct course {
     struct again again[COURSE_WARNINGS];
 };
 
-/* A further mark: its value, of sizeof struct mark.value bytes, which is empty at first; or a value. */
-char *course_mark(struct course *c, const char *name);
-void course_mark_number(struct course *c, const char *name, double value);
-void course_mark_crc(struct course *c, const char *name, uint32_t crc);
+/* Sets a mark. A text that is too long is replaced by its CRC-32. */
+void course_mark(struct course *c, enum mark_kind kind, const char *name, const char *value);
+void course_mark_crc(struct course *c, enum mark_kind kind, const char *name, uint32_t crc);
+/* CRC-32 of a map (NULL: none), of all ranks. */
+void course_mark_map(struct course *c, const char *name, const struct rc_grid *map);
 /* Starts towards a point, from the state of this case in the checkpoint or from the last kept point. */
 void course_set(struct course *c, struct rc_model *m, const struct rc_point *to);
 /* Steps until the point is reached; RC_MORE: a signal came first. */
@@ -127,9 +136,16 @@ struct drive {
     /* functions of the tool; each may be NULL */
     const struct drive_advice *advice;
     const char *const *tells; /* names of figures that --verbose prints; the last is NULL */
+    /* What the model depends on beside the options and the main map of the case: other maps, and keys of the
+     * main map. `changeable`: options that may differ when a run is resumed, although they change the result.
+     * The lists end with NULL. `mark` sets further marks of a case. */
+    const struct tool_frame *beside;
+    const char *const *reads, *const *changeable;
+    void (*mark)(struct drive *d);
+    bool independent; /* no point depends on those before it */
     void (*keys)(struct drive *d, struct rc_model *m, struct rc_grid *frame);
     void (*columns)(struct drive *d, const struct rc_model *m); /* before those of the model */
-    /* For a tool with more output than usual. It adds text before a point (marks, plan), warnings, and all
+    /* For a tool with more output than usual. It adds text before a point (plan), warnings, and all
      * keys of the frames. It sets the values of a frame (NULL: those of the model) and the columns of the
      * report. It also says how a point becomes history. */
     void (*begin)(struct drive *d, struct rc_model *m);
@@ -147,7 +163,6 @@ struct drive {
     const struct drive_axis *axes;
     struct rc_point *point;
     size_t points, at; /* at: the point that is reached */
-    uint32_t maps;     /* set by the tool: CRC-32 of other maps that the model depends on */
     bool ended;        /* set by `keys`: later points of the case are left out */
     bool lasts;        /* set by the tool, which frees the model: it serves further cases */
     bool silent;       /* set by `judge`: the point has no frames and no row */
@@ -164,7 +179,7 @@ struct rc_grid *drive_next(struct drive *d);
 /* Leads the model, which it frees, through the points. m NULL: ends the tool with the error. */
 void drive_case(struct drive *d, const struct rc_grid *g, struct rc_model *m,
                 const struct rc_err *err);
-/* The same without plan and marks, which `begin` has handled. */
+/* The same without the plan, which the tool has handled. */
 void drive_points(struct drive *d, const struct rc_grid *g, struct rc_model *m);
 /* The point becomes history, unless a signal came first. */
 void drive_keep(struct drive *d, struct rc_model *m);
@@ -184,8 +199,6 @@ void drive_where(const struct drive *d, const struct rc_grid *g, char *text, siz
  * used. */
 struct checkpoint *checkpoint_open(struct tool *t, const char *name, bool resume, double interval);
 void checkpoint_close(struct checkpoint *checkpoint);
-/* CRC-32 of a map, of all ranks, for a mark. */
-void checkpoint_crc(struct tool *t, const struct rc_grid *g, char text[16]);
 /* Begins a case, or a point of a case. Returns its last state, as rc_model_state wrote it, which the caller
  * frees; NULL: none. */
 double *checkpoint_load(struct course *c, size_t *n);

@@ -116,38 +116,6 @@ set_keys(struct drive *d, const struct rc_model *m, struct rc_grid *g)
     tool_set_number(&d->t, g, "displacement_y", apart ? NAN : f->displacement[1]);
 }
 
-/* ---- marks of a checkpoint ---- */
-
-void
-slip_set_marks(struct slip_run *run)
-{
-    struct course *c = &run->d.course;
-    uint32_t crc = 0;
-
-    c->marks = 0;
-    if (run->d.checkpoint == NULL)
-        return;
-    checkpoint_crc(&run->d.t, run->p, course_mark(c, "checkpoint.pressure"));
-    if (run->height != NULL)
-        checkpoint_crc(&run->d.t, run->height, course_mark(c, "checkpoint.height"));
-    else
-        (void)course_mark(c, "checkpoint.height");
-    course_mark_number(c, "friction", run->law.slip.mu);
-    course_mark_number(c, "tau_max", run->law.slip.tau_max);
-    course_mark_number(c, "estar", run->bodies.pair.estar);
-    course_mark_number(c, "checkpoint.kap", run->bodies.kap);
-    course_mark_number(c, "checkpoint.beta", run->bodies.beta);
-    course_mark_number(c, "checkpoint.coupling", run->coupling);
-    course_mark_number(c, "checkpoint.increments", (double)run->increments);
-    course_mark_number(c, "checkpoint.tol", run->law.slip.tol);
-    for (size_t k = 0; k < run->corners; k++) {
-        const struct slip_corner *to = &run->corner[k];
-        const double v[] = {to->load, to->to[0], to->to[1], to->moved};
-        crc = rc_crc32_add(crc, v, sizeof v);
-    }
-    course_mark_crc(c, "checkpoint.path", crc);
-}
-
 /* ---- corners ---- */
 
 /* The approach at a state; if unknown, the approach of the stream, provided that the load is the same. */
@@ -361,7 +329,6 @@ slip_case(struct slip_run *run)
         told += !run->corner[k].silent;
     if (told == 1 && rc_grid_case(run->p) > run->number)
         run->number = rc_grid_case(run->p) - 1;
-    slip_set_marks(run);
     slip_judge_plan(run);
     expected = forecast(run);
     if (run->args->drive.dry_run) {

@@ -122,9 +122,11 @@ set_history(struct slip_run *run, struct slip_args *args)
             rc_number_text(number[1], c->to[0]), rc_number_text(number[2], c->to[1]));
     }
     args->path = text;
-    for (size_t k = 0; k < run->d.t.option.n; k++)
-        if (strcmp(run->d.t.option.row[k].name, "path") == 0)
-            run->d.t.option.given[k] = true;
+    for (size_t k = 0; k < run->d.t.option.n; k++) {
+        const char *name = run->d.t.option.row[k].name;
+        if (strcmp(name, "path") == 0 || strcmp(name, "history") == 0)
+            run->d.t.option.given[k] = name[0] == 'p';
+    }
 }
 
 void

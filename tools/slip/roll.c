@@ -70,9 +70,6 @@ begin(struct drive *d, struct rc_model *m)
 
     (void)m;
     run->number = d->course.number;
-    slip_set_marks(run);
-    course_mark_crc(&d->course, "checkpoint.rolling",
-                    rc_crc32_add(run->args->steady, d->point->at, sizeof d->point->at));
 }
 
 static void

@@ -106,10 +106,9 @@ void slip_find_bodies(struct slip_run *run);
 
 extern const char *const slip_frames[]; /* of --output; the last is NULL */
 void slip_case(struct slip_run *run);
-/* Keys of a frame, and marks of a checkpoint, under any motion. */
+/* Keys of a frame under any motion. */
 void slip_set_keys(struct slip_run *run, struct rc_grid *g, bool converged, double load,
                    double approach);
-void slip_set_marks(struct slip_run *run);
 /* A frame of the tool; NULL: it is one of the model. */
 const double *slip_frame(struct drive *d, struct rc_model *m, struct rc_grid *frame,
                          const char *word);

@@ -80,17 +80,6 @@ adhesion_model(struct run *run, const struct rc_grid *g, const struct rc_problem
 }
 
 void
-adhesion_mark(const struct run *run, char *value, size_t size)
-{
-    const struct rc_adhesion_problem *p = &run->adhering.law.problem;
-
-    value[0] = '\0';
-    if (run->adhering.wanted)
-        snprintf(value, size, "%s,%s,%s", rc_number(p->work), p->law == NULL ? "" : p->law,
-                 rc_number(p->range));
-}
-
-void
 adhesion_set_key(struct run *run, struct rc_grid *as, const struct rc_contact *c)
 {
     char law[128];

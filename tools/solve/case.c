@@ -7,9 +7,6 @@
 
 #include "formats/core/core.h"
 
-/* Key of a shape after yield: its possible error, m. */
-#define HEIGHT_ERROR "height.error"
-
 /* ---- one case ---- */
 
 /* Returns the fraction of the tolerance for a load at which nodes yield. The error of its shape stays for
@@ -55,40 +52,15 @@ problem_of(struct run *run, const struct rc_grid *g, size_t step)
     return problem;
 }
 
-/* ---- marks of a checkpoint ---- */
-
+/* Marks of a checkpoint beside the options, maps and keys. */
 static void
-set_marks(struct run *run)
+mark(struct drive *d)
 {
-    const struct physics *args = &run->args->physics;
-    struct course *c = &run->d.course;
-    const size_t size = sizeof c->mark->value;
+    struct run *run = (struct run *)(void *)d;
 
-    c->marks = 0;
-    if (run->d.checkpoint == NULL)
-        return;
-    strcpy(course_mark(c, "checkpoint.surface"), run->crc);
-    strcpy(course_mark(c, "boundary"), args->periodic ? "periodic" : "free");
-    course_mark_number(c, "estar", args->estar);
-    if (run->hardness != NULL)
-        snprintf(course_mark(c, "checkpoint.hardness"), size, "map %s", run->hardness_crc);
-    else
-        course_mark_number(c, "checkpoint.hardness", args->hardness);
-    course_mark_number(c,
-                       args->load.per_metre        ? "checkpoint.load-per-metre"
-                       : args->load.n > 0          ? "checkpoint.load"
-                       : args->mean_pressure.n > 0 ? "checkpoint.mean-pressure"
-                                                   : "checkpoint.approach",
-                       run->steps->v[run->step]);
-    /* the earlier loads, which have changed the shape */
-    course_mark_crc(
-        c, "checkpoint.history",
-        args->history ? rc_crc32_add(0, run->steps->v, run->step * sizeof *run->steps->v) : 0);
-    yield_set_marks(run);
-    adhesion_mark(run, course_mark(c, "checkpoint.adhesion"), size);
-    travel_mark(run, course_mark(c, "checkpoint.travel"), size);
-    relax_mark(run, course_mark(c, "checkpoint.relaxation"), size);
-    slide_mark(run, course_mark(c, "checkpoint.sliding"), size);
+    yield_mark(run);
+    travel_mark(run);
+    relax_mark(run);
 }
 
 /* ---- results ---- */
@@ -367,7 +339,6 @@ begin_load(struct drive *d, struct rc_model *m)
     if ((run->apart && !run->yielding.on && !run->relaxing.wanted) || a->pulling ||
         (run->relaxing.before && d->at == 0))
         d->course.checkpoint = NULL;
-    set_marks(run);
     if (plans)
         before_plan(run, run->g, &problem);
 }
@@ -424,12 +395,15 @@ do_loads(struct run *run)
         run->model = travel_model(run, run->model);
     if (run->relaxing.wanted)
         run->model = relax_model(run, run->model);
+    d->mark = mark;
     d->begin = begin_load;
     d->judge = judge_load;
     d->all_keys = set_keys;
     d->frame = own_values;
     d->keep = keep_shape;
     d->row = solve_report;
+    d->independent =
+        !run->args->physics.history && !run->travelling.wanted && !run->relaxing.wanted;
     make_points(run);
     if (d->points == 1)
         d->course.number = rc_grid_case(run->g) - 1;
@@ -443,8 +417,9 @@ do_loads(struct run *run)
 
 /* The hardness of a case is a number or a map. */
 static void
-take_hardness(struct run *run, const struct rc_grid *hardness)
+take_hardness(struct run *run)
 {
+    const struct rc_grid *hardness = run->hardness;
     const double *v = hardness != NULL ? hardness->v : &run->args->physics.hardness;
     double low = INFINITY, high = -INFINITY;
 
@@ -454,7 +429,6 @@ take_hardness(struct run *run, const struct rc_grid *hardness)
             low = fmin(low, v[k]);
             high = fmax(high, v[k]);
         }
-    run->hardness = hardness;
     run->hardness_min = -ranks_most(&run->d.t, -low);
     run->hardness_max = ranks_most(&run->d.t, high);
     if ((run->relaxing.wanted || run->sliding.wanted) && run->hardness != NULL)
@@ -467,21 +441,17 @@ take_hardness(struct run *run, const struct rc_grid *hardness)
 }
 
 void
-solve_case(struct run *run, const struct rc_grid *hardness)
+solve_case(struct run *run)
 {
     struct rc_grid *g = run->g;
 
-    take_hardness(run, hardness);
+    take_hardness(run);
     run->rms_slope = report_wanted(&run->d.report)
                          ? rc_measure_contact_slope(ranks_of(&run->d.t), rc_shape_of(g), g->v, NULL)
                          : NAN;
     physics_heights(&run->d.t, &run->args->physics, g);
     if (!rc_grid_number(g, HEIGHT_ERROR, &run->height_error))
         run->height_error = 0;
-    if (run->d.checkpoint != NULL)
-        checkpoint_crc(&run->d.t, g, run->crc);
-    if (run->d.checkpoint != NULL && hardness != NULL)
-        checkpoint_crc(&run->d.t, hardness, run->hardness_crc);
     travel_begin(run);
     if (run->args->drive.dry_run) {
         size_t first = 0; /* a load of 0 costs nothing */

@@ -4,7 +4,6 @@
  */
 #include "solve.h"
 
-#include <inttypes.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -193,28 +192,25 @@ relax_model(struct run *run, struct rc_model *inner)
                      rc_viscoelastic_new(inner, run->g->v, &problem, &run->d.t.err));
 }
 
-/* What a state of a checkpoint must agree in: the material, the other body, and the points so far. */
+/* The material may come from a file. The steps depend on the shortest and the longest time of the list. */
 void
-relax_mark(struct run *run, char *value, size_t size)
+relax_mark(struct run *run)
 {
     const struct relaxing *x = &run->relaxing;
     const struct rc_relaxation *m = x->law.material;
-    const double body[] = {run->args->physics.nu1, run->args->physics.surface_estar, x->shortest,
-                           run->args->time.n > 0 ? run->args->time.v[run->args->time.n - 1] : 0,
-                           (double)x->increments};
+    struct course *c = &run->d.course;
     uint32_t crc;
 
-    if (!x->wanted)
+    if (m == NULL)
         return;
-    crc = rc_crc32_add(0, body, sizeof body);
-    crc = rc_crc32_add(crc, &m->relaxed, sizeof m->relaxed);
+    crc = rc_crc32_add(0, &m->relaxed, sizeof m->relaxed);
     crc = rc_crc32_add(crc, m->modulus, m->terms * sizeof *m->modulus);
     crc = rc_crc32_add(crc, m->time, m->terms * sizeof *m->time);
-    for (size_t k = 0; k <= run->d.at; k++) {
-        const double at[] = {relax_time(run, k), run->steps->v[relax_step(run, k)]};
-        crc = rc_crc32_add(crc, at, sizeof at);
-    }
-    snprintf(value, size, "%08" PRIx32, crc);
+    course_mark_crc(c, MARK_FILE, "relaxation", crc);
+    if (!x->wanted)
+        return;
+    course_mark(c, MARK_POINT, "shortest.time", rc_number(x->shortest));
+    course_mark(c, MARK_POINT, "last.time", rc_number(relax_time(run, relax_points(run) - 1)));
 }
 
 /* ---- results ---- */

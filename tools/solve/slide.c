@@ -4,7 +4,6 @@
  */
 #include "solve.h"
 
-#include <inttypes.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -127,27 +126,6 @@ slide_model(struct run *run, const struct rc_problem *problem)
 
     return tool_made(&run->d.t, run->g,
                      rc_slide_new(rc_shape_of(run->g), run->g->v, problem, &law, &run->d.t.err));
-}
-
-/* What a state of a checkpoint must agree in. */
-void
-slide_mark(struct run *run, char *value, size_t size)
-{
-    const struct rc_relaxation *m = run->sliding.material;
-    double all[4];
-    uint32_t crc;
-
-    if (!run->sliding.wanted)
-        return;
-    all[0] = slide_speed(run, run->d.at);
-    all[1] = run->args->physics.surface_estar;
-    all[2] = slides_along_y(run);
-    all[3] = repeats(run);
-    crc = rc_crc32_add(0, all, sizeof all);
-    crc = rc_crc32_add(crc, &m->relaxed, sizeof m->relaxed);
-    crc = rc_crc32_add(crc, m->modulus, m->terms * sizeof *m->modulus);
-    crc = rc_crc32_add(crc, m->time, m->terms * sizeof *m->time);
-    snprintf(value, size, "%08" PRIx32, crc);
 }
 
 /* ---- results ---- */

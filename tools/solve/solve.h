@@ -11,6 +11,9 @@
 #include "tools/model/model.h"
 #include "tools/problem/problem.h"
 
+/* Key of a shape after yield: its possible error, m. */
+#define HEIGHT_ERROR "height.error"
+
 enum solve_frame { /* in the order of the words of --output and of writing */
     SOLVE_CONTACT, /* before the pressure, because readers need it to interpret the pressure */
     SOLVE_PRESSURE,
@@ -81,7 +84,6 @@ struct travelling {
     bool wanted;
     size_t window[2], passes;
     struct rc_grid *counter, *track; /* heights of body 2 (NULL: none), and of body 1 */
-    char crc[16];                    /* of body 2, with a checkpoint */
     const struct rc_travel_figures *found;
     double *row; /* mean equivalent plastic strain of each row of each slab, after the last pass */
     size_t rows; /* 0: nothing has yielded */
@@ -146,14 +148,12 @@ struct run {
     const char *conductance_unit;      /* W/K or S; NULL: the conductivities have no unit   */
     double rms_slope;                  /* of the input heights; only for a report */
     double height_error;               /* m: error of the input heights */
-    const struct rc_grid *hardness;    /* map of the hardness in the case; NULL: a number or none */
+    struct rc_grid *hardness;          /* map of the hardness in the case; NULL: a number or none */
     double hardness_min, hardness_max; /* Pa, range of the numbers; without numbers: INFINITY,
                                           -INFINITY */
-    char crc[16],
-        hardness_crc[16]; /* CRC of the heights, including the sphere, and of the map of hardness */
-    double result, done;  /* seconds */
-    struct rc_grid *g;    /* the heights of the case */
-    struct solution solution; /* of the load */
+    double result, done;               /* seconds */
+    struct rc_grid *g;                 /* the heights of the case */
+    struct solution solution;          /* of the load */
 };
 
 static inline bool
@@ -177,8 +177,8 @@ void solve_plan(struct run *run, const struct rc_grid *g, const struct rc_proble
 
 /* ---- case.c ---- */
 
-/* Solves the loads of these heights, and writes and reports the results. hardness: a map, or NULL. */
-void solve_case(struct run *run, const struct rc_grid *hardness);
+/* Solves the loads of the heights `g`, and writes and reports the results. */
+void solve_case(struct run *run);
 
 /* Parts of solve_judge. The limits of the figures are in the tables of the model. */
 void solve_warn_of_limits(struct run *run, const char *where);
@@ -201,8 +201,6 @@ size_t adhesion_memory(const struct run *run, const struct rc_grid *g,
 /* Finds the cost of a state and the scales of the law on this grid; ends the tool if they are invalid. */
 void adhesion_expect(struct run *run, const struct rc_grid *g, const struct rc_problem *contact,
                      struct rc_expected *expected);
-/* The mark of a checkpoint; "" without --adhesion. */
-void adhesion_mark(const struct run *run, char *value, size_t size);
 const char *adhesion_state(const struct run *run);
 void adhesion_report(struct report *report, const struct run *run);
 
@@ -218,7 +216,7 @@ size_t travel_points(const struct run *run);
 /* Bytes a node of the maps of the model. */
 size_t travel_bytes(const struct run *run);
 double travel_position(const struct run *run, size_t point);
-void travel_mark(struct run *run, char *value, size_t size);
+void travel_mark(struct run *run);
 void travel_look(struct run *run, struct rc_model *m);
 void travel_end_pass(struct run *run, const struct rc_model *m);
 void travel_set_keys(struct run *run, struct rc_grid *as);
@@ -240,7 +238,7 @@ size_t relax_largest(const struct run *run);
 /* The part of --tol for each contact, or for the steps in time. */
 double relax_part(const struct run *run, bool contacts);
 struct rc_model *relax_model(struct run *run, struct rc_model *inner);
-void relax_mark(struct run *run, char *value, size_t size);
+void relax_mark(struct run *run);
 bool relax_look(struct run *run, const struct rc_model *m);
 /* Sets the parts of the error. */
 void relax_parts(const struct run *run, struct solution *solution);
@@ -257,7 +255,6 @@ size_t slide_points(const struct run *run);
 double slide_speed(const struct run *run, size_t point);
 size_t slide_step(const struct run *run, size_t point);
 struct rc_model *slide_model(struct run *run, const struct rc_problem *problem);
-void slide_mark(struct run *run, char *value, size_t size);
 /* Takes the figures of a case. */
 void slide_look(struct run *run, const struct rc_model *m, struct rc_contact *contact);
 void slide_warn(struct run *run, const char *where);
@@ -278,8 +275,7 @@ void yield_plan(struct run *run, struct rc_model *m, double load);
  * load, and returns that of all loads over it. */
 double yield_expect(struct run *run, double load, struct rc_expected *expected);
 void yield_found(struct run *run, const struct rc_model *m);
-/* Mark k of a checkpoint of such a body, from 0 on: name and value. The value is empty without --yield. */
-void yield_set_marks(struct run *run);
+void yield_mark(struct run *run);
 /* Replaces the estimated error of the contact, and its parts, by those of the plastic body. */
 void yield_look(struct run *run, struct solution *solution);
 /* Writes the plastic strain slab by slab; `like`: shape and keys of the frames; buffer: memory for a map. */

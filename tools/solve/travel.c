@@ -5,7 +5,6 @@
  */
 #include "solve.h"
 
-#include <inttypes.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -116,8 +115,6 @@ travel_begin(struct run *run)
                                run->args->physics.periodic);
     w->track = g;
     run->g = window_of(run, g);
-    if (w->counter != NULL && run->d.checkpoint != NULL)
-        checkpoint_crc(&run->d.t, w->counter, w->crc);
 }
 
 void
@@ -175,23 +172,17 @@ travel_position(const struct run *run, size_t point)
     return run->args->travel.v[point % run->args->travel.n];
 }
 
-/* What a state of a checkpoint must agree in, beside the surface: all positions so far, and body 2. */
+/* The map of the case changes with the position: the heights of body 1 are those of the track. */
 void
-travel_mark(struct run *run, char *value, size_t size)
+travel_mark(struct run *run)
 {
-    const struct solve_args *args = run->args;
-    const double body[] = {args->physics.radius, args->counter_travel,
-                           (double)run->travelling.window[0], (double)run->travelling.window[1]};
-    uint32_t crc = rc_crc32_add(0, body, sizeof body);
+    const struct travelling *w = &run->travelling;
+    const char *repeats = w->counter != NULL ? rc_grid_get(w->counter, "periodic") : NULL;
 
-    if (!run->travelling.wanted)
+    if (!w->wanted)
         return;
-    crc = rc_crc32_add(crc, run->travelling.crc, strlen(run->travelling.crc));
-    for (size_t k = 0; k <= run->d.at; k++) {
-        const double x = travel_position(run, k);
-        crc = rc_crc32_add(crc, &x, sizeof x);
-    }
-    snprintf(value, size, "%08" PRIx32, crc);
+    course_mark_map(&run->d.course, w->track->channel, w->track);
+    course_mark(&run->d.course, MARK_KEY, "counter.periodic", repeats != NULL ? repeats : "");
 }
 
 /* ---- passes ---- */

@@ -5,7 +5,6 @@
  */
 #include "solve.h"
 
-#include <inttypes.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -115,47 +114,16 @@ goal(const struct run *run)
     return run->args->tol > 0 ? run->args->tol : deserved;
 }
 
-/* The number of slabs or increments as text; 0: "auto". */
-static void
-count_text(char *value, size_t n)
-{
-    if (n == 0)
-        strcpy(value, "auto");
-    else
-        rc_number_text(value, (double)n);
-}
-
 void
-yield_set_marks(struct run *run)
+yield_mark(struct run *run)
 {
-    static const char *const names[] = {"checkpoint.yield",      "checkpoint.e1",
-                                        "checkpoint.nu1",        "checkpoint.slabs",
-                                        "checkpoint.increments", "checkpoint.tol"};
     const struct yielding *y = &run->yielding;
-    const struct rc_body *one = &run->args->physics.pair.one;
-    const size_t bytes = y->law.points * sizeof(double), size = sizeof run->d.course.mark->value;
-    char *value[6];
+    const size_t bytes = y->law.points * sizeof(double);
 
-    for (size_t k = 0; k < 6; k++)
-        value[k] = course_mark(&run->d.course, names[k]);
-    if (!y->wanted)
-        return;
     if (y->law.points > 0)
-        snprintf(value[0], size, "table %08" PRIx32,
-                 rc_crc32_add(rc_crc32_add(0, y->read.table[0], bytes), y->read.table[1], bytes));
-    else
-        snprintf(value[0], size, "%s,%s", rc_number(y->law.stress), rc_number(y->law.modulus));
-    rc_number_text(value[1], one->e);
-    rc_number_text(value[2], one->nu);
-    if (y->list.n > 0)
-        snprintf(value[3], size, "list %08" PRIx32,
-                 rc_crc32_add(0, y->list.v, y->list.n * sizeof *y->list.v));
-    else
-        count_text(value[3], y->slab_count);
-    count_text(value[4], y->asked);
-    if (y->companion)
-        strcat(value[4], ",half");
-    rc_number_text(value[5], goal(run));
+        course_mark_crc(
+            &run->d.course, MARK_FILE, "yield",
+            rc_crc32_add(rc_crc32_add(0, y->read.table[0], bytes), y->read.table[1], bytes));
 }
 
 /* ---- the loads ---- */
