@@ -5,12 +5,14 @@ folder of its own, where the tools run with the arguments that the page shows. r
 """
 import argparse
 import contextlib
+import filecmp
 import functools
 import hmac
 import http.server
 import json
 import mimetypes
 import os
+import pathlib
 import re
 import secrets
 import select
@@ -39,8 +41,8 @@ HEADERS = {'Cache-Control': 'no-store', 'X-Content-Type-Options': 'nosniff', 'Re
            'Cross-Origin-Resource-Policy': 'same-origin', 'Content-Security-Policy':
            "default-src 'none'; script-src 'self'; style-src 'self'; img-src 'self' blob:; "
            "connect-src 'self'; base-uri 'none'; form-action 'none'; frame-ancestors 'none'"}
-# Options that the page sets itself, and files that a later run would continue.
-HIDDEN = tools.HIDDEN | {'checkpoint', 'resume', 'interval', 'keep-going'}
+# Options that the page sets itself, that write further files, or whose files a later run would continue.
+HIDDEN = tools.HIDDEN | {'checkpoint', 'resume', 'interval', 'keep-going', 'psd-map'}
 MAKERS = ('rc-render', 'rc-info', 'rc-export', 'rc-report')
 ACTIVE, ENDED_WELL = ('waiting', 'running'), ('done', 'short')
 
@@ -72,8 +74,8 @@ def tables():
     return found
 
 
-def words_of(tool, options):
-    """The arguments of [[name, value], ...]; the name of a file stays in the folder of the run."""
+def words_of(tool, options, files):
+    """The arguments of [[name, value], ...]; the name of a file stays in the folder of the run, and only one has it."""
     rows, words = {row['name']: row for row in tables()[tool]['options']}, []
     for name, value in options:
         text = value if isinstance(value, str) else ''
@@ -81,6 +83,10 @@ def words_of(tool, options):
             raise Refused('%s has no option --%s on this page' % (tool, name))
         if re.search('[\0-\x1f]', text) or ('/' in text and 'FILE' in (rows[name]['argument'] or '')):
             raise Refused('--%s %s: give the name of a file on this page, without a folder' % (name, text))
+        called = [file['path'] for file in files if file['name'] == text]
+        if not all(filecmp.cmp(called[0], path, shallow=False) for path in called[1:]):
+            raise Refused('--%s %s: %d files on this page have this name: give the right one another name, and drop it again'
+                          % (name, text, len(called)))
         try:
             words += tools._arguments(rows[name], '--' + name, value)
         except (TypeError, ValueError) as e:
@@ -104,23 +110,23 @@ def sample():
 class Step:
     """A command of a run; it is waiting, running, done, short (of the accuracy), failed or stopped."""
 
-    def __init__(self, tool, options, number, source):
+    def __init__(self, tool, options, number, source, files):
         if not tables()[tool]['step']:
             raise Refused('%s is not a step of this page' % tool)
         stem = '%d-%s' % (number, tool[3:])
         self.tool, self.output = tool, stem + '.rcg'
         self.report = stem + '.tsv' if tables()[tool]['report'] else None
         report = ['--report', self.report] if self.report else []
-        self.command = [tool] + words_of(tool, options) + report + ['-o', self.output, source]
+        self.command = [tool] + words_of(tool, options, files) + report + ['-o', self.output, source]
         self.state, self.words, self.progress, self.doing, self.seconds = 'waiting', '', None, '', None
 
 
-def steps_of(file, asked):
-    """The steps [{tool, options, from}, ...] on a file; `from` is the number of the step that is read."""
+def steps_of(file, asked, files):
+    """The steps [{tool, options, from}, ...] on one of the files; `from` is the number of the step that is read."""
     made = []
     for number, step in enumerate(asked, 1):
         source = file['shown'] if number == 1 else made[step['from'] - 1].output
-        made.append(Step(step['tool'], step['options'], number, source))
+        made.append(Step(step['tool'], step['options'], number, source, files))
     return made
 
 
@@ -145,8 +151,8 @@ class Run:
         self.desk, self.number, self.file, self.steps = desk, number, file, steps
         self.folder, self.state, self.child = tempfile.mkdtemp(dir=desk.folder), 'waiting', None
         self.cancelled = threading.Event()
-        for path in {other['name']: other['path'] for other in desk.files}.values():  # the last of each name
-            os.symlink(path, os.path.join(self.folder, os.path.basename(path)))
+        for name, path in {other['name']: other['path'] for other in desk.files + [file]}.items():  # its own comes last
+            os.symlink(path, os.path.join(self.folder, name))
         threading.Thread(target=self.work, daemon=True).start()
 
     def work(self):
@@ -200,7 +206,7 @@ class Run:
 
     def shown(self):
         steps = [dict(vars(step), command=shlex.join(step.command)) for step in self.steps]
-        return {'number': self.number, 'file': self.file['name'], 'state': self.state, 'steps': steps}
+        return {'number': self.number, 'file': self.file['id'], 'state': self.state, 'steps': steps}
 
 
 class Desk(http.server.ThreadingHTTPServer):
@@ -211,13 +217,20 @@ class Desk(http.server.ThreadingHTTPServer):
         super().__init__(('127.0.0.1', port), Request)
         self.folder, self.files, self.runs, self.children = folder, [], {}, set()
         self.room = threading.BoundedSemaphore(TOGETHER)
-        self.token, self.once = secrets.token_urlsafe(24), secrets.token_urlsafe(24)
+        self.token, self.opener = secrets.token_urlsafe(24), os.path.join(folder, 'open.html')
         self.ended, self.counting = threading.Event(), threading.Lock()
         self.pages, self.left = 0, time.monotonic()
         self.first = [path and self.add_file(path, path)['id'] for path in (sample(), file)]
 
-    def address(self, first):
-        return 'http://127.0.0.1:%d/%s/' % (self.server_port, first)
+    def address(self):
+        return 'http://127.0.0.1:%d/%s/' % (self.server_port, self.token)
+
+    def open_browser(self):
+        """Starts the browser with a private file that leads to the page: other users see the arguments of processes."""
+        with open(os.open(self.opener, os.O_WRONLY | os.O_CREAT | os.O_EXCL, 0o600), 'w') as file:
+            file.write('<!DOCTYPE html><meta charset="utf-8"><title>rc-app</title><meta http-equiv="refresh" content="0; url=%s">\n'
+                       % self.address())
+        threading.Thread(target=webbrowser.open, args=(pathlib.Path(self.opener).as_uri(),), daemon=True).start()
 
     def handle_error(self, request, client_address):
         pass  # a browser that has gone
@@ -227,7 +240,7 @@ class Desk(http.server.ThreadingHTTPServer):
         with open(path, 'rb') as file:
             is_stream = file.read(4) == b'RCG1'
         shown = './' + shown if shown.startswith('-') else shown
-        self.files.append({'name': os.path.basename(path), 'path': path, 'shown': shown, 'stream': is_stream,
+        self.files.append({'name': safe_name(os.path.basename(path)), 'path': path, 'shown': shown, 'stream': is_stream,
                            'size': os.path.getsize(path), 'id': len(self.files)})
         return self.files[-1]
 
@@ -269,6 +282,8 @@ class Request(http.server.BaseHTTPRequestHandler):
             if not self.allowed():
                 raise Refused('open the address that rc-app printed: it holds the token of this session', 403)
             if verb == 'get_' and self.at in ASSETS:
+                with contextlib.suppress(FileNotFoundError):
+                    os.remove(self.server.opener)  # it has led here
                 return self.send_file(os.path.join(PAGE, self.at or 'index.html'))
             act = getattr(self, verb + self.at, None)
             if act is None:
@@ -297,9 +312,6 @@ class Request(http.server.BaseHTTPRequestHandler):
         origin = self.headers.get('Origin')
         if self.headers.get('Host') not in own or origin not in [None] + ['http://' + name for name in own]:
             return False
-        if self.server.once is not None and hmac.compare_digest(first.encode(), self.server.once.encode()):
-            self.server.once, self.at = None, 'first'
-            return True
         return hmac.compare_digest(first.encode(), self.server.token.encode())
 
     def head(self, status, kind, size, **more):
@@ -348,10 +360,6 @@ class Request(http.server.BaseHTTPRequestHandler):
 
     # ---- the page ----
 
-    def get_first(self):
-        """The address that starts the browser works once: other users can see it in the list of processes."""
-        self.head(303, 'text/plain', 0, Location=self.server.address(self.server.token))
-
     def get_desk(self):
         desk = self.server
         return {'files': desk.files, 'first': desk.first, 'tables': tables(), 'most': UPLOAD_MAX}
@@ -393,7 +401,7 @@ class Request(http.server.BaseHTTPRequestHandler):
         """The commands of steps on a file; with `start` they run."""
         asked, desk = json.loads(self.rfile.read(self.length(1 << 20))), self.server
         file = desk.files[asked['file']]
-        made = steps_of(file, asked['steps'])
+        made = steps_of(file, asked['steps'], desk.files)
         number = max(desk.runs, default=0) + 1 if asked['start'] and made else None
         if number is not None:
             desk.runs[number] = Run(desk, number, file, made)
@@ -440,7 +448,7 @@ class Request(http.server.BaseHTTPRequestHandler):
             raise Refused('%s writes no report, so it has no curves: choose another result' % step.tool, 422)
         if tool == 'rc-report':  # about the surface that is pressed
             source = next((s.command[-1] for s in run.steps if s.tool == 'rc-solve'), source)
-        words, name = [tool] + words_of(tool, options) + ['-o'], safe_name(self.query['name'])
+        words, name = [tool] + words_of(tool, options, self.server.files) + ['-o'], safe_name(self.query['name'])
         with tempfile.TemporaryDirectory(dir=self.server.folder) as folder:
             status, said = self.server.execute(words + [os.path.join(folder, name), source], run.folder)
             if status not in (0, 3):
@@ -462,9 +470,9 @@ def serve(desk, opens):
     for number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP):
         signal.signal(number, lambda *_: desk.ended.set())
     threading.Thread(target=desk.serve_forever, daemon=True).start()
-    print(desk.address(desk.token), flush=True)
+    print(desk.address(), flush=True)
     if opens and (os.environ.get('DISPLAY') or os.environ.get('WAYLAND_DISPLAY')):
-        threading.Thread(target=webbrowser.open, args=(desk.address(desk.once),), daemon=True).start()
+        desk.open_browser()
     while not desk.ended.wait(0.5) and desk.watch():
         pass
     desk.ended.set()

@@ -71,6 +71,7 @@ claim "a wrong unit gives the message of rc-solve" check wrong_unit
 
 # ---- runs ----
 
+claim "files of one name stay different files" check same_names
 claim "a scan is read, cropped, levelled, pressed, and the stresses computed" check pipeline
 mkdir pasted
 cp rough-steel.x3p pasted
@@ -97,17 +98,26 @@ claim "  its temporary folder is removed" bash -c '[ -z "$(ls "$TMPDIR")" ]'
 
 # ---- signals ----
 
-printf '#!/bin/sh\necho "$1" >opened\n' >browser
+printf '#!/bin/sh\ncat /proc/[0-9]*/cmdline 2>/dev/null | tr "\\0" " " >cmdlines\necho "$1" >opened\n' >browser
 chmod +x browser
 BROWSER="$PWD/browser %s" DISPLAY=:9 "$python" -m rcg.app rough-steel.x3p >address 2>app.err &
 APP=$!
 waits_for address && waits_for opened
 address=$(cat address)
-claim "the address that starts the browser works once, and has no token" check first "$(cat opened)"
+claim "the browser gets a private file, which is removed, and no command line has the address" check first "$(cat opened)"
 claim "  the file of the command line is on the page" check has rough-steel.x3p
 kill "$APP"
 wait "$APP"
 claim "a signal ends it, and its folder is removed" bash -c '[ "$0" = 0 ] && [ -z "$(ls "$TMPDIR")" ]' $?
+rc-synth sphere --nx 33 --dx 1um --radius 1mm -o 1-pick.rcg
+cp 1-pick.rcg before.rcg
+"$python" -m rcg.app --no-browser 1-pick.rcg >address 2>app.err &
+APP=$!
+waits_for address
+address=$(cat address)
+claim "a file of the command line with the name of an output is not written to" check kept 1-pick.rcg before.rcg
+claim "  it ends" check quit
+wait "$APP"
 claim "without a page it ends by itself" timeout 20 "$python" -c 'import rcg.app; rcg.app.IDLE = 0.3; rcg.app.main(["--no-browser"])'
 
 finish

@@ -7,6 +7,7 @@ import sys
 import threading
 import time
 import urllib.parse
+import urllib.request
 import zlib
 
 ADDRESS = urllib.parse.urlsplit(sys.argv[1])
@@ -185,7 +186,7 @@ def wrong_unit():
 
 def options():
     """Only options of the tables, and no file outside of the folder of the run."""
-    for tool, option, words in (('rc-solve', ['o', 'x'], 'no option --o'), ('rc-solve', ['report', 'x'], 'no option'), ('rc-solve', ['checkpoint', 'x'], 'no option'),
+    for tool, option, words in (('rc-solve', ['o', 'x'], 'no option --o'), ('rc-pick', ['psd-map', 'x'], 'no option'), ('rc-solve', ['report', 'x'], 'no option'), ('rc-solve', ['checkpoint', 'x'], 'no option'),
                                 ('rc-solve', ['load', '1N\n'], 'without a folder'), ('rc-solve', ['counter', '/etc/passwd'], 'without a folder'),
                                 ('rc-solve', ['yield', '../a.tsv'], 'without a folder'), ('rc-solve', ['kernel', 'ftt'], 'did you mean'),
                                 ('rc-solve', ['load', ['1N']], 'no option'), ('rc-solve', ['load', True], 'needs a value'),
@@ -301,11 +302,51 @@ def watch():
 
 
 def first(opened):
-    path = urllib.parse.urlsplit(opened).path
-    assert TOKEN not in opened
-    status, headers, _ = ask(None, path=path)
-    assert status == 303 and headers['Location'] == sys.argv[1], (status, headers['Location'])
-    refused(403, 'token of this session', None, path=path)
+    """The browser gets a private file that leads to the page and is removed then; no command line holds the address."""
+    file = urllib.request.url2pathname(urllib.parse.urlsplit(opened).path)
+    assert opened.startswith('file:///') and os.path.dirname(os.path.dirname(file)) == os.environ['TMPDIR'], opened
+    assert os.stat(file).st_mode & 0o777 == 0o600 and os.stat(os.path.dirname(file)).st_mode & 0o777 == 0o700
+    with open(file) as page, open('cmdlines', 'rb') as seen:
+        text, lines = page.read(), seen.read()
+    assert 'http-equiv="refresh" content="0; url=%s"' % sys.argv[1] in text, text
+    assert opened.encode() in lines, 'the list of processes has the browser'
+    assert TOKEN.encode() not in lines and b'127.0.0.1:%d/' % ADDRESS.port not in lines, lines
+    refused(403, 'token of this session', None, path='/x/')
+    assert os.path.exists(file)
+    assert ask('')[0] == 200 and not os.path.exists(file)
+
+
+def same_names():
+    """Files of one name are different files, for runs, results and options."""
+    def surface(seed, like=None):
+        subprocess.run(['rc-synth', 'selfaffine', '--nx', '16', '--dx', '1um', '--rms-height', '1um', '--hurst', '0.8', '--seed', seed, '-o', 'same.rcg'], check=True)
+        with open('same.rcg', 'rb') as file:
+            whole = file.read()
+        return uploaded('same.rcg'), whole
+
+    (one, first_), (two, second), (three, third) = surface('1'), surface('2'), surface('1')
+    assert first_ == third != second
+    turned = []
+    for file, whole in ((one, first_), (two, second), (one, first_)):
+        run = ended(start(file, ('rc-pick', [['mirror', 'x']])))
+        assert run['state'] == 'done' and run['file'] == file, run
+        turned.append(ask('file', {'run': run['number'], 'step': 0, 'of': 'stream'})[2])
+        assert turned[-1] == subprocess.run(['rc-pick', '--mirror', 'x', '-'], input=whole, stdout=subprocess.PIPE, check=True).stdout
+    assert turned[0] == turned[2] != turned[1]
+    wear = [['coefficient', '1e-6mm3/Nm'], ['distance', '1m'], ['motion', 'sliding'], ['counter', 'same.rcg']]
+    for start_it in (False, True):
+        body = json.dumps({'file': two, 'start': start_it, 'steps': steps(('rc-wear', wear))})
+        refused(400, '--counter same.rcg: 3 files on this page have this name', 'steps', body=body)
+
+
+def kept(name, text):
+    """A run does not write to a file of the command line, whatever its name is."""
+    file = found('desk')['files'][-1]
+    assert file['shown'] == os.path.realpath(name) and file['name'] == '_' + name, file
+    run = ended(start(file['id'], ('rc-pick', [['crop', '0,0,9,9']])))
+    assert run['state'] == 'done', run
+    with open(name, 'rb') as now, open(text, 'rb') as before:
+        assert now.read() == before.read()
 
 
 def has(name):

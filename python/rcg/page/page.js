@@ -140,13 +140,14 @@ function changed() {
     states();
   }), 150);
 }
-// The state of each step, if the selected run has the same command.
+// The state of each step, if the selected run has the same command on this file.
 function states() {
+  const done = run?.file === file?.id ? run?.steps ?? [] : [];
   for (const step of steps) {
-    const {state, words = '', seconds} = run?.steps.find(other => other.command === step.command) ?? {};
-    const done = state === 'done' ? `done, ${seconds.toFixed(1)} s` : STATES[state] ?? '';
+    const {state, words = '', seconds} = done.find(other => other.command === step.command) ?? {};
+    const ended = state === 'done' ? `done, ${seconds.toFixed(1)} s` : STATES[state] ?? '';
     step.card.dataset.state = state ?? '';
-    step.state.textContent = step.command ? done : 'not used';
+    step.state.textContent = step.command ? ended : 'not used';
     if (step.shown === step.command + words) continue; // a selection of the text stays
     step.shown = step.command + words;
     step.line.replaceChildren(...(step.command ? [command(step.command)] : []),
