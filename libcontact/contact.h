@@ -1258,7 +1258,8 @@ struct rc_travel_figures {
 /* A model (model.h) of a contact that travels along x over body 1. It owns the inner model from here on,
  * which must allow other heights. NULL if the inner model is NULL. In addition to the load it takes the
  * position. The inner model has the map of body 1, or a window with fewer columns or rows, which moves
- * with the contact by whole nodes. In a window each position is a first contact; on the whole map the inner
+ * with the contact by whole nodes. The numbers of rows of both maps and of the window are all even or all
+ * odd, so that their middle rows agree. In a window each position is a first contact; on the whole map the inner
  * model keeps its history. The frame `height` holds the heights of both bodies at the position. The
  * heights of body 2 between nodes are interpolated by cubic polynomials. RC_FAIL when the window leaves
  * the map of a body. */

@@ -117,7 +117,7 @@ add_counter(struct travel *v, double column, struct rc_err *err)
     const struct rc_travel_problem *a = &v->problem;
     const struct rc_shape *s = &v->base.shape, *other = &a->counter;
     const double from =
-        column - a->ratio * nodes_of(v) + floor(((double)other->nx - (double)a->track.nx) / 2);
+        column - a->ratio * nodes_of(v) + ((double)other->nx - (double)a->track.nx) / 2;
     double first = floor(from + rounding), t = fmax(from - first, 0);
     const double weight[] = {-t * (1 - t) * (2 - t) / 6, (1 + t) * (1 - t) * (2 - t) / 2,
                              t * (1 + t) * (2 - t) / 2, -t * (1 + t) * (1 - t) / 6};
@@ -346,6 +346,12 @@ check(const struct rc_shape *window, const struct rc_travel_problem *a, struct r
         return rc_err_set(err,
                           "a window of %zu x %zu nodes on a map of %zu x %zu: it must be smaller",
                           window->nx, window->ny, a->track.nx, a->track.ny);
+    if ((a->track.ny - window->ny) % 2 != 0)
+        return rc_err_set(
+            err,
+            "a window of %zu rows on a map of %zu rows: the middle of the one is half "
+            "a row from the middle of the other: take a window of %zu rows",
+            window->ny, a->track.ny, window->ny + 1);
     if (!(a->radius >= 0) || isinf(a->radius))
         return rc_err_set(err, "radius %g m: it must be at least 0 and finite", a->radius);
     if (!isfinite(a->ratio))
@@ -356,6 +362,13 @@ check(const struct rc_shape *window, const struct rc_travel_problem *a, struct r
     if (a->h2 != NULL && a->counter.ny < window->ny)
         return rc_err_set(err, "the map of body 2 has %zu rows: it must have at least %zu",
                           a->counter.ny, window->ny);
+    if (a->h2 != NULL && (a->counter.ny - window->ny) % 2 != 0)
+        return rc_err_set(
+            err,
+            "the map of body 2 has %zu rows and the contact %zu: the middle of the one "
+            "is half a row from the middle of the other: cut the map of body 2 to "
+            "%zu rows",
+            a->counter.ny, window->ny, a->counter.ny - 1);
     return RC_OK;
 }
 

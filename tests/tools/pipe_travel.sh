@@ -80,6 +80,11 @@ refuses 2 '--window has no effect without --travel' "a window that stays" \
     "rc-solve --load 1mN --estar 1GPa --window 8x8 track.rcg"
 refuses 2 '--passes has no effect without --yield' "passes of an elastic body" "$solve --travel 0 --passes 3 track.rcg"
 refuses 2 'must be numbers of nodes, WxH' "a window of one number" "$solve --travel 0 --window 64 track.rcg"
+refuses 1 'window of 47 rows on a map of 64 rows.*take a window of 48 rows' "a window half a row beside the map" \
+    "$solve --travel 0 --window 64x47 -o x.rcg track.rcg"
+rc-pick --crop 0,0,120,63 other.rcg -o odd.rcg
+refuses 1 'map of body 2 has 63 rows and the contact 48.*cut the map of body 2 to 62 rows' "a surface half a row beside the map" \
+    "$solve --travel 0 --window 64x48 --counter odd.rcg -o x.rcg track.rcg"
 refuses 1 'take positions from -6.8e-05 to 6.8e-05 m' "a window that leaves the map" \
     "rc-pick --set periodic=no track.rcg | $solve --travel 70um --window 64x48"
 refuses 1 'does not cover the contact: take a longer map' "a counter surface that is too short" \

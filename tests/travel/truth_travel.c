@@ -123,6 +123,101 @@ ball_in_a_window(void **state)
     rc_model_free(m);
 }
 
+/* Maps and windows of odd and even numbers of columns and rows: the ball is where it is without a window, in
+ * the middle row of the map and at its position along x. Where the middle rows cannot agree, the window is
+ * refused with the number of rows to take. */
+static void
+windows_of_all_sizes(void **state)
+{
+    enum {
+        MOST = 37 * 30
+    };
+    static const double to[] = {0, 1.5, -2};
+    static double h1[MOST], h[MOST], p[MOST], whole_p[MOST];
+    struct rc_err err = {""};
+
+    (void)state;
+    for (size_t nx = 36; nx < 38; nx++)
+        for (size_t ny = 29; ny < 31; ny++)
+            for (size_t w = 26; w < 28; w++)
+                for (size_t rows = 25; rows < 27; rows++) {
+                    const struct rc_shape map = {nx, ny, node, node}, s = {w, rows, node, node};
+                    const struct rc_problem contact = {
+                        .pair.estar = estar, .tol = 1e-9, .threads = 1};
+                    const struct rc_travel_problem problem = {
+                        .track = map, .h1 = h1, .radius = radius};
+                    struct rc_model *m, *whole;
+
+                    for (size_t k = 0; k < nx * ny; k++)
+                        h1[k] = 0.1 * rough[k / nx * NX + k % nx];
+                    m = rc_travel_new(rc_elastic_new(&s, h1, &contact, NULL, &err), &problem, &err);
+                    if ((ny - rows) % 2 != 0) {
+                        assert_null(m);
+                        assert_non_null(strstr(err.text, rows == 25 ? "a window of 26 rows"
+                                                                    : "a window of 27 rows"));
+                        continue;
+                    }
+                    whole = travelling(map, 1e-9, &problem);
+                    for (size_t q = 0; q < sizeof to / sizeof *to; q++) {
+                        double off = 0, sum = 0, column;
+                        move(m, to[q]);
+                        move(whole, to[q]);
+                        column =
+                            rc_travel_result(m)->window_x / node + ((double)nx - (double)w) / 2;
+                        assert_true(fabs(column - round(column)) < 1e-9);
+                        assert_int_equal(rc_model_frame(m, "height", h, &err), RC_OK);
+                        assert_int_equal(rc_model_frame(m, "pressure", p, &err), RC_OK);
+                        assert_int_equal(rc_model_frame(whole, "pressure", whole_p, &err), RC_OK);
+                        for (size_t k = 0; k < w * rows; k++) {
+                            const size_t i = k % w + (size_t)lround(column),
+                                         j = k / w + (ny - rows) / 2;
+                            const double x = ((double)i - (double)(nx - 1) / 2 - to[q]) * node,
+                                         y = ((double)j - (double)(ny - 1) / 2) * node;
+                            const double exact = h1[j * nx + i] - (x * x + y * y) / (2 * radius);
+                            assert_true(fabs(h[k] - exact) < 1e-20);
+                            off += fabs(p[k] - whole_p[j * nx + i]);
+                            sum += p[k];
+                        }
+                        assert_true(sum > 0 && off < 1e-7 * sum);
+                    }
+                    rc_model_free(m);
+                    rc_model_free(whole);
+                }
+}
+
+/* A surface whose columns differ by an odd number from those of body 1 lies with its middle on the middle of
+ * the contact, half a node between the nodes: a parabola stays exact. Its rows must agree. */
+static void
+middle_of_a_surface(void **state)
+{
+    const struct rc_shape s = {24, 20, node, node};
+    static double h2[33 * 21], h[24 * 20], flat[24 * 20];
+    struct rc_travel_problem problem = {
+        .track = s, .h1 = flat, .counter = {33, 20, node, node}, .h2 = h2, .ratio = 1};
+    const struct rc_problem contact = {.pair.estar = estar, .tol = 1e-6, .threads = 1};
+    struct rc_err err = {""};
+    struct rc_model *m;
+
+    (void)state;
+    for (size_t k = 0; k < 33 * 21; k++)
+        h2[k] = -pow(((double)(k % 33) - 16) * node, 2) / (2 * radius) -
+                pow(((double)(k / 33) - 9.5) * node, 2) / (2 * radius);
+    m = travelling(s, 1e-6, &problem);
+    for (double to = -1; to <= 1; to += 0.5) {
+        move(m, to);
+        assert_int_equal(rc_model_frame(m, "height", h, &err), RC_OK);
+        for (size_t k = 0; k < 24 * 20; k++) {
+            const double x = ((double)(k % 24) - 11.5 - to) * node,
+                         y = ((double)(k / 24) - 9.5) * node;
+            assert_true(fabs(h[k] + (x * x + y * y) / (2 * radius)) < 1e-20);
+        }
+    }
+    rc_model_free(m);
+    problem.counter.ny = 21;
+    assert_null(rc_travel_new(rc_elastic_new(&s, flat, &contact, NULL, &err), &problem, &err));
+    assert_non_null(strstr(err.text, "cut the map of body 2 to 20 rows"));
+}
+
 /* A rough body 2 that rolls, slides with the contact, or half as far, over the whole map. */
 static void
 surface_over_the_map(void **state)
@@ -328,9 +423,10 @@ int
 main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(ball_in_a_window), cmocka_unit_test(surface_over_the_map),
-        cmocka_unit_test(between_nodes),    cmocka_unit_test(inclined_plane),
-        cmocka_unit_test(convolutions),     cmocka_unit_test(refused),
+        cmocka_unit_test(ball_in_a_window),    cmocka_unit_test(windows_of_all_sizes),
+        cmocka_unit_test(middle_of_a_surface), cmocka_unit_test(surface_over_the_map),
+        cmocka_unit_test(between_nodes),       cmocka_unit_test(inclined_plane),
+        cmocka_unit_test(convolutions),        cmocka_unit_test(refused),
         cmocka_unit_test(cold_start),
     };
 
