@@ -82,6 +82,7 @@ struct slide {
     double estimate; /* relative error of p in the norm of V, times cos d     */
     size_t contacts, iterations;
     double convolutions;
+    bool ended; /* the state that was read is that of a last contact     */
     bool done, looked;
     struct rc_slide_figures f;
 };
@@ -285,16 +286,14 @@ goal_of(const struct slide *s)
     return s->problem.tol / hypot(1, s->steepest);
 }
 
-/* Judges the pressure in the sliding contact. Afterwards the solver has the heights h - (K - V) p, and with
- * them the gap of the sliding contact. */
+/* Judges the pressure in the sliding contact, from V p in v. Afterwards the solver has the heights
+ * h - (K - V) p, and with them the gap of the sliding contact. */
 static enum rc_status
-judge_sliding(struct slide *s, struct rc_err *err)
+judge(struct slide *s, struct rc_err *err)
 {
     struct rc_solver *v = solver_of(s);
-    const bool fresh = v->it.fresh;
 
-    for (size_t k = 0; k < s->n; k++)
-        s->room[k] = v->it.v[k] += v->posed.h[k];
+    memcpy(s->room, v->it.v, s->n * sizeof *s->room);
     filter(s, PHASE, s->room);
     for (size_t k = 0; k < s->n; k++)
         s->room[k] = s->h[k] - s->room[k];
@@ -304,11 +303,47 @@ judge_sliding(struct slide *s, struct rc_err *err)
     for (size_t k = 0; k < s->n; k++)
         v->it.v[k] -= v->posed.h[k];
     v->it.known = true;
-    v->it.fresh = fresh;
     rc_iterate_shift(v);
     rc_working_set_find(v, false);
     s->estimate = rc_working_set_estimate(v);
     return RC_OK;
+}
+
+static enum rc_status
+next_contact(struct slide *s, struct rc_err *err)
+{
+    struct rc_solver *v = solver_of(s);
+
+    s->tol = fmin(loosest, of_error * s->estimate);
+    v->posed.rough = s->tol > single_floor;
+    rc_solver_set_tol(v, s->tol);
+    for (size_t k = 0; k < s->n; k++)
+        s->room[k] = s->h[k] - s->g[k];
+    if (pose(s, err) != RC_OK)
+        return RC_FAIL;
+    s->base.inner->status = RC_MORE;
+    return RC_MORE;
+}
+
+/* Judges the pressure of the last contact by V p in double precision. The result then depends on nothing but
+ * this pressure, and a state needs nothing else to give the same bits. */
+static enum rc_status
+conclude(struct slide *s, struct rc_err *err)
+{
+    struct rc_solver *v = solver_of(s);
+
+    rc_operator_apply(v->op, v->it.p, v->it.v);
+    rc_iterate_count(v, 1);
+    if (judge(s, err) != RC_OK)
+        return RC_FAIL;
+    v->it.fresh = true;
+    s->done = s->estimate <= goal_of(s) && rc_load_reached(v);
+    if (!s->done && s->contacts < MOST_CONTACTS)
+        return next_contact(s, err);
+    rc_iterate_checked(v, s->estimate, 1);
+    v->stage = RC_STAGE_STEPPED;
+    s->base.inner->status = RC_OK;
+    return s->done ? RC_OK : RC_SHORT;
 }
 
 /* After an elastic contact: RC_OK if its pressure solves the sliding contact; otherwise poses the next
@@ -319,30 +354,13 @@ advance(struct slide *s, struct rc_err *err)
     struct rc_solver *v = solver_of(s);
 
     for (size_t k = 0; k < s->n; k++)
-        s->g[k] += 2 * (v->it.v[k] + v->posed.h[k]);
+        s->g[k] += 2 * (v->it.v[k] += v->posed.h[k]);
     filter(s, HALF, s->g);
-    if (judge_sliding(s, err) != RC_OK)
+    if (judge(s, err) != RC_OK)
         return RC_FAIL;
-    if (s->estimate <= goal_of(s) && !v->it.fresh) {
-        rc_iterate_displace(v);
-        if (judge_sliding(s, err) != RC_OK)
-            return RC_FAIL;
-    }
     s->contacts++;
-    s->done = s->estimate <= goal_of(s) && rc_load_reached(v);
-    if (s->done || s->contacts >= MOST_CONTACTS) {
-        rc_iterate_checked(v, s->estimate, 1);
-        return s->done ? RC_OK : RC_SHORT;
-    }
-    s->tol = fmin(loosest, of_error * s->estimate);
-    v->posed.rough = s->tol > single_floor;
-    rc_solver_set_tol(v, s->tol);
-    for (size_t k = 0; k < s->n; k++)
-        s->room[k] = s->h[k] - s->g[k];
-    if (pose(s, err) != RC_OK)
-        return RC_FAIL;
-    s->base.inner->status = RC_MORE;
-    return RC_MORE;
+    return s->estimate <= goal_of(s) || s->contacts >= MOST_CONTACTS ? conclude(s, err)
+                                                                     : next_contact(s, err);
 }
 
 /* ---- verbs ---- */
@@ -383,7 +401,7 @@ go(struct rc_model *m, struct rc_err *err)
     s->convolutions = 0;
     s->tol = loosest;
     s->estimate = NAN;
-    s->done = s->looked = false;
+    s->done = s->looked = s->ended = false;
     inner = rc_point_for(m->inner, &m->to);
     m->inner->row->accuracy(m->inner, s->tol / s->problem.tol);
     if (rc_model_go(m->inner, &inner, err) != RC_MORE)
@@ -396,9 +414,14 @@ static enum rc_status
 step(struct rc_model *m, struct rc_err *err)
 {
     struct slide *s = (struct slide *)m;
-    const enum rc_status status = rc_model_step(m->inner, err);
+    enum rc_status status;
 
     s->loaded = false;
+    if (s->ended) {
+        s->ended = false;
+        return conclude(s, err);
+    }
+    status = rc_model_step(m->inner, err);
     return status == RC_MORE || status == RC_FAIL ? status : advance(s, err);
 }
 
@@ -522,14 +545,32 @@ keep(struct rc_model *m, struct rc_err *err)
     return rc_model_keep(m->inner, err);
 }
 
-/* Under way, a state holds G; the pressure is in the state of the inner model. */
+/* The waves of G fill whole maps, the last one with zeros. */
+static void
+exchange_waves(struct slide *s, struct rc_state *x)
+{
+    const double *from;
+    size_t waves;
+    double *g = rc_wake_waves(s->wake, &waves), *to;
+
+    for (size_t at = 0; at < waves; at += s->n) {
+        const size_t some = waves - at < s->n ? waves - at : s->n;
+        if (rc_state_reads(x)) {
+            if ((from = rc_state_read_map(x, s->n)) != NULL)
+                memcpy(g + at, from, some * sizeof *g);
+        } else if ((to = rc_state_map(x, s->n, NULL)) != NULL) {
+            memcpy(to, g + at, some * sizeof *g);
+            memset(to + some, 0, (s->n - some) * sizeof *g);
+        }
+    }
+}
+
+/* Until the point is kept a state holds G; the pressure is in the state of the inner model. */
 static void
 state(struct rc_model *m, struct rc_state *x)
 {
     struct slide *s = (struct slide *)m;
     struct rc_err err;
-    size_t waves;
-    double *g;
 
     if (!m->moved)
         return;
@@ -541,13 +582,12 @@ state(struct rc_model *m, struct rc_state *x)
         rc_state_refuse(x, err.text);
         return;
     }
-    if (s->wake != NULL) {
-        g = rc_wake_waves(s->wake, &waves);
-        rc_state_map(x, waves, g);
-    }
+    if (s->wake != NULL)
+        exchange_waves(s, x);
     if (!rc_state_reads(x))
         return;
     s->done = s->looked = false;
+    s->ended = m->status == RC_OK || m->status == RC_SHORT;
     for (size_t k = 0; k < s->n; k++)
         s->room[k] = s->h[k] - s->g[k];
     if (rc_model_set_heights(m->inner, s->room, &err) != RC_OK)

@@ -8,17 +8,47 @@ rubber="--periodic --relaxation 1MPa,9MPa:1ms --nu1 0.5 --E2 rigid --quiet"
 
 # E1 = 9 MPa at 0.1 m/s: w tau = 0.98175, loss 9 MPa w tau/(1 + (w tau)^2) over 1 - nu^2; the friction over the mean
 # pressure is q^2 h^2 E''/4, with the wave number q
-claim "a wave slides in full contact" bash -c "rc-solve $rubber --mean-pressure 1MPa --speed 0.1 --report wave.json -o flat.rcg wave.rcg"
+friction=$(awk 'BEGIN { q = 6.283185307179586 / 640e-6; x = q * 0.1 * 1e-3
+    printf "%.17g", q * q * 1e-12 * 9 * x / (1 + x * x) / 0.75 / 4 }')
+flat="rc-solve $rubber --mean-pressure 1MPa --speed 0.1"
+claim "a wave slides in full contact" bash -c "$flat --tol 1e-12 --report wave.json -o flat.rcg wave.rcg"
 claim "  all nodes touch" says '^1$' field contact_fraction wave.json
-near "$(field friction wave.json)" "$(awk 'BEGIN { q = 6.283185307179586 / 640e-6; x = q * 0.1 * 1e-3
-    print q * q * 1e-12 * 9 * x / (1 + x * x) / 0.75 / 4 }')" 1e-9 "its friction"
-near "$(awk "BEGIN { print $(field friction_force wave.json) * 0.1 }")" "$(field dissipated_power wave.json)" 1e-9 "the power of the friction"
+near "$(field friction wave.json)" "$friction" 1e-9 "its friction"
+near "$(awk "BEGIN { printf \"%.17g\", $(field friction_force wave.json) * 0.1 }")" "$(field dissipated_power wave.json)" 1e-9 \
+    "the power of the friction is that of the losses of its waves"
+for tol in 1e-2 1e-3 1e-6; do
+    $flat --tol $tol --report loose.json -o flat.rcg wave.rcg
+    between 0 "$(awk "BEGIN { d = $(field friction loose.json) - $friction; printf \"%.17g\", d < 0 ? -d : d }")" \
+        "$(field friction_error_estimate loose.json)" "  with --tol $tol its error is below the estimate"
+done
 
 claim "each speed is a case" bash -c "
     rc-solve $rubber --mean-pressure 0.2MPa --speed=-0.1,0.01,1 --checkpoint kept.rcg --report road.tsv -o sliding.rcg road.rcg"
 claim "  of four frames with the speed as a key" says '^4$' bash -c "rc-info sliding.rcg | grep -c speed=-0.1"
 claim "  the resumed run gives the same bits" bash -c "
-    rc-solve $rubber --mean-pressure 0.2MPa --speed=-0.1,0.01,1 --checkpoint kept.rcg --resume -o again.rcg road.rcg && cmp sliding.rcg again.rcg"
+    rc-solve $rubber --mean-pressure 0.2MPa --speed=-0.1,0.01,1 --checkpoint kept.rcg --resume --report again.tsv -o again.rcg road.rcg &&
+    cmp sliding.rcg again.rcg"
+# figures FILE: a report without the columns of its cost
+figures() {
+    awk -F '\t' 'NR == 1 { for (i = 1; i <= NF; i++) cost[i] = $i ~ /memory|seconds|convolutions/ }
+        { for (i = 1; i <= NF; i++) if (!cost[i]) print $i }' "$1"
+}
+figures road.tsv >once.txt
+figures again.tsv >twice.txt
+claim "  and the same figures" cmp once.txt twice.txt
+rc-synth sphere --nx 40 --ny 24 --dx 2um --radius 200um -o ball.rcg
+once="rc-solve ${rubber#--periodic} --load 0.1mN --speed=-0.1,0.01 --checkpoint free.rcg"
+claim "  so on a map that does not repeat" bash -c "
+    $once -o once.rcg ball.rcg && $once --resume -o again.rcg ball.rcg && cmp once.rcg again.rcg"
+# A signal comes when the checkpoint has a state of the case.
+claim "  and an interrupted run goes on to the tolerance" bash -c "
+    rc-synth selfaffine --nx 256 --dx 10um --hurst 0.8 --rms-slope 0.2 --short-cut 80um --seed 3 -o wide.rcg
+    slow='rc-solve $rubber --mean-pressure 0.2MPa --tol 1e-9 --speed 0.01 --output pressure'
+    \$slow --checkpoint half.rcg --interval 0.001 -o half.out wide.rcg & run=\$!
+    until [ -s half.rcg ] || ! kill -0 \$run; do sleep 0.01; done
+    kill \$run; wait \$run; [ \$? = 143 ] && rc-info --quiet half.out >info.txt; [ \$? = 3 ] &&
+    \$slow --checkpoint half.rcg --resume --report half.json -o half.out wide.rcg && \$slow --report whole.json -o whole.out wide.rcg"
+near "$(field friction half.json)" "$(field friction whole.json)" 1e-7 "    with the same friction"
 refuses 1 'another problem: speed was 1, is 2' "states of another speed" \
     "rc-solve $rubber --mean-pressure 0.2MPa --speed=-0.1,0.01,2 --checkpoint kept.rcg --resume -o x.rcg road.rcg"
 claim "  a curve of the friction" bash -c "rc-render --curve speed:friction -o curve.png road.tsv && [ -s curve.png ]"

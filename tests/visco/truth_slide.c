@@ -3,7 +3,7 @@
  * the complex compliance, summed here wave by wave; gap and pressure are those of a contact. Slow and fast
  * bodies are elastic. A mirrored map slides backwards, and a turned one along y. The power of the friction is
  * the sum of the losses in all terms of the material. The estimate is above the error of p and of the
- * friction, and the work does not grow with the map. */
+ * friction, and the work does not grow with the map. A restored state gives the same bits. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -373,6 +373,75 @@ limits(void **state)
     rc_relaxation_free(r);
 }
 
+/* The state of a reached point gives another model the same bits, on both kinds of maps. One of a point
+ * half-way gives the same within the tolerance. */
+static void
+restored(void **state)
+{
+    static double h[RX * RY], p[RX * RY], q[RX * RY];
+    struct rc_relaxation *r = standard();
+    const struct rc_slide_problem law = {.material = r};
+    double approach[2] = {0, 0};
+
+    (void)state;
+    rough(map, 4, 1, 7, h);
+    for (int round = 0; round < 12; round++) {
+        const enum rc_boundary boundary = round % 2 == 0 ? RC_PERIODIC : RC_FREE;
+        const int axis = round / 2 % 2 == 0 ? RC_LOAD : RC_APPROACH;
+        const bool half_way = round >= 8;
+        const double tol = half_way || round < 4 ? 1e-3 : 1e-8;
+        struct rc_model *m = sliding(map, boundary, h, tol, &law);
+        struct rc_model *other = sliding(map, boundary, h, tol, &law);
+        const double speed = round % 3 == 0 ? -0.4 : 0.4;
+        struct rc_slide_figures f, g;
+        struct rc_point to = {0};
+        double *v;
+        size_t n;
+        bool going;
+
+        rc_point_set(&to, axis, axis == RC_LOAD ? 0.1 : approach[round % 2]);
+        rc_point_set(&to, RC_SPEED, speed);
+        assert_int_equal(rc_model_go(m, &to, &err), RC_MORE);
+        for (size_t k = 0; rc_model_step(m, &err) == RC_MORE && !(half_way && k > 12);)
+            k++;
+        n = rc_model_state_size(m);
+        v = calloc(n, sizeof *v);
+        assert_non_null(v);
+        rc_model_state(m, v);
+        /* a checkpoint stores the maps of a state as frames of the map */
+        assert_true((double)n == v[0] + v[1] * RX * RY);
+        while (rc_model_step(m, &err) == RC_MORE)
+            continue;
+        assert_int_equal(rc_model_restore(other, v, n, &going, &err), RC_OK);
+        assert_true(going);
+        while (rc_model_step(other, &err) == RC_MORE)
+            continue;
+        assert_int_equal(rc_model_look(m, NULL, &err), RC_OK);
+        assert_int_equal(rc_model_look(other, NULL, &err), RC_OK);
+        f = *rc_slide_result(m);
+        g = *rc_slide_result(other);
+        approach[round % 2] = f.approach;
+        frame(m, "pressure", p);
+        frame(other, "pressure", q);
+        assert_true(f.converged && g.converged);
+        if (half_way) {
+            assert_true(difference(q, p, RX * RY) < 2 * tol);
+        } else {
+            assert_memory_equal(p, q, sizeof p);
+            frame(m, "gap", p);
+            frame(other, "gap", q);
+            assert_memory_equal(p, q, sizeof p);
+            assert_true(f.friction == g.friction && f.friction_error == g.friction_error &&
+                        f.dissipated_power == g.dissipated_power && f.approach == g.approach &&
+                        f.contacts == g.contacts && f.iterations == g.iterations);
+        }
+        free(v);
+        rc_model_free(m);
+        rc_model_free(other);
+    }
+    rc_relaxation_free(r);
+}
+
 /* A mirrored map that slides backwards, a map that is turned and slides along y, and an approach in place of
  * the load. */
 static void
@@ -571,7 +640,8 @@ main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(hunter),  cmocka_unit_test(wheels),    cmocka_unit_test(flattened),
         cmocka_unit_test(contact), cmocka_unit_test(limits),    cmocka_unit_test(mirrored),
-        cmocka_unit_test(work),    cmocka_unit_test(estimates), cmocka_unit_test(refused),
+        cmocka_unit_test(work),    cmocka_unit_test(estimates), cmocka_unit_test(restored),
+        cmocka_unit_test(refused),
     };
 
     return cmocka_run_group_tests(tests, NULL, NULL);
