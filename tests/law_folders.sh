@@ -254,7 +254,7 @@ if command -v nm >/dev/null; then
     private_faults symbols.txt >private.txt
     claim "formats and tools use only functions of the public headers of libcontact" none private.txt
 else
-    echo "not tried: what is called, because nm is not here"
+    untried "what is called, because nm is not here"
 fi
 
 # ---- a tree where each rule is broken: every fault is seen ----

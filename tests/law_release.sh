@@ -81,7 +81,7 @@ if command -v mandoc >/dev/null; then
     claim "rc-solve.1 has a link to rcg.5" grep -q 'href="rcg.5.html"' html/rc-solve.1.html
     claim "  every link of the index has a target" leads_on html/index.html
 else
-    echo "not tried: web pages, because mandoc is not here"
+    untried "web pages, because mandoc is not here"
 fi
 
 finish

@@ -2,16 +2,61 @@
 # defines claims and the tolerances of tests/exact.h by their names ($rounding, ...). A pipeline fails if any
 # of its commands fails, here and in every bash that a claim starts. grep -q and head may stop reading early,
 # so they must not end a pipeline in a claim. `says` and `warns` check the output after the command has ended.
+#
+# A script passes if it ends with status 0, has made a claim, and no claim has failed; the trap EXIT sees to
+# that. `skip` is the only way to the status 77, which ctest shows as skipped.
 set -u -o pipefail
 export SHELLOPTS
 PATH="$RC_BIN:$PATH"
 export LC_ALL=C
 eval "$(sed -n 's/^static const double \([a-z_]*\) = \([0-9][0-9.e-]*\);.*/\1=\2/p' "$RC_SOURCE/tests/exact.h")"
-scratch=$(mktemp -d)
-trap 'rm -rf "$scratch"' EXIT
-cd "$scratch" || exit 1
+scratch=$(mktemp -d) || exit 1
 claims=0
 failures=0
+skipped=
+trap 'verdict $?' EXIT
+cd "$scratch" || exit 1
+
+# verdict STATUS: the exit status of the script, which ends with STATUS.
+verdict() {
+    local uncounted=0
+    [ ! -e "$scratch/.uncounted" ] || uncounted=$(wc -l <"$scratch/.uncounted")
+    rm -rf "$scratch"
+    if [ "$1" = 77 ] && [ "$skipped" ] && [ "$claims" = 0 ]; then exit 77; fi
+    echo "$claims claims, $failures failed"
+    [ "$1" = 0 ] || echo "NOT OK: the script ended early, with status $1"
+    [ "$claims" -gt 0 ] || echo "NOT OK: the script makes no claim"
+    [ "$uncounted" = 0 ] || echo "NOT OK: $uncounted claims in a subshell, where they are not counted"
+    [ "$1" = 0 ] && [ "$claims" -gt 0 ] && [ "$failures" = 0 ] && [ "$uncounted" = 0 ] && exit 0
+    exit 1
+}
+
+# skip "why": ends a test that cannot run here, before its first claim. tests/run.sh lists the reasons.
+skip() {
+    echo "SKIPPED: $1"
+    skipped=yes
+    exit 77
+}
+
+# untried "what and why": a part of a test that cannot run here. tests/run.sh lists it too.
+untried() {
+    echo "NOT TRIED: $1"
+}
+
+# passed "sentence", failed "sentence": count a claim that the caller has decided.
+tally() {
+    claims=$((claims + 1))
+    [ "$BASH_SUBSHELL" = 0 ] || echo "$1" >>"$scratch/.uncounted"
+}
+passed() {
+    tally "$1"
+    echo "ok: $1"
+}
+failed() {
+    tally "$1"
+    failures=$((failures + 1))
+    echo "NOT OK: $1"
+}
 
 # before_release: true if all cases run (RC_LONG, tests/CMakeLists.txt), not only those of every commit.
 before_release() {
@@ -20,15 +65,15 @@ before_release() {
 
 # claim "sentence" command...: the command succeeds.
 claim() {
-    local sentence=$1
+    local sentence=$1 got
     shift
-    claims=$((claims + 1))
-    if "$@" >claim.out 2>claim.err; then
-        echo "ok: $sentence"
+    "$@" >claim.out 2>claim.err
+    got=$?
+    if [ "$got" = 0 ]; then
+        passed "$sentence"
     else
-        echo "NOT OK ($?): $sentence"
+        failed "$sentence: exit status $got"
         sed 's/^/    /' claim.err
-        failures=$((failures + 1))
     fi
 }
 
@@ -36,15 +81,13 @@ claim() {
 # the pattern (grep -E).
 refuses() {
     local status=$1 pattern=$2 sentence=$3 command=$4 got
-    claims=$((claims + 1))
     bash -c "$command" >refuses.out 2>refuses.err </dev/null
     got=$?
     if [ "$got" = "$status" ] && grep -qE -- "$pattern" refuses.err; then
-        echo "ok: $sentence"
+        passed "$sentence"
     else
-        echo "NOT OK: $sentence: exit status $got (expected $status), standard error:"
+        failed "$sentence: exit status $got (expected $status), standard error:"
         sed 's/^/    /' refuses.err
-        failures=$((failures + 1))
     fi
 }
 
@@ -83,28 +126,24 @@ export -f says warns lacks reseal
 
 # near VALUE EXPECTED TOLERANCE "sentence": |VALUE - EXPECTED| <= TOLERANCE |EXPECTED|, both numbers.
 near() {
-    claims=$((claims + 1))
     if awk -v a="$1" -v b="$2" -v t="$3" 'BEGIN {
         number = "^ *[-+]?[0-9.]+([eE][-+]?[0-9]+)?$"
         d = a - b; if (d < 0) d = -d; m = b < 0 ? -b : b
         exit !(a ~ number && b ~ number && t ~ number && d <= t * m) }'; then
-        echo "ok: $4 ($1)"
+        passed "$4 ($1)"
     else
-        echo "NOT OK: $4: $1, expected $2 within a relative $3"
-        failures=$((failures + 1))
+        failed "$4: $1, expected $2 within a relative $3"
     fi
 }
 
 # between LOW VALUE HIGH "sentence": LOW <= VALUE <= HIGH, all numbers.
 between() {
-    claims=$((claims + 1))
     if awk -v a="$1" -v x="$2" -v b="$3" 'BEGIN {
         number = "^ *[-+]?[0-9.]+([eE][-+]?[0-9]+)?$"
         exit !(a ~ number && x ~ number && b ~ number && a + 0 <= x + 0 && x + 0 <= b + 0) }'; then
-        echo "ok: $4 ($2)"
+        passed "$4 ($2)"
     else
-        echo "NOT OK: $4: $2, expected from $1 to $3"
-        failures=$((failures + 1))
+        failed "$4: $2, expected from $1 to $3"
     fi
 }
 
@@ -122,19 +161,13 @@ with_address_sanitizer() {
 # skip_with_address_sanitizer "why": ends a test that the memory of the sanitizer would disturb.
 skip_with_address_sanitizer() {
     if with_address_sanitizer; then
-        echo "skipped with the address sanitizer: $1"
-        exit 77
+        skip "with the address sanitizer: $1"
     fi
 }
 
 # tool_sources: prints the main source files of the built tools, one per line.
 tool_sources() {
     printf '%s\n' "$RC_SOURCE"/tools/rc-*.c
-}
-
-finish() {
-    echo "$claims claims, $failures failed"
-    [ "$claims" -gt 0 ] && [ "$failures" = 0 ]
 }
 
 # energy_of STREAM CELL OPTIONS: half the sum of the first pressure times its displacement by rc-deflect,
@@ -145,3 +178,5 @@ energy_of() {
     paste <(rc-export --format xyz energy-p.rcg | grep -v '^#') <(rc-export --format xyz energy-u.rcg | grep -v '^#') |
         awk -v cell="$2" '{ sum += $3 * $6 } END { printf "%.17g\n", cell * sum / 2 }'
 }
+
+finish() { :; }

@@ -1,6 +1,8 @@
 #!/usr/bin/env bash
 # Installs what is missing (Debian, Ubuntu), builds with warnings as errors, runs every test.
 # With CI=true also builds with the address and undefined-behaviour sanitizers and runs them there.
+# At the end it lists the tests that were skipped, with the reasons. It fails if a test fails, or passes although a
+# claim of it failed (outcome.sh).
 set -euo pipefail
 top=$(cd "$(dirname "$0")/.." && pwd)
 cd "$top"
@@ -12,6 +14,8 @@ phase() {
     began=$SECONDS
 }
 began=$SECONDS
+outcomes=$(mktemp -d)
+trap 'cat "$outcomes"/* 2>/dev/null; rm -rf "$outcomes"' EXIT
 
 # shellcheck disable=SC2086
 need_packages $build_packages $test_packages
@@ -47,9 +51,13 @@ build() {
 
 # try PRESET [OPTIONS]: builds, and runs the tests in parallel, because none of them measures time closely.
 try() {
-    local preset=$1
+    local preset=$1 failed=0 list
     shift
-    ctest --test-dir "build-$preset" --output-on-failure --no-tests=error "$@"
+    list=$(mktemp "$outcomes/$preset.XXXXXX")
+    ctest --test-dir "build-$preset" --output-on-failure --no-tests=error "$@" || failed=1
+    echo "== $preset" >"$list"
+    tests/outcome.sh "build-$preset/Testing/Temporary/LastTest.log" >>"$list" || failed=1
+    return "$failed"
 }
 
 if [ "${CI-}" = true ]; then

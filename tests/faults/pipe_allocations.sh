@@ -17,13 +17,11 @@ run() {
 }
 
 tried=0
-bad=0
 sweep() { # COARSER COMMAND
     local step=$(($1 * stride)) command=$2 out n stay last wrong=0 before after
     out=$(written "$command")
     run 0 "" "$command" || {
-        echo "NOT OK: $command: fails without a fault: $(head -c 300 run.err)"
-        bad=$((bad + 1))
+        failed "$command: fails without a fault: $(head -c 300 run.err)"
         return
     }
     last=$(cat count)
@@ -44,9 +42,11 @@ sweep() { # COARSER COMMAND
             }
         done
     done
-    [ $wrong = 0 ] && [ "$last" -gt 5 ] && echo "ok: $last allocations: $command" && return
-    echo "NOT OK: $wrong of $last allocations: $command"
-    bad=$((bad + 1))
+    if [ $wrong = 0 ] && [ "$last" -gt 5 ]; then
+        passed "$last allocations: $command"
+    else
+        failed "$wrong of $last allocations: $command"
+    fi
 }
 
 turn=0
@@ -54,5 +54,4 @@ while read -r coarser command; do
     [ "$stride" = 1 ] || [ $((++turn % 2)) = 1 ] || continue
     sweep "$coarser" "$command" </dev/null
 done <<<"$commands"
-echo "$tried allocations failed, one in $stride; $bad commands wrong"
-[ $tried -gt 0 ] && [ $bad = 0 ]
+claim "$tried allocations failed, one in $stride" test $tried -gt 0

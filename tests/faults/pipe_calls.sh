@@ -13,7 +13,7 @@
 stride=${RC_STRIDE:-1}
 make_inputs
 "$RC_FAILING_CALLS" -f none true
-[ $? = 77 ] && echo "the calls of a command cannot be watched here" && exit 77
+[ $? != 77 ] || skip "the calls of a command cannot be watched here"
 
 # The leak check of a sanitizer starts a process at the end, which is not a call of the tool.
 export ASAN_OPTIONS="${ASAN_OPTIONS:+$ASAN_OPTIONS:}detect_leaks=0"
@@ -82,22 +82,18 @@ judge_fault() { # FAULT STATUS WHERE
 }
 
 tried=0
-bad=0
 sweep() { # FAULT COMMAND
     local fault=$1 command=$2 out n last wrong=0 before after step=$stride
     case $command in rc-cost*) step=$((40 * stride)) ;; esac # most calls are made by the tools that it runs
     out=$(written "$command")
     rm -f clean
     run "$fault" 0 "$command" || {
-        echo "NOT OK: $command: fails without a fault: $(head -c 300 run.err)"
-        bad=$((bad + 1))
+        failed "$command: fails without a fault: $(head -c 300 run.err)"
         return
     }
     last=$(cat count)
-    [ "$fault$last" != fsync0 ] || [ -z "$out" ] || {
-        echo "NOT OK: it is put in its place before the disk has it: $command"
-        bad=$((bad + 1))
-    }
+    [ "$fault$last" != fsync0 ] || [ -z "$out" ] ||
+        failed "it is put in its place before the disk has it: $command"
     [ -z "$out" ] || cp "$out" clean
     cp run.out clean.out
     before=$(others)
@@ -112,9 +108,11 @@ sweep() { # FAULT COMMAND
             before=$after
         }
     done
-    [ $wrong = 0 ] && return
-    echo "NOT OK: $fault, $wrong of $last calls: $command"
-    bad=$((bad + 1))
+    if [ $wrong = 0 ]; then
+        passed "$fault, $last calls: $command"
+    else
+        failed "$fault, $wrong of $last calls: $command"
+    fi
 }
 
 turn=0
@@ -127,5 +125,4 @@ for fault in enospc eio fsync nosync eintr short emfile term int kill; do
     done <<<"$commands"
     echo "$fault: $tried so far"
 done
-echo "$tried calls failed, one in $stride; $bad times wrong"
-[ $tried -gt 0 ] && [ $bad = 0 ]
+claim "$tried calls failed, one in $stride" test $tried -gt 0

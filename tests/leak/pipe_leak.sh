@@ -194,7 +194,7 @@ refuses 2 'leak z' "another direction" "$cost --leak z costly.rcg"
 rc-synth selfaffine --nx 512 --dx 1um --hurst 0.8 --rms-slope 0.05 --rolloff 64um --short-cut 16um --seed 2 -o wide.rcg
 rc-solve --quiet --periodic --estar 1GPa --mean-pressure 3MPa --output pressure,gap wide.rcg -o wide-pressed.rcg
 if nm -D "$(command -v rc-leak)" 2>/dev/null | grep __asan >asan.txt; then
-    echo "not tried: memory, for the address sanitizer takes memory of its own"
+    untried "memory, for the address sanitizer takes memory of its own"
 else
     rc-leak --quiet --report wide.json wide-pressed.rcg -o wide-flow.rcg
     near "$(field memory_estimate wide.json)" "$(field peak_memory wide.json)" 0.1 "the memory that is counted"

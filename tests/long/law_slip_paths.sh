@@ -2,7 +2,7 @@
 # boundaries. The paths have constant, growing and falling loads, and displacements. Their forces turn,
 # reverse or grow with the load. It takes about 8 minutes; SECONDS_MOST=60 limits it for a first impression.
 . "$(dirname "$0")/../pipe.sh"
-command -v python3 >/dev/null || exit 77
+command -v python3 >/dev/null || skip "python3 is not here"
 
 cat >paths.py <<'END'
 import array, json, math, os, random, subprocess, time

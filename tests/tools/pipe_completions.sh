@@ -149,7 +149,7 @@ if command -v fish >/dev/null; then
     }
     at_work fish
 else
-    echo "not tried: fish at work, which is not here"
+    untried "fish at work, which is not here"
 fi
 
 if command -v zsh >/dev/null; then
@@ -199,7 +199,7 @@ END
         claim "zsh: zsh accepts the file of $tool" zsh -n "$completions/zsh/_$tool"
     done
 else
-    echo "not tried: zsh at work, which is not here"
+    untried "zsh at work, which is not here"
 fi
 
 refuses 2 'unknown option --completions' "another shell is none" 'rc-solve --completions csh'

@@ -6,8 +6,8 @@
 points() {
     perl "$RC_SOURCE/tests/tools/points.pl" <"$1"
 }
-# near FILE KIND NUMBER...: a path of this kind in the file has these numbers, to a thousandth of the largest.
-near() {
+# draws FILE KIND NUMBER...: a path of this kind in the file has these numbers, to a thousandth of the largest.
+draws() {
     points "$1" | awk -v kind="$2" -v want="${*:3}" '
         BEGIN { n = split(want, w); for (k in w) most = (w[k] > most ? w[k] : most) }
         $2 == kind && NF >= n + 2 { bad = 0
@@ -19,36 +19,36 @@ draw='rc-render --quiet -o out.svg'
 shows() {
     says "$2" cat "$1"
 }
-export -f points near shows
+export -f points draws shows
 
 # ---- means, their spread, columns of errors ----
 
 # 2 with deviations -1 0 1: deviation 1; 5 with -1 and 1: sqrt 2
 printf 'x/N\ty/m2\tk\te/m2\n1\t1\ta\t0.5\n3\t4\tb\t1\n1\t2\tb\t0.5\n1\t3\ta\t0.25\n3\t6\ta\t1\n' >few.tsv
 claim "rows with the same x become a point" rc-render --curve x:y --spread -o s.svg few.tsv
-claim "  the point is their mean" near s.svg solid 1 2 3 5
-claim "  its bars are their standard deviation (n - 1)" near s.svg bars 1 1 1 3
+claim "  the point is their mean" draws s.svg solid 1 2 3 5
+claim "  its bars are their standard deviation (n - 1)" draws s.svg bars 1 1 1 3
 claim "  every point has bars" eval "points s.svg | awk '\$2 == \"bars\" { d = (\$18 - \$16) / 2; ok = (d - sqrt(2)) ^ 2 < 1e-5 } END { exit !ok }'"
 claim "  the figure explains the bars" shows s.svg 'means of the rows that share x \(2 to 3 each\) · bars: their standard deviation'
-claim "without --spread no means are drawn" eval 'rc-render --curve x:y -o z.svg few.tsv && near z.svg solid 1 1 3 4 1 2 1 3 3 6'
+claim "without --spread no means are drawn" eval 'rc-render --curve x:y -o z.svg few.tsv && draws z.svg solid 1 1 3 4 1 2 1 3 3 6'
 printf 'x\ty\n1\t1\n2\t2\n1\t1.1\n2\t2.1\n1\t0.9\n2\t1.9\n' >seeds.tsv
 claim "  a curve that goes back and forth causes a warning" warns 'seeds.tsv: the line turns back 4 times along x: --spread makes a point of rows that share it, --by COLUMN a curve of each group' \
     rc-render --curve x:y -o z.svg seeds.tsv
 claim "    with --spread, or for a single turn, there is no warning" eval 'rc-render --curve x:y --spread -o z.svg seeds.tsv 2>said.txt && [ ! -s said.txt ] &&
     head -n 5 seeds.tsv | sed 4d | rc-render --curve x:y -o z.svg 2>said.txt && [ ! -s said.txt ]'
-claim "a column of errors gives bars to both sides" eval 'rc-render --curve x:y --error e -o e.svg few.tsv && near e.svg bars 1 0.5 1 1.5'
+claim "a column of errors gives bars to both sides" eval 'rc-render --curve x:y --error e -o e.svg few.tsv && draws e.svg bars 1 0.5 1 1.5'
 claim "  the figure names the column" shows e.svg 'bars: ± e<'
 claim "bars that reach 0 end at the edge of a logarithmic axis" eval '
     printf "x/N\ty/m\te/m\n1\t1\t2\n2\t2\t0.5\n3\t3\t1\n" | rc-render --curve x:y --error e --log -o l.svg && shows l.svg "M[0-9.]+ [0-9]{4}[0-9.]*L"'
 claim "--markers draws markers without lines" eval 'rc-render --curve x:y --points -o p.svg few.tsv && ! points p.svg | grep -q solid'
-claim "  they are at their places" near p.svg marker 3 6
+claim "  they are at their places" draws p.svg marker 3 6
 
 # ---- groups ----
 
 claim "each value of a column gets a curve" eval 'rc-render --curve x:y --by k -o k.svg few.tsv &&
-    near k.svg solid 1 1 1 3 3 6 && near k.svg solid 3 4 1 2'
+    draws k.svg solid 1 1 1 3 3 6 && draws k.svg solid 3 4 1 2'
 claim "  the curve has the name of the value" eval 'shows k.svg ">k a<" && shows k.svg ">k b<"'
-claim "groups have their own means" eval 'rc-render --curve x:y --by k --spread -o k.svg few.tsv && near k.svg solid 1 2 3 6'
+claim "groups have their own means" eval 'rc-render --curve x:y --by k --spread -o k.svg few.tsv && draws k.svg solid 1 2 3 6'
 printf 'x\ty\ta\tb\n1\t1\tp\t10\n2\t2\tp\t10\n1\t2\tp\t20\n2\t3\tp\t20\n1\t3\tq\t10\n2\t4\tq\t10\n1\t4\tq\t20\n2\t5\tq\t20\n' >two.tsv
 claim "of two columns the first sets the colours, the second the dashes" eval '
     rc-render --curve x:y --by a,b -o two.svg two.tsv && points two.svg | grep -E "solid|dashed" >lines &&
@@ -75,10 +75,10 @@ claim "spectra have the names of their loads" eval '
 
 # ---- words and units ----
 
-claim "--units converts the units" eval 'rc-render --curve x:y --points --x-unit mN --y-unit mm2 -o u.svg few.tsv && near u.svg marker 3e3 6e6'
+claim "--units converts the units" eval 'rc-render --curve x:y --points --x-unit mN --y-unit mm2 -o u.svg few.tsv && draws u.svg marker 3e3 6e6'
 claim "  the axes show them" eval 'shows u.svg ">x \\(mN\\)<" && shows u.svg "mm<"'
-claim "a fraction can be shown in per cent" eval 'printf "x\ty\n0.1\t0.2\n0.3\t0.4\n" | rc-render --curve x:y --points --y-unit % -o u.svg && near u.svg marker 0.3 40 && shows u.svg ">y \\(%\\)<"'
-claim "a reciprocal unit can be shown" eval 'printf "x/1/Pa\ty/um\n2e-9\t1\n4e-9\t2\n" | rc-render --curve x:y --points --x-unit 1/GPa -o u.svg && near u.svg marker 4 2'
+claim "a fraction can be shown in per cent" eval 'printf "x\ty\n0.1\t0.2\n0.3\t0.4\n" | rc-render --curve x:y --points --y-unit % -o u.svg && draws u.svg marker 0.3 40 && shows u.svg ">y \\(%\\)<"'
+claim "a reciprocal unit can be shown" eval 'printf "x/1/Pa\ty/um\n2e-9\t1\n4e-9\t2\n" | rc-render --curve x:y --points --x-unit 1/GPa -o u.svg && draws u.svg marker 4 2'
 claim "the texts of the axes can be set" eval 'rc-render --curve x:y --x-label "Normal load" --y-label "Real area, m2" --y-unit m2 -o w.svg few.tsv &&
     shows w.svg ">Normal load \\(N\\)<" && ! shows w.svg "m2 \\(m"'
 claim "the texts of the legend can be set" eval 'rc-render --curve x:y --by k --legend "rough;worn, twice" -o w.svg few.tsv && shows w.svg ">rough<" && shows w.svg ">worn, twice<" && ! shows w.svg ">k a<"'
@@ -97,12 +97,12 @@ claim "units and texts of a cut can be set" eval 'rc-render --cut y=0 --x-unit m
 
 printf 'load/N\tindentation/m\tcontact_area/m2\n0\t0\t0\n1\t1\t1\n2\t2\t2\n1\t1.5\t1.1\n0\t0.5\t0\n1\t1.5\t1.1\n2\t2\t2\n3\t3\t3\n1\t2\t1.2\n2\t2.5\t2.1\n1\t2\t1.2\n' >history.tsv
 claim "a loading history causes no warning about turns" eval 'rc-render --curve indentation:load -o h.svg history.tsv 2>said.txt && [ ! -s said.txt ]'
-claim "  its loading has one colour" near h.svg solid 0 0 1 1 2 2 0.5 0 1.5 1 2 2 3 3 2 1 2.5 2
-claim "  its unloading has another colour" near h.svg solid 2 2 1.5 1 0.5 0 3 3 2 1 2.5 2 2 1
+claim "  its loading has one colour" draws h.svg solid 0 0 1 1 2 2 0.5 0 1.5 1 2 2 3 3 2 1 2.5 2
+claim "  its unloading has another colour" draws h.svg solid 2 2 1.5 1 0.5 0 3 3 2 1 2.5 2 2 1
 claim "    the two colours differ" eval '[ "$(points h.svg | grep solid | cut -d " " -f 1 | sort -u | wc -l)" = 2 ]'
 claim "  the legend names both" eval 'shows h.svg ">loading<" && shows h.svg ">unloading<" && shows h.svg ">Indentation \\(m\\)<"'
-claim "  the same holds with the load as x" eval 'rc-render --curve load:contact_area -o h.svg history.tsv && near h.svg solid 2 2 1 1.1 0 0 3 3 1 1.2 2 2.1 1 1.2'
-claim "loads that only grow give one curve" eval 'head -n 4 history.tsv | rc-render --curve indentation:load -o h.svg && near h.svg solid 0 0 1 1 2 2 && ! shows h.svg ">loading<"'
+claim "  the same holds with the load as x" eval 'rc-render --curve load:contact_area -o h.svg history.tsv && draws h.svg solid 2 2 1 1.1 0 0 3 3 1 1.2 2 2.1 1 1.2'
+claim "loads that only grow give one curve" eval 'head -n 4 history.tsv | rc-render --curve indentation:load -o h.svg && draws h.svg solid 0 0 1 1 2 2 && ! shows h.svg ">loading<"'
 claim "forty cycles give two curves" eval '{ printf "load\tindentation\n"; perl -e "printf qq(%g\t%g\n0\t%g\n), \$_, \$_, 0.5 * \$_ for 1 .. 40"; } |
     rc-render --curve indentation:load -o h.svg && [ "$(points h.svg | grep -c solid)" = 2 ]'
 
@@ -130,7 +130,7 @@ claim "  with means too" eval 'rc-render --curve mat:y --spread -o c.svg words.t
 claim "  the same word in two tables is one category" eval 'sed "s/PTFE/PA/" words.tsv | sed 2d >a.tsv && rc-render --curve mat:y -o c.svg words.tsv a.tsv &&
     [[ "$(across c.svg)" = "0.125 0.375 0.125 0.625 "* ]]'
 claim "  long words are drawn upright and complete" eval 'rc-render --width 85mm --curve mat:y -o c.svg words.tsv && shows c.svg "rotate.*>PTFE, filled with bronze<"'
-claim "a column with one number counts as numeric" eval 'printf "x\ty\na\t1\n2\t3\n4\t5\n" | rc-render --curve x:y -o c.svg && near c.svg solid 2 3 4 5'
+claim "a column with one number counts as numeric" eval 'printf "x\ty\na\t1\n2\t3\n4\t5\n" | rc-render --curve x:y -o c.svg && draws c.svg solid 2 3 4 5'
 
 # ---- refusals ----
 

@@ -101,7 +101,7 @@ assert (mat['height'] == npy).all() and mat['height'].shape == (24, 32)
 assert mat['dx'] == 1e-6 and mat['dy'] == 1.5e-6 and mat['unit'] == 'm' and mat['dunit'] == 'm'
 END
 else
-    echo "not tried: MAT in scipy, because that is not here"
+    untried "MAT in scipy, because that is not here"
 fi
 claim "the history is written, with this step" bash -c '
     rc-export --format x3p --type i16 one.rcg >h.x3p &&

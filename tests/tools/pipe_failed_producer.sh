@@ -9,15 +9,13 @@ press='rc-solve --load 1 --estar 114GPa --quiet'
 # fails "STATUS..." "pattern" "sentence" 'pipe': its commands end with these statuses, and standard error is a
 # single line that matches the pattern.
 fails() {
-    claims=$((claims + 1))
     local got
     got=$(bash -c "set +o pipefail; $4 >pipe.out; echo \${PIPESTATUS[@]}" 2>pipe.err </dev/null)
     if [ "$got" = "$1" ] && [ "$(wc -l <pipe.err)" = 1 ] && grep -qE -- "$2" pipe.err; then
-        echo "ok: $3"
+        passed "$3"
     else
-        echo "NOT OK: $3: exit status $got (expected $1), standard error:"
+        failed "$3: exit status $got (expected $1), standard error:"
         sed 's/^/    /' pipe.err
-        failures=$((failures + 1))
     fi
 }
 
@@ -53,13 +51,11 @@ claim "--verbose repeats the message, with the name of the tool that failed" bas
 
 # after "sentence" EXPECTED 'command': compares its complete standard output, which is a pipe.
 after() {
-    claims=$((claims + 1))
     bash -c "set +o pipefail; { $3; } 2>/dev/null </dev/null | cat >after.out"
     if tail -n 1 after.out >after.last && grep -aqxE -- "$2" after.last; then
-        echo "ok: $1"
+        passed "$1"
     else
-        echo "NOT OK: $1: '$(tail -n 1 after.out)'"
-        failures=$((failures + 1))
+        failed "$1: '$(tail -n 1 after.out)'"
     fi
 }
 after "status 1 is not named" 'RCGFAIL rc-import: nosuch.x3p: No such file or directory' 'rc-import nosuch.x3p'

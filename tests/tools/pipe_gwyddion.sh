@@ -4,8 +4,7 @@
 . "$(dirname "$0")/../pipe.sh"
 
 if ! pkg-config --exists gwyddion 2>/dev/null || ! command -v xvfb-run >/dev/null; then
-    echo "skipped: Gwyddion, its headers or xvfb are not installed; $0 says how"
-    exit 77
+    skip "Gwyddion, its headers or xvfb are not installed; ${0##*/} says how"
 fi
 # shellcheck disable=SC2046
 cc -w -O1 "$RC_SOURCE/tests/tools/gwyddion.c" -o gwyddion $(pkg-config --cflags --libs gwyddion) -lm || exit 1

@@ -185,7 +185,7 @@ if [ -d "$corpus" ]; then
     refuses 1 "the positions are not evenly spaced: point 61" "an uneven profile" \
         "rc-import --z-unit um '$corpus/profile-text/SurfaceTopography__xy-1.txt'"
 else
-    echo "not tried: RC_CORPUS names no folder of real files"
+    untried "RC_CORPUS names no folder of real files"
 fi
 
 finish

@@ -35,12 +35,10 @@ reads() {
     shift 2
     nid of.nid "$@"
     rc-import --type f64 of.nid -o read.rcg 2>of.err
-    claims=$((claims + 1))
     if [ "$(first_value read.rcg)" = "$number" ]; then
-        echo "ok: $sentence"
+        passed "$sentence"
     else
-        echo "NOT OK: $sentence: channel $(first_value read.rcg) was read"
-        failures=$((failures + 1))
+        failed "$sentence: channel $(first_value read.rcg) was read"
     fi
     claim "$sentence: --list marks it" says "^[*] +$number " rc-import --list of.nid
     claim "it marks no other" test "$(rc-import --list of.nid | grep -c '^[*]')" = 1
@@ -144,7 +142,7 @@ END
     claim "channels in other units are listed with their ranges" grep -q ' 9 .* deg  *-9[.]6.* -8[.]2.* Lock-In Phase$' jpk.txt
     claim "standard error is empty" test ! -s jpk.err
 else
-    echo "not tried: RC_CORPUS names no folder of real files"
+    untried "RC_CORPUS names no folder of real files"
 fi
 
 finish

@@ -185,7 +185,7 @@ if [ -d "$corpus" ]; then
         claim "$file is resampled" same_heights <(heights real.rcg) real.truth
     done
 else
-    echo "not tried: RC_CORPUS names no folder of real files"
+    untried "RC_CORPUS names no folder of real files"
 fi
 
 finish

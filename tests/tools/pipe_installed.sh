@@ -15,8 +15,7 @@ unset PKG_CONFIG_PATH PKG_CONFIG_LIBDIR PKG_CONFIG_SYSROOT_DIR CMAKE_PREFIX_PATH
 
 # Absolute folders outside of the prefix belong to the system: the test does not install there.
 if grep -E '^CMAKE_INSTALL_(BIN|LIB|INCLUDE|DATAROOT|MAN)DIR:[A-Z]*=/' "$build/CMakeCache.txt"; then
-    echo "not tried: this build is installed in folders of its own, whatever the prefix"
-    exit 77
+    skip "this build is installed in folders of its own, whatever the prefix"
 fi
 claim "cmake --install succeeds" cmake --install "$build" --prefix "$scratch/first"
 mv first "$prefix"

@@ -57,7 +57,7 @@ if command -v nm >/dev/null; then
     claim "  its Debian package lists the same" packaged
     claim "  they are functions and an object" bash -c 'grep -qx rc_solver_new offered.txt && grep -qx rc_component_names offered.txt'
 else
-    echo "not tried: what the shared library offers, because nm is not here"
+    untried "what the shared library offers, because nm is not here"
 fi
 
 finish

@@ -8,7 +8,7 @@ export TMPDIR="$PWD/tmp" RC_THREADS=1
 cp "$RC_SOURCE/sample_surfaces/turned-brass.txt" brass.txt
 parsed() { says "$1" "$python" "$RC_SOURCE/tests/tools/python_page.py" "$2"; }
 if ! python=$(python_with xml.etree.ElementTree 2>why.txt); then
-    echo "not tried: the HTML, $(cat why.txt)"
+    untried "the HTML, $(cat why.txt)"
     parsed() { grep -q '</html>' "$2"; }
 fi
 

@@ -6,8 +6,7 @@
 . "$RC_SOURCE/tests/python.sh"
 
 if ! python=$(python_with numpy matplotlib 2>/dev/null) && ! python=$(python_with numpy 2>why.txt); then
-    echo "not tried: $(cat why.txt)"
-    exit 77
+    skip "$(cat why.txt)"
 fi
 "$python" -c 'import numpy, sys; print("Python", sys.version.split()[0] + ", numpy", numpy.__version__)'
 export PYTHONPATH="$RC_SOURCE/python" PYTHONDONTWRITEBYTECODE=1
@@ -92,7 +91,7 @@ build=$(dirname "$RC_BIN")
 if [ -e "$build/tools/completions/__init__.pyi" ]; then
     claim "type hints have the options of the tables" check hints "$build/tools/completions/__init__.pyi" "$build/tools/completions/tables.json"
 else
-    echo "not tried: type hints, which this build does not have: no Python had numpy"
+    untried "type hints, which this build does not have: no Python had numpy"
 fi
 claim "progress can go to a function or to a line" check progress
 claim "Ctrl-C ends a call and its tool, whatever the tool does" check interrupts
@@ -111,7 +110,7 @@ if python_with numpy matplotlib >/dev/null 2>why.txt; then
     claim "  it draws a figure" says 'PNG image data|PNG' head -c 8 area.png
     claim "  the area agrees with Hertz under every load" check drawn script/1
 else
-    echo "not tried: the script of rcg(5), $(cat why.txt)"
+    untried "the script of rcg(5), $(cat why.txt)"
 fi
 
 finish

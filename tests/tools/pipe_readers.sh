@@ -59,7 +59,7 @@ if python=$(python_with numpy 2>why.txt); then
     in_python() { "$python" readers/2 <"$1"; }
     try Python in_python
 else
-    echo "not tried: Python: $(cat why.txt)"
+    untried "Python: $(cat why.txt)"
 fi
 
 # on FILE PROGRAM...: runs a program that reads surface.rcg in its folder.
@@ -70,13 +70,13 @@ if command -v octave-cli >/dev/null; then
     in_octave() { on "$1" octave-cli --no-gui --no-init-file "$scratch/readers/4"; }
     try Octave in_octave
 else
-    echo "not tried: Octave, which is not here"
+    untried "Octave, which is not here"
 fi
 if command -v julia >/dev/null; then
     in_julia() { on "$1" julia --startup-file=no "$scratch/readers/5"; }
     try Julia in_julia
 else
-    echo "not tried: Julia, which is not here"
+    untried "Julia, which is not here"
 fi
 
 finish

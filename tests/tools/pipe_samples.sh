@@ -42,7 +42,7 @@ if [ -d "$RC_CORPUS/corpus" ]; then
             rc-stress --nu 0.3 --depths 0,5um --components mises |
             rc-render --channel mises -o real.png && says PNG head -c 4 real.png"
 else
-    echo "not run: no corpus of real files beside the project"
+    untried "real files: there is no corpus beside the project"
 fi
 
 finish

@@ -137,7 +137,7 @@ if command -v zsh >/dev/null; then
     done
     between 60 "$displays" 1000 "displays of the manual and of README call the same in zsh and in bash"
 else
-    echo "not run: the commands in zsh, which is not here"
+    untried "the commands in zsh, which is not here"
 fi
 claim "README has no comments among its commands" bash -c "! sed -n 's/^    //p' '$RC_SOURCE/README.md' | grep '#'"
 
@@ -302,7 +302,7 @@ if [ -d "$RC_CORPUS/corpus" ]; then
             "cd real && bash -e -u -o pipefail ../blocks/$block </dev/null >../real.out 2>&1 || { cat ../real.out >&2; exit 1; }"
     done
 else
-    echo "not run: the table of steps and the first section on a measured file, for no corpus of real files is beside the project"
+    untried "the table of steps and the first section on a measured file, for no corpus of real files is beside the project"
 fi
 
 # ---- its pictures ----

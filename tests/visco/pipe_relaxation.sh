@@ -68,7 +68,7 @@ claim "  and no key time" bash -c "rc-info --json plain.rcg >info.json && ! grep
 $solve --relaxation 10MPa,0MPa:1ms --load 0.2mN --time 0 --report still.json -o still.rcg ball.rcg
 near "$(field convolutions still.json)" "$(field convolutions plain.json)" 0 \
     "a body whose term is 0 takes the convolutions of an elastic one"
-for run in plain still; do rc-export --quiet -o $run.npy $run.rcg; done
+for run in plain still; do rc-export --quiet --channel pressure -o $run.npy $run.rcg; done
 claim "  and has its pressures, to the byte" cmp plain.npy still.npy
 
 # ---- checkpoint, cost ----
