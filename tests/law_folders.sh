@@ -303,5 +303,3 @@ call libcontact/operator libcontact/solver rc_solver_new
 private tools rc_hidden
 END
 refuses 1 '^private tools rc_hidden' "a fault is told" "$(declare -f none); none seen.txt"
-
-finish

@@ -83,5 +83,3 @@ if command -v mandoc >/dev/null; then
 else
     untried "web pages, because mandoc is not here"
 fi
-
-finish

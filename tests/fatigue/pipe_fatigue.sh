@@ -143,5 +143,3 @@ refuses 1 'only some of the cases have the key position' "a case without its pos
 refuses 1 'grid' "cases of different size" "rc-fatigue $limits --depths 5um -o x.rcg moved-0.rcg <(rc-pick --crop 0,0,40,40 moved-1.rcg)"
 refuses 1 'are positions in metres' "positions without a unit" "rc-fatigue $limits --depths 5um -o x.rcg moved-0.rcg <(rc-pick --set position=100 moved-1.rcg)"
 refuses 1 'must have the same body' "cases of two bodies" "rc-fatigue $limits --depths 5um -o x.rcg moved-0.rcg <(rc-pick --set nu=0.25 moved-1.rcg)"
-
-finish

@@ -129,5 +129,3 @@ refuses 2 'rc-cost: --plot -: a picture is' "a plot has to say what it is" \
     "rc-cost --estar 1GPa --load 0.1N --plot - rough.rcg"
 refuses 2 'rc-info: --psd-map -: ' "a map of waves is not a pipe" "rc-info --psd --psd-map - rough.rcg"
 claim "no file has the name -" test ! -e -
-
-finish

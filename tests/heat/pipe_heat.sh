@@ -97,5 +97,3 @@ rc-synth selfaffine --nx 64 --dx 1um --hurst 0.8 --rms-slope 0.1 --seed 2 | rc-a
 claim "two rough bodies" warns "sum of two rough surfaces" rc-heat --mu 0.3 --speed 1 $steel -o passing.rcg both.rcg
 claim "few nodes" warns "trailing edge is up to" rc-heat --mu 0.3 --speed 30 $steel -o few.rcg coarse.rcg
 claim "hot" warns "K above the bulk of body 1" rc-heat --mu 0.3 --speed 1000 $steel -o hot.rcg rough.rcg
-
-finish

@@ -203,5 +203,3 @@ else
     refuses 1 'need (about|at least) [0-9]+ MiB, --memory allows [0-9]+ MiB' "and after it, by what it says" "rc-leak --memory ${between_steps}K wide-pressed.rcg -o never.rcg"
     claim "no half-written file is left" test ! -e never.rcg
 fi
-
-finish

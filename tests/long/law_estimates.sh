@@ -13,4 +13,3 @@ claim "  and with companion runs" "$python" "$long/plastic_lists.py" 61 60 rc-so
 for kind in hist:100 adhesion:60 tilt:60 maps:20; do
     claim "$kind" "$python" "$long/estimates.py" "${kind%:*}" 1 "${kind#*:}" "$RC_BIN"
 done
-finish

@@ -91,4 +91,3 @@ for increments in auto 8 16; do
     between 1 "$median" 7 "  which in the middle is not far from the error"
     between 1 "$most" 16 "  nor in nine of ten"
 done
-finish

@@ -40,4 +40,3 @@ wait "$app"
 cp "$folder/rough-steel.x3p" pasted
 claim "the commands of the page run in a shell" bash -c 'cd pasted && bash -e -u -o pipefail "$0/commands"' "$folder"
 claim "  they give the bytes of the download" cmp "$folder/3-solve.rcg" pasted/3-solve.rcg
-finish

@@ -200,5 +200,3 @@ row "rc-solve --kernel direct" "rc-solve --kernel direct --tol 1e-2 --verbose $l
 row "rc-cost" "rc-cost --verbose --limit 60s $load s.rcg"
 row "rc-cost --plot" "rc-cost --verbose --limit 60s --plot cost.png $load s.rcg"
 cat table.txt
-
-finish

@@ -152,5 +152,3 @@ refuses 1 'No space left' "a full disk" "rc-add a.rcg b.rcg >/dev/full"
 rc-pick --set converged=no b.rcg -o short.rcg
 refuses 3 'selfaffine-seed-4.* stopped short of its accuracy' "what stopped short in B is told" "rc-add a.rcg short.rcg -o sum.rcg"
 claim "  the sum is written" says RCGEND cat sum.rcg
-
-finish

@@ -118,5 +118,3 @@ claim "a file of the command line with the name of an output is not written to" 
 claim "  it ends" check quit
 wait "$APP"
 claim "without a page it ends by itself" timeout 20 "$python" -c 'import rcg.app; rcg.app.IDLE = 0.3; rcg.app.main(["--no-browser"])'
-
-finish

@@ -135,5 +135,3 @@ if [ -w /dev/full ]; then
         "$solve --load 0.1N --checkpoint /dev/full -o x.rcg rough.rcg"
 fi
 claim "refused runs leave no file" bash -c '! ls x.rcg* 2>/dev/null'
-
-finish

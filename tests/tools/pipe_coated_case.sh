@@ -47,5 +47,3 @@ sxx() {
 near "$(sxx 0)" -4.22e9 "$three_digits" "  sxx at the surface"
 near "$(sxx 2e-6)" -0.31e9 0.01 "  on the lower side of the film"
 near "$(sxx 2.1e-6)" -0.83e9 0.01 "  and in the steel below"
-
-finish

@@ -203,4 +203,3 @@ else
 fi
 
 refuses 2 'unknown option --completions' "another shell is none" 'rc-solve --completions csh'
-finish

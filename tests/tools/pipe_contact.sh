@@ -101,5 +101,3 @@ claim "rc-slip accepts nodes that touch without pressure" rc-slip --quiet --nu 0
 rc-solve --quiet --periodic --mean-pressure 10kPa --estar 50MPa --output contact s.rcg -o less.rcg
 $frames e.rcg:pressure less.rcg:contact >less2.rcg
 refuses 1 "have a pressure, but are not in contact according to this frame" "  and none that carry pressure apart" "rc-slip --quiet --nu 0.3 --mu 0.3 --tangential 10nN less2.rcg -o x.rcg"
-
-finish

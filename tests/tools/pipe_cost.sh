@@ -265,5 +265,3 @@ claim "fft and direct give the same stresses to rounding" bash -c "
 claim "no error of a stress exceeds the requested one" bash -c "
     awk 'on && NF == 10 && \$2 > 0 && \$7 != \"nan\" { n++; if (\$7 > \$2) bad = 1 } /^kernel/ { on = 1 }
          END { exit bad || n != 7 }' stress.txt"
-
-finish

@@ -60,4 +60,3 @@ claim "stresses and flow work with net pressures" bash -c "
     rc-cost $contact --depths 1um --nu 0.3 --leak x --quiet rough.rcg >more.txt && says '^# stresses under the reference' cat more.txt &&
     says ' flow_error ' cat more.txt"
 refuses 2 "must be above 0" "no work" "rc-cost --periodic --mean-pressure 1MPa --estar 100MPa --adhesion 0 rough.rcg"
-finish

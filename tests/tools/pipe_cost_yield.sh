@@ -94,5 +94,3 @@ refuses 2 'does not work with --hardness' "a hardness" "$base --load 1N --yield 
 refuses 2 'does not work with --kernel and --method' "a choice of kernels" "$base --load 1N --yield 1GPa --kernel fft rough.rcg"
 refuses 2 'does not work with --depths' "stresses" "$base --load 1N --yield 1GPa --depths 0 rough.rcg"
 refuses 2 '--yield many' "no stress" "$base --load 1N --yield many rough.rcg"
-
-finish

@@ -158,5 +158,3 @@ printf 'sa/m\tsq/m\tlimit/N\tstick_fraction\n1\t2\t3\t4\n2\t3\t4\t5\n' >figures.
 claim "parameters of a surface have the names of their standard" eval 'rc-render --curve sa:sq -o t.svg figures.tsv && shows t.svg ">Sq against Sa<"'
 claim "  figures of friction have their titles" eval 'rc-render --curve limit:stick_fraction -o t.svg figures.tsv &&
     shows t.svg ">Part of the contact that sticks against largest tangential force<"'
-
-finish

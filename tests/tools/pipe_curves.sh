@@ -142,5 +142,3 @@ refuses 2 '--view draws one map as a relief: leave out' "a raw relief" "$draw --
 refuses 2 '--hillshade is for flat maps' "shadows on a relief" "$draw --view 30,35 --hillshade ball.rcg"
 refuses 1 'a relief is of a map, this is a profile or a section' "a relief of a section" "$draw --view 30,35 --case 1 s.rcg"
 claim "refused commands leave no picture" bash -c '[ ! -e out.png ] && [ -z "$(ls out.png.* 2>/dev/null)" ]'
-
-finish

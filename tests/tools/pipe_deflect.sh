@@ -41,5 +41,3 @@ refuses 2 '--estar 0 Pa: it must be above 0' "a modulus of 0" "rc-deflect --esta
 refuses 1 'no frame with the channel pressure, only height' "a stream without pressure" \
     "rc-synth sphere --nx 9 --dx 1um --radius 1mm | rc-deflect --estar 1GPa"
 refuses 1 '97 x 64 nodes need about [0-9.]+ [KM]iB, --memory allows 20 KiB: ' "more memory than is allowed" "rc-deflect --memory 20k solved.rcg"
-
-finish

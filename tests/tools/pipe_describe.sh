@@ -200,5 +200,3 @@ claim "the example of the manual prints the shown output" bash -c '
         rc-info --areal --psd --fit 10um,90um >example.out
     sed -n "/^among others:/,/^.Ed/p" "$RC_SOURCE/man/rc-info.1" | grep "^  " >example.txt
     [ "$(wc -l <example.txt)" -ge 10 ] && ! grep -vxFf example.out example.txt >&2'
-
-finish

@@ -122,5 +122,3 @@ refuses 1 '1 heights are infinite, the first in column 0 of row 0' "an infinite 
     "rc-detrend --plane infinite.rcg"
 refuses 1 '13 x 11 nodes need about .*, --memory allows' "more memory than is allowed" "rc-detrend --fill --memory 1500 plane.rcg"
 refuses 1 'No space left' "a full disk" "rc-detrend --plane plane.rcg >/dev/full"
-
-finish

@@ -22,5 +22,3 @@ claim "--quiet suppresses the warning" bash -c 'rc-detrend --quiet --fill edge.r
 claim "a second --fill causes no warning" bash -c 'rc-detrend --fill out.rcg -o again.rcg 2>said; [ ! -s said ]'
 claim "the warning is printed once" test "$(rc-detrend --fill --plane --fill edge.rcg 2>&1 >/dev/null | wc -l)" = 1
 claim "levelling alone causes no warning" bash -c 'rc-detrend --plane edge.rcg -o out.rcg 2>said; [ ! -s said ]'
-
-finish

@@ -28,5 +28,3 @@ claim "frames that are not results are passed on" says '^  *2$' bash -c \
     'rc-detrend --plane both.rcg | rc-info | grep -c "^  grid" | sed "s/^/ /"'
 $solve --output height surface.rcg -o alone.rcg
 claim "the height of a solution alone can be changed" rc-detrend --plane alone.rcg -o out.rcg
-
-finish

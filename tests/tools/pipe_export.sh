@@ -124,5 +124,3 @@ rc-synth selfaffine --nx 32 --dx 1um --hurst 0.8 --rms-height 10nm |
     rc-solve --load 100mN --estar 100GPa --tol 1e-18 --output pressure --quiet -o short.rcg
 refuses 3 'converged=no' "an unfinished solution says so" 'rc-export short.rcg -o short.npy'
 claim "the file is written" test -s short.npy
-
-finish

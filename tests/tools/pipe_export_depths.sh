@@ -50,5 +50,3 @@ refuses 1 'the depths have uneven steps, which npy cannot say: write vtr or hdf5
     'rc-export --case 1 uneven.rcg -o no.npy'
 claim "  HDF5 has the depths beside the values" rc-export uneven.rcg -o uneven.h5
 claim "refused commands leave no file" test -z "$(ls no.* 2>/dev/null)"
-
-finish

@@ -41,5 +41,3 @@ refuses 1 'a section of 4 rows without as many depths' "fewer depths than rows" 
 sed 's/^depths=.*/depths=0,1e-06,3e-06,2e-06/' uneven.rcg | reseal >back.rcg
 refuses 1 'must rise from row to row' "depths that go back" 'rc-export back.rcg -o no.vtr'
 refuses 1 'need about .*, --memory allows' "more memory than is allowed" 'rc-export --even --memory 90K fine.rcg --format csv'
-
-finish

@@ -91,5 +91,3 @@ printf 'RCGFAIL \033[2Jgone\n' >escape.rcg
 refuses 1 'failed: \?\[2Jgone$' "what would change a terminal is not repeated" "rc-info escape.rcg"
 printf 'RCGFAIL\n' >short.rcg
 refuses 1 'failed: without a message' "a line without a message" "rc-info short.rcg"
-
-finish

@@ -159,5 +159,3 @@ map 9 9 '2 * x - y' plane.rcg
 refuses 1 'do not determine a cylinder: .* no curvature' "a cylinder in a plane" "rc-detrend --cylinder plane.rcg"
 refuses 2 '--robust concerns forms and filters' "--robust with nothing to fit" "rc-detrend --robust --fill few.rcg"
 refuses 1 '33 x 47 nodes need about .*, --memory allows' "more memory than is allowed" "rc-detrend --memory 20k --lowpass 9um ball.rcg"
-
-finish

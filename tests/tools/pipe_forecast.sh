@@ -50,5 +50,3 @@ claim "  as heat does" says 'about 12 convolutions, [0-9]+ MiB, [0-9.e-]+ s with
     rc-heat --mu 0.3 --speed 1 --conductivity 45,45 --diffusivity 1.2e-5,1.2e-5 --dry-run pressed.rcg
 rc-heat --quiet --mu 0.3 --speed 1 --conductivity 45,45 --diffusivity 1.2e-5,1.2e-5 --report heat.json -o hot.rcg pressed.rcg
 between 6 "$(field convolutions heat.json)" 24 "  within a factor of 2 of the run"
-
-finish

@@ -158,5 +158,3 @@ for step in '--crop 0,0,2,2' '--resample 2um' '--mirror x' '--rotate 90'; do
 done
 rc-pick --set channel=psd --set unit=m4 rough.rcg -o psd.rcg
 refuses 1 'a spectrum has its zero in the middle: do it to the surface' "a part of a spectrum" "rc-pick --crop 0,0,5,5 psd.rcg"
-
-finish

@@ -47,4 +47,3 @@ done
 # Gwyddion ignores the flag for missing points of this format
 check whole sur 1e-9 --type i32
 check whole sur 4e-5 --type i16
-finish

@@ -77,5 +77,3 @@ page_words rc-info OPTIONS '^\.Cm ' >info.words
 page_words rc-info "JSON FIELDS" '^\.(It )?Cm ' >>info.words
 claim "rc-info(1): its lists have every column" test -z \
     "$(sed '/^[a-z]*_deviation$/d' rc-info.keys | sort -u | comm -23 - <(sort -u info.words))"
-
-finish

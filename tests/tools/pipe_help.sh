@@ -156,5 +156,3 @@ for tool in $tools; do
     cp -r "$scratch/files" "$scratch/$tool.help.run"
     claim "$tool: the examples of --help run" run_in "$tool.help.run" "$scratch/$tool.help"
 done
-
-finish

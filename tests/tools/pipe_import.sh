@@ -187,5 +187,3 @@ if [ -d "$corpus" ]; then
 else
     untried "RC_CORPUS names no folder of real files"
 fi
-
-finish

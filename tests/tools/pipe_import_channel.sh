@@ -144,5 +144,3 @@ END
 else
     untried "RC_CORPUS names no folder of real files"
 fi
-
-finish

@@ -61,5 +61,3 @@ refuses 1 "bomb.gz: its [0-9]+ bytes of gzip data unpack to more than 7[0-9] MiB
 refuses 1 "bomb.gz: its [0-9]+ bytes of gzip data unpack to more than [123]?[0-9] MiB" "by --memory too" \
     'rc-import --memory 40M bomb.gz'
 refuses 1 "bomb.gz: not recognised" "--memory may also allow it" 'rc-import --memory 200M bomb.gz'
-
-finish

@@ -60,5 +60,3 @@ claim "its heights are right" bash -c '
 claim "the complete file causes no warning" test ! -s new.err
 x3p other.x3p html 1e-6 2e-6 3e-6
 refuses 1 "the root of its main.xml is 'html', not ISO5436_2" "another root is refused" 'rc-import other.x3p'
-
-finish

@@ -32,5 +32,3 @@ claim "--channel selects it" says '^unit=deg$' rc-import --channel phase two.txt
 printf '# Daisy frame view snapshot\n# x-pixels: 4\n# y-pixels: 3\n# x-length: 8\n# y-length: 6\n# x-unit: um\n' >daisy.asc
 printf '# y-unit: um\n# z-unit: nm\n# Start of Data:\n1 2 3 4\n5 6 7 8\n9 10 11 12\n' >>daisy.asc
 claim "lengths have the unit that another line gives" says ' 4 +3 +2e-06 +2e-06 m ' rc-import --list daisy.asc
-
-finish

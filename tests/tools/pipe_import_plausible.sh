@@ -47,5 +47,3 @@ for format in x3p sdf sdf-binary gsf gwy csv hdf5 sur mat; do
     rc-export --format $format wide.rcg >"wide.$format"
     claim "a map of 234 m in $format causes a warning" warns 'the map is 234 m by 156' rc-import "wide.$format"
 done
-
-finish

@@ -68,5 +68,3 @@ refuses 3 'converged=no' "an unfinished solution" \
     "rc-synth selfaffine --nx 32 --dx 1um --hurst 0.8 --rms-height 10nm |
         rc-solve --load 100mN --estar 100GPa --tol 1e-18 --quiet -o short.rcg
     [ \$? = 3 ] && rc-info short.rcg"
-
-finish

@@ -13,5 +13,3 @@ for surface in steel rough; do
     claim "$surface: features, profiles and material ratio agree with numpy" "$python" "$RC_SOURCE/tests/tools/python_parameters.py" $surface.rcg
     cat claim.out
 done
-
-finish

@@ -87,5 +87,3 @@ refuses 2 '--sections has no effect without --profile' "sections of nothing" "rc
 refuses 2 '--smr: it takes 8 heights at most' "nine heights" "rc-info --smr 0:1um:9 plane.rcg"
 refuses 1 '--profile is of heights, and no frame is a height; there is: pressure' "profiles of a pressure" "rc-info --profile rows p.rcg"
 refuses 1 'writing failed|No space' "a full disk" "rc-info --report /dev/full egg.rcg"
-
-finish

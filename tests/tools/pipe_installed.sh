@@ -190,5 +190,3 @@ names_none() {
         [ -s finders.txt ] && ! grep -nF -e "$build" -e "$RC_SOURCE" -e /usr/local -e "$scratch/first" finders.txt >&2
 }
 claim "no file contains a path of the build" names_none "$prefix" stage "beside it" "their own"
-
-finish

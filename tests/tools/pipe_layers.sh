@@ -87,5 +87,3 @@ claim "  the table and the title say so" bash -c 'rc-cost --E1 100GPa --nu1 0.3 
     says "free, load 350 N, 2 layers, " cat cost.txt && says "free · 2 layers · load" cat cost.svg'
 refuses 2 'each layer has its own' "  without another Poisson's ratio" \
     "rc-cost --E1 100GPa --nu1 0.3 --E2 rigid --load 350N --layer 1mm,1000GPa,0.3 --depths 0 --nu 0.2 ball.rcg"
-
-finish

@@ -133,5 +133,3 @@ inf,4e11,0.2;inf,2e11,0.3
 END
 coat ball.rcg "$(awk 'BEGIN { for (k = 0; k < 1000; k++) printf "1e-9,1e11,0.3;"; print "inf,2e11,0.3" }')" >many.rcg
 refuses 1 'of 1001 materials: at most 1000' "a thousand layers" "rc-stress --depths 0 many.rcg"
-
-finish

@@ -59,5 +59,3 @@ if command -v nm >/dev/null; then
 else
     untried "what the shared library offers, because nm is not here"
 fi
-
-finish

@@ -200,5 +200,3 @@ if group_under /sys/fs/cgroup/memory "$path1" memory.limit_in_bytes || group_und
 else
     echo "no group of processes can be made here: tests/tools/truth_memory_room.c reads made ones"
 fi
-
-finish

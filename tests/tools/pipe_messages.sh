@@ -57,5 +57,3 @@ refuses 1 'there is no channel wear: there are pressure, gap, displacement, heig
 
 claim "--list prints rounded numbers" eval 'perl -e "print \"# Width: 3 um\n# Height: 3 um\n# Value units: nm\n\"; print 1/3, \" 2 3\n4 5 6\n7 8 \", 20/3, \"\n\"" >third.txt &&
     says " 3.33333e-10 +8e-09 " rc-import --list third.txt'
-
-finish

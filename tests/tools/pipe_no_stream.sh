@@ -61,5 +61,3 @@ refuses 1 "standard input: it is a grid stream already.*as in '... [|] rc-info'"
     'rc-synth sphere --nx 5 --dx 1um --radius 1mm | rc-import -'
 refuses 1 "it is a grid stream already" "with --list" 'rc-import --list ball.rcg'
 refuses 1 "it is a grid stream already" "whatever its name" 'cp ball.rcg ball.txt; rc-import ball.txt'
-
-finish

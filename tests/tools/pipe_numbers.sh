@@ -119,5 +119,3 @@ claim "a missing point stays missing" bash -c 'rc-import --dx 1um --z-unit 1um h
 claim "an outlier becomes missing" bash -c 'rc-synth selfaffine --nx 16 --dx 1um --hurst 0.8 --rms-height 1um | rc-detrend --outliers 1 | says "\"missing\": [1-9]" rc-info --json'
 refuses 1 "values of height are too large for single precision.*--type f64" "single precision is named" \
     "rc-synth cone --slope 1e50 --nx 16 --dx 1um --type f32 -o out.rcg"
-
-finish

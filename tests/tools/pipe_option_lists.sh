@@ -87,5 +87,3 @@ claim "a range causes none" silent $press --load 1:5:2 ball.rcg
 claim "a list replaced by a later one causes none" silent $press --load 1,5 --load 2 ball.rcg
 refuses 2 'with and without a unit .*; the decimal mark is a point' "with one unit it is not a list" \
     "$press --load 1,5N ball.rcg"
-
-finish

@@ -72,5 +72,3 @@ refuses 1 'memory allows 2 MiB: ' "a limit above it" "$press -o never.rcg --memo
 rc-synth sphere --nx 5 --dx 1um --radius 1mm -o small.rcg
 refuses 1 'memory allows 900 bytes: ' "a limit under a kibibyte" "rc-solve --load 1 --estar 1GPa -o never.rcg --memory 900 small.rcg"
 claim "refused commands write no file" test ! -e never.rcg
-
-finish

@@ -121,5 +121,3 @@ claim "a reader that ends early leaves no folder" bash -c "set +o pipefail
     rc-report --quiet $contact ball.rcg | head -c 10 >/dev/null; [ -z \"\$(ls tmp)\" ]"
 claim "SIGTERM ends rc-report and its tool, and no file is left" stopped TERM
 claim "SIGHUP does the same" stopped HUP
-
-finish

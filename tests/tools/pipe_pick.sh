@@ -131,5 +131,3 @@ refuses 1 'case 1, frame 3 .*: take the height alone' "a spacing of a height bes
 refuses 1 'this stream failed' "a failed choice fails its reader too" 'rc-pick --channel gap --case 1,9 result.rcg 2>/dev/null >cut; rc-info cut'
 refuses 1 'the stream has no frame' "an empty stream" 'printf "RCGEND 0\n" | rc-pick --channel height | cat'
 refuses 1 'No space left' "a full device" 'rc-pick --channel gap result.rcg >/dev/full'
-
-finish

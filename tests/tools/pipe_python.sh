@@ -112,5 +112,3 @@ if python_with numpy matplotlib >/dev/null 2>why.txt; then
 else
     untried "the script of rcg(5), $(cat why.txt)"
 fi
-
-finish

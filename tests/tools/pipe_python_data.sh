@@ -8,5 +8,3 @@ fi
 export PYTHONPATH="$RC_SOURCE/python" PYTHONDONTWRITEBYTECODE=1
 rc-synth sphere --nx 33 --ny 47 --dx 1.1um --dy 1.29um --radius 2.385mm -o ball.rcg
 claim "values, names, units and positions are right" "$python" "$RC_SOURCE/tests/tools/python_rcg.py" data_sets ball.rcg
-
-finish

@@ -321,5 +321,3 @@ memory() {
     return $wrong
 }
 [ -z "${RC_FAILING_MALLOC-}" ] || claim "allocations of one process fail" memory
-
-finish

@@ -48,5 +48,3 @@ refuses 1 'rc-info: .*the program that wrote it failed: rcg-scale: disk on fire'
     { sed "/^RCGEND/d" rough.rcg; echo "RCGFAIL disk on fire"; } | rcg-scale 2 | rc-info --verbose'
 refuses 1 'rc-info: .*more than one stream' "what the filter refuses, its reader refuses" \
     'cat rough.rcg rough.rcg | rcg-scale 2 | rc-info --verbose'
-
-finish

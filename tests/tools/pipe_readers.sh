@@ -78,5 +78,3 @@ if command -v julia >/dev/null; then
 else
     untried "Julia, which is not here"
 fi
-
-finish

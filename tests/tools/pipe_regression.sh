@@ -38,5 +38,3 @@ row() {
 while IFS=$'\t' read -r surface options numbers; do
     claim "$surface $options" row "$surface" "$options" $numbers
 done <table.txt
-
-finish

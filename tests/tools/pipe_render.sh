@@ -200,5 +200,3 @@ refuses 1 'the stream stops inside the values of a frame' "a cut stream over a f
 claim "the old file stays" cmp height.rcg out.png
 refuses 1 'the PNG cannot be written: No space left on device' "a full device" "rc-render height.rcg >/dev/full"
 refuses 1 'the PNG cannot be written: No space left on device' "a full device named" "rc-render -o /dev/full height.rcg"
-
-finish

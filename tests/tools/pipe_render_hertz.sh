@@ -51,5 +51,3 @@ refuses 1 '--hertz needs the keys load, estar and form=sphere RADIUS, which rc-s
 refuses 2 '--hertz with --cut needs a single pressure' "a gap" "$draw --cut y=0 --hertz --radius 7.5mm --channel gap p.rcg"
 refuses 2 '--hertz is for a map or --cut: with --curve take --law hertz' "a histogram" "$draw --histogram --hertz --radius 7.5mm p.rcg"
 refuses 2 'they are for laws and --hertz: leave out --radius' "a radius of nothing" "$draw --radius 7.5mm p.rcg"
-
-finish

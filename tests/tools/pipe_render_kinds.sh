@@ -114,5 +114,3 @@ refuses 2 'a curve is not part of a map: leave out --window' "a window of a curv
 refuses 2 'a curve has no colours: leave out --clip' "clipped curves" "$draw --curve load:approach --clip r.tsv"
 refuses 2 '--range 1%:99%: for --cut it must be LO:HI' "percentiles of a curve" "$draw --cut y=0 --range 1%:99% p.rcg"
 claim "refused commands leave no picture" bash -c '[ ! -e out.png ]'
-
-finish

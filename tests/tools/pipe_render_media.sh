@@ -151,5 +151,3 @@ refuses 1 'its depths go from 20 µm to 20 µm' "  and not in another" \
 made 0,1,2 '2e-06,4e11' 1e6 >bad.rcg
 refuses 1 'they must be t,E,nu of each material' "layers that make no sense" 'rc-render -o bad.png bad.rcg'
 claim "  no picture is left" test ! -e bad.png
-
-finish

@@ -91,5 +91,3 @@ done
 claim "rc-cost draws a PDF too" bash -c '
     rc-synth sphere --nx 16 --dx 1um --radius 1mm | rc-cost --load 1mN --estar 100GPa --limit 1s --kernel fft --plot cost.pdf - >/dev/null &&
     pdftotext cost.pdf - | says "time \(s\)" cat'
-
-finish

@@ -106,5 +106,3 @@ done
 refuses 2 '--clip chooses the range: leave out --range' "two ranges" 'rc-render --clip --range 0:1um ramp.rcg >no.png'
 refuses 2 '--log has no place for 0 and below' "a logarithm of less than 0" 'rc-render --log --range -1um:1um ramp.rcg >no.png'
 refuses 1 'no value is above 0, and only those have a logarithm' "a logarithm of nothing" 'rc-render --log pressed.rcg >no.png'
-
-finish

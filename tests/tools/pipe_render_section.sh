@@ -77,5 +77,3 @@ refuses 2 'of a section it is X0:X1 only: choose depths with --depth-range' "a w
 refuses 1 '--hertz is a circle on a map' "a circle in a section" 'rc-render --hertz line.rcg >no.png'
 rc-synth sphere --nx 9 --dx 1um --radius 1mm -o map.rcg
 claim "--depth-range of a map causes a message" warns '--depth-range is for sections' rc-render --depth-range 0:1um map.rcg
-
-finish

@@ -82,5 +82,3 @@ refuses 2 '--raw draws only nodes: leave out --border' "raw pixels" "rc-render -
 claim "the title of a histogram is a distribution" eval 'rc-render --histogram --channel height -o d.svg rough.rcg && says ">Height distribution<" cat d.svg'
 claim "the yielded nodes are called yielded area" eval 'printf "load/N\tyielded_area/m2\n1\t1e-9\n2\t2e-9\n" | rc-render --curve load:yielded_area -o y.svg && says ">Yielded area against load<" cat y.svg'
 claim "refused commands leave no picture" bash -c '[ ! -e out.svg ] && [ ! -e out.png ]'
-
-finish

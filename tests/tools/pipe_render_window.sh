@@ -137,5 +137,3 @@ done
 claim "--keep keeps the largest value of a pixel" grep -qx '2400 128' max.txt
 # 3000 nodes on 2400 pixels: the node covers at most 0.8 of the width of a pixel, and its whole height
 between 50 "$(cut -d ' ' -f 2 mean.txt)" 103 "or its mean over what the pixel covers"
-
-finish

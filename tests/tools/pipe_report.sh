@@ -152,5 +152,3 @@ claim "  it does not get the lines" bash -c "[ -s cost.json ] && lacks '^\{' tab
 claim "--dry-run prints its plan and no report" bash -c "$press --report - --dry-run | says 'convolutions' cat"
 refuses 1 'report -: writing failed' "a full disk is told" "$press --report - >/dev/full"
 claim "no file has the name -" test ! -e ./-
-
-finish

@@ -148,5 +148,3 @@ refuses 2 '--steady needs --creep' "--steady alone" 'rc-slip --mu 0.3 --tangenti
 refuses 2 'take --coupling goodman' "full coupling" 'rc-slip --mu 0.3 --creep 1e-3,0 --steady --coupling full -o x.rcg ball.rcg'
 refuses 2 '--increments has no effect' "increments" 'rc-slip --mu 0.3 --creep 1e-3,0 --steady --increments 4 -o x.rcg ball.rcg'
 refuses 2 '--output slip needs --tangential' "the path of slip" 'rc-slip --mu 0.3 --creep 1e-3,0 --steady --output slip -o x.rcg ball.rcg'
-
-finish

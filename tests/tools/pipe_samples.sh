@@ -44,5 +44,3 @@ if [ -d "$RC_CORPUS/corpus" ]; then
 else
     untried "real files: there is no corpus beside the project"
 fi
-
-finish

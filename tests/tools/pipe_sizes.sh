@@ -63,5 +63,3 @@ refuses 1 'about 16[0-9]{3} MiB|17223680000 bytes|164[0-9][0-9] MiB|2152960000 x
     "rc-synth sphere --nx 46400 --dx 1um --radius 1mm --memory 4G -o x.rcg"
 refuses 1 'do not fit|overflow|too many|more than' "more nodes than 64 bits count" \
     "sed -e '/^nx=/s/.*/nx=4294967297/' -e '/^ny=/s/.*/ny=4294967297/' small.rcg | rc-info --verbose"
-
-finish

@@ -66,4 +66,3 @@ claim "  which stays as it is" grep -qx "notes of a user" notes.txt
 refuses 2 'need --checkpoint' "--resume alone" "$slip --resume -o x.rcg alike.rcg"
 refuses 2 'need --checkpoint' "--interval alone" "$slip --interval 1s -o x.rcg alike.rcg"
 refuses 2 'give a file name' "a pipe" "$slip --checkpoint - -o x.rcg alike.rcg"
-finish

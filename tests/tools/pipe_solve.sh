@@ -109,5 +109,3 @@ if ! with_mpi; then
     claim "  the warning is printed once" bash -c "OMPI_COMM_WORLD_RANK=1 $several 2>second.err >/dev/null && [ ! -s second.err ]"
     unset OMPI_COMM_WORLD_SIZE
 fi
-
-finish

@@ -77,5 +77,3 @@ refuses 2 'both in W/mK or both in S/m' "heat into current" "rc-solve --load 1N 
 sed -n '/^A rough steel ball on copper/,/^\.Ed/p' "$RC_SOURCE/man/rc-solve.1" |
     sed '1,/^\.Bd/d; /^\.Ed/d; s/\\e/\\/; s/\\-/-/g' >example.sh
 claim "the example of rc-solve(1) runs" bash -c 'test "$(wc -l <example.sh)" = 6 && bash -e example.sh && says PNG head -c 4 heat.png'
-
-finish

@@ -102,5 +102,3 @@ for half in first second; do
     # p_max = 2 sqrt(p p*)
     near "$(field max_pressure r.json)" 3.1415926535897932e6 1e-3 "  the largest pressure is Westergaard's"
 done
-
-finish

@@ -112,5 +112,3 @@ claim "rc-pick accepts the map" says 'channel=hardness|hardness' bash -c 'rc-pic
 claim "rc-render draws it" bash -c 'rc-render --channel hardness -o hardness.png case.rcg && [ -s hardness.png ]'
 claim "  its title is right" bash -c 'rc-render --channel hardness -o hardness.svg case.rcg && grep -q "Hardness" hardness.svg'
 claim "rc-export writes it" bash -c 'rc-export --format npy --channel hardness -o hardness.npy case.rcg && [ -s hardness.npy ]'
-
-finish

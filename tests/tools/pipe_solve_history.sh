@@ -53,5 +53,3 @@ claim "an interrupted and resumed run gives the same result" bash -c '
         --output pressure --report resumed.json s.rcg -o p.rcg'
 sed -n 3p resumed.json >third.json
 near "$(field contact_area third.json)" "$(of_case contact_area 3)" 1e-3 "  with the third load"
-
-finish

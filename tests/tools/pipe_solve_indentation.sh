@@ -57,5 +57,3 @@ claim "  the axis says so" grep -q '>Indentation (' approach.svg
 rc-solve --quiet --estar 114GPa --load 20mN,0.2N --report first.tsv --output pressure ball.rcg -o one.rcg
 rc-render --curve approach:load --title T -o first.svg first.tsv
 claim "curves of first loadings use the approach" lacks 'Indentation' first.svg
-
-finish

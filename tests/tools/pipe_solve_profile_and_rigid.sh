@@ -43,5 +43,3 @@ near "$(field max_pressure rigid.json)" "$(field max_pressure estar.json)" "$sum
 claim "  the history has the word rigid" says 'E2 rigid' rc-info rigid.rcg
 refuses 2 'all four \(--E2 rigid needs no --nu2\)' "two moduli need two ratios" \
     "rc-solve --load 1N --E1 210GPa --nu1 0.3 --E2 1GPa ball.rcg"
-
-finish

@@ -60,5 +60,3 @@ refuses 3 "may not be able to balance the load at this point" "what yields canno
 sed -n '/^The tilt of a flat on a rough surface/,/^\.Ed/p' "$RC_SOURCE/man/rc-solve.1" |
     sed '1,/^\.Bd/d; /^\.Ed/d; s/\\e/\\/; s/\\-/-/g' >example.sh
 claim "the example of rc-solve(1) runs" bash -c 'test "$(wc -l <example.sh)" = 6 && test "$(bash -e example.sh | wc -l)" = 2'
-
-finish

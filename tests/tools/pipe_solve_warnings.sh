@@ -171,5 +171,3 @@ early() {
     [ $none -gt 0 ]
 }
 claim "a signal during the plan ends the tool at once, without a file" early
-
-finish

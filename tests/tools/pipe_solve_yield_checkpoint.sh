@@ -148,5 +148,3 @@ refuses 1 'case 1 cannot be continued \(.*not a state' "one with fewer" \
 (head -c 500000 kept.rcg && printf X && tail -c +500002 kept.rcg) >spoilt.rcg
 refuses 1 'frame [0-9]* cannot be read .*checksum' "a file with a damaged frame" "$solve $history --checkpoint spoilt.rcg --resume -o x.rcg rough.rcg"
 claim "refused runs leave no file" bash -c '! ls x.rcg* 2>/dev/null'
-
-finish

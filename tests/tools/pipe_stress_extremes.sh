@@ -91,5 +91,3 @@ claim "a depth of 5 m under a map of half a millimetre causes a warning" \
 claim "  a depth within ten widths causes none" bash -c '
     rc-stress --depths 5.1mm --components szz -o far.rcg ball.rcg 2>said.txt && ! test -s said.txt'
 claim "  a slightly larger one does" warns 'times the width' rc-stress --depths 5.2mm --components szz -o far.rcg ball.rcg
-
-finish

@@ -111,5 +111,3 @@ refuses 1 'the case has no plastic strain' "--residual of an elastic case" "rc-s
 rc-synth sphere --nx 48 --ny 48 --dx 10um --radius 7.5mm -o height.rcg
 frames height.rcg ty.part >beside.rcg
 refuses 1 'results computed from it \(traction-y\)' "a height is not changed beside it" "rc-detrend --plane beside.rcg"
-
-finish

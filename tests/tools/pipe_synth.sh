@@ -223,5 +223,3 @@ refuses 1 '999999489 x 658812625 nodes need about [0-9]+ MiB, .* [0-9]+ MiB: tak
     "rc-synth selfaffine --skewness 1 --hurst 0.8 --rms-height 1nm --nx 999999489 --ny 658812625 --dx 1nm"
 refuses 2 '--radius -1 m: it must be above 0' "a bad option leaves no file" "rc-synth sphere $grid --radius -1 -o out.rcg"
 claim "the values agree" test ! -e out.rcg
-
-finish

@@ -89,5 +89,3 @@ refuses 1 'take positions from -6.8e-05 to 6.8e-05 m' "a window that leaves the 
     "rc-pick --set periodic=no track.rcg | $solve --travel 70um --window 64x48"
 refuses 1 'does not cover the contact: take a longer map' "a counter surface that is too short" \
     "rc-pick --set periodic=no other.rcg -o short.rcg; $solve --travel 0 --counter short.rcg track.rcg"
-
-finish

@@ -149,10 +149,7 @@ claim "  it equals that of the tutorial" bash -c \
     'for words in "$@"; do sed "s/ *#.*//" pipeline | tr -s "\\\\ \n" " " | grep -qF -- "$words" || { echo "$words" >&2; exit 1; }; done' - \
     "rc-detrend --poly 2 --outliers 5 --fill" "rc-solve --radius 3.75mm --load 60N --estar 114GPa --hardness 6GPa" "rc-stress --nu 0.28"
 # The whole page takes minutes.
-before_release || {
-    finish
-    exit
-}
+before_release || exit 0
 
 # ---- the page runs ----
 
@@ -320,5 +317,3 @@ for picture in $(pictures "$page"); do
 done
 claim "pictures were compared" test "$(pictures "$page" | wc -l)" -ge 5
 claim "  together they have less than 700 kB" test "$(cd "$samples" && cat $(pictures "$page") | wc -c)" -lt 700000
-
-finish

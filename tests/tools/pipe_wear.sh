@@ -252,5 +252,3 @@ refuses 2 'no key load.*run rc-solve first' "a surface that carries nothing" "$w
 refuses 1 'attract each other' "bodies that attract each other" \
     "rc-solve --quiet --estar 1GPa --adhesion 50mJ/m2 --load 1uN rough.rcg | $wear --distance 1m -o x.rcg"
 refuses 1 'tilt' "a body that tilts" "rc-solve --quiet --estar 1GPa --tilt free --load 1mN rough.rcg | $wear --distance 1m -o x.rcg"
-
-finish

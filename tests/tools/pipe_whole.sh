@@ -168,5 +168,3 @@ twice() {
     [ $? = 143 ] && ! ls twice.rcg.*
 }
 claim "a second SIGTERM leaves no incomplete file" twice
-
-finish

@@ -56,5 +56,3 @@ claim "    the file has this name" perl -MJSON::PP -0777 -e '
 shown "rc-solve --dry-run" "rc-solve $contact --dry-run source.rcg"
 shown "a report's table" "rc-solve $contact --report words.tsv source.rcg -o x.rcg && tr '\t' ' ' <words.tsv"
 shown "rc-cost" "rc-cost $contact --quiet --limit 5 source.rcg"
-
-finish

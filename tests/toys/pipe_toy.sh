@@ -46,4 +46,3 @@ claim "a figure beyond its limit causes one full warning, with advice, and a lis
     ${rough/--quiet/} -o warn.rcg rough.rcg 2>warn.txt
     grep -q 'case 1, load 1 mN, time 1 s: share of the load at the edge is .*, above 0.01: the contact reaches the edge of the map: take a larger map' warn.txt &&
     grep -q 'case 2 too: the contact reaches the edge of the map' warn.txt"
-finish
