@@ -690,7 +690,9 @@ settle(struct rc_plastic *p, struct rc_err *err)
 {
     p->trial = 0;
     p->taken += p->count;
-    if (p->elastic) { /* its contact is already solved */
+    if (p->elastic) { /* its contact is solved, except in a state that was just read */
+        if (p->moved && press(p, err) != RC_OK)
+            return RC_FAIL;
         p->figures.iteration_error = 0;
     } else {
         for_each(p, try_none);
