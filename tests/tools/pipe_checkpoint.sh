@@ -134,4 +134,9 @@ if [ -w /dev/full ]; then
     refuses 1 '--checkpoint /dev/full: the file exists' "nor over a device" \
         "$solve --load 0.1N --checkpoint /dev/full -o x.rcg rough.rcg"
 fi
+refuses 1 'values are NaN or infinite' "a run is refused before its first state" \
+    "rc-synth sphere --nx 8 --dx 1um --radius 1mm | rc-pick --resample 0.4um | perl -0777 -pe 's/\n\n.{8}/\n\n\0\0\0\0\0\0\xf8\x7f/s' >nan.rcg
+    $solve --load 0.1N --checkpoint empty.rcg -o x.rcg <(reseal <nan.rcg)"
+claim "its empty checkpoint is in no one's way" bash -c "
+    $solve --load 0.1N --checkpoint empty.rcg -o empty-out.rcg rough.rcg && [ -s empty.rcg ]"
 claim "refused runs leave no file" bash -c '! ls x.rcg* 2>/dev/null'

@@ -4,6 +4,7 @@
 #include <errno.h>
 #include <fcntl.h>
 #include <string.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 static const char end_line[] = "RCGEND 1\n";
@@ -52,6 +53,14 @@ lock(const struct journal *j)
                  j->name);
 }
 
+static bool
+is_empty(const char *name)
+{
+    struct stat s;
+
+    return stat(name, &s) == 0 && S_ISREG(s.st_mode) && s.st_size == 0;
+}
+
 void
 journal_open(struct journal *j, struct tool *t, const char *name, bool resume, bool *found)
 {
@@ -66,7 +75,9 @@ journal_open(struct journal *j, struct tool *t, const char *name, bool resume, b
     }
     if (resume && errno != ENOENT)
         tool_die(t, "--checkpoint %s: %s", name, strerror(errno));
-    if ((j->file = open_file(j, "w+bx")) == NULL)
+    if ((j->file = open_file(j, "w+bx")) == NULL && errno == EEXIST && is_empty(name))
+        j->file = open_file(j, "r+b"); /* of a run that was refused before its first state */
+    if (j->file == NULL)
         tool_die(t, "--checkpoint %s: %s", name,
                  errno == EEXIST ? "the file exists: continue from it with --resume, or remove it"
                                  : strerror(errno));
