@@ -172,8 +172,10 @@ main(int argc, char **argv)
     tool_start(&run.d.t, &info, argc, argv, &args);
     check_arguments(&run);
     run.d.beside = beside;
-    if (run.yielding.wanted) /* the increments share the tolerance */
+    if (args.physics.history || run.relaxing.wanted) { /* the errors of earlier points stay */
         run.d.changeable = changeable + 1;
+        run.d.bound = run.yielding.wanted ? NULL : "tol";
+    }
     drive_open(&run.d, NULL);
     while (tool_interrupted() == 0 &&
            (run.g = tool_channel_beside(&run.d.t, "height", "hardness", &run.hardness)) != NULL) {

@@ -53,3 +53,8 @@ claim "an interrupted and resumed run gives the same result" bash -c '
         --output pressure --report resumed.json s.rcg -o p.rcg'
 sed -n 3p resumed.json >third.json
 near "$(field contact_area third.json)" "$(of_case contact_area 3)" 1e-3 "  with the third load"
+
+# The dents of earlier loads have the errors that the tolerance allowed.
+dents='rc-solve --quiet --periodic --estar 3GPa --hardness 150MPa --history --load 50mN,100mN --checkpoint c.rcg --resume'
+refuses 1 'another problem: --tol was 1e-07, is 1e-09$' "a smaller tolerance is refused" "$dents --tol 1e-9 -o x.rcg s.rcg"
+claim "a larger one is not" bash -c "$dents --tol 1e-5 -o larger.rcg s.rcg"

@@ -81,6 +81,10 @@ claim "panels have their times, and not the load that they share" bash -c "
     ! grep -q ') load' times.svg"
 refuses 1 'state|differ|checkpoint' "other times" \
     "$solve $solid --load 0.2mN --time 4ms,50ms --checkpoint k.rcg --resume -o x.rcg ball.rcg"
+refuses 1 'another problem: --tol was 0.001, is 1e-06$' "a smaller tolerance than that of earlier steps" \
+    "$solve $solid --load 0.2mN --time 3ms,50ms --tol 1e-6 --checkpoint k.rcg --resume -o x.rcg ball.rcg"
+claim "a larger one is accepted" bash -c "
+    $solve $solid --load 0.2mN --time 3ms,50ms --tol 1e-2 --checkpoint k.rcg --resume -o larger.rcg ball.rcg"
 claim "--dry-run tells the times and the work" bash -c "
     $solve $solid --load 0.2mN --time 3ms,50ms --dry-run ball.rcg >plan.txt && says 'relaxation +on: 1 terms' cat plan.txt &&
     says '2 times' cat plan.txt && says 'convolutions for each time' cat plan.txt"

@@ -180,10 +180,13 @@ checkpoint_refuse(const struct course *c, const char *why)
 static const struct {
     const char *key, *shown;
     bool hidden; /* the value is a CRC-32, which tells the user nothing */
-} kinds[] = {
-    [MARK_OPTION] = {"option", "--", false},  [MARK_FILE] = {"file", "contents of --", true},
-    [MARK_FRAME] = {"frame", "frame ", true}, [MARK_KEY] = {"key", "key ", false},
-    [MARK_POINT] = {"point", "", false},      [MARK_EARLIER] = {"earlier", "earlier ", true}};
+} kinds[] = {[MARK_OPTION] = {"option", "--", false},
+             [MARK_BOUND] = {"option", "--", false},
+             [MARK_FILE] = {"file", "contents of --", true},
+             [MARK_FRAME] = {"frame", "frame ", true},
+             [MARK_KEY] = {"key", "key ", false},
+             [MARK_POINT] = {"point", "", false},
+             [MARK_EARLIER] = {"earlier", "earlier ", true}};
 
 /* The key of a mark in a frame. */
 static const char *
@@ -193,6 +196,14 @@ key_of(const struct mark *mark, char key[64])
     for (char *c = key; *c != '\0'; c++)
         *c = (char)tolower((unsigned char)*c);
     return key;
+}
+
+/* True if the number may rise, and has risen. */
+static bool
+has_risen(const struct mark *mark, const char *was)
+{
+    return mark->kind == MARK_BOUND && was[0] != '\0' && mark->value[0] != '\0' &&
+           strtod(mark->value, NULL) > strtod(was, NULL);
 }
 
 /* Ends the tool because the state belongs to another problem; was: "" if it was not given. */
@@ -234,7 +245,7 @@ compare(const struct course *c, const struct rc_grid *saved, bool map)
         const char *was = rc_grid_get(saved, key_of(mark, key));
         if (was == NULL)
             was = "";
-        if (strcmp(was, mark->value) != 0)
+        if (strcmp(was, mark->value) != 0 && !has_risen(mark, was))
             refuse_mark(c, mark, was);
     }
 }

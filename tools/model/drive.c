@@ -167,7 +167,9 @@ mark_case(struct drive *d)
     for (size_t k = 0; k < d->t.option.n; k++) {
         const struct opt *o = &d->t.option.row[k];
         if (o->result && !is_axis(d, o->name) && !is_among(o->name, d->changeable))
-            course_mark(c, MARK_OPTION, o->name, tool_result_value(&d->t, k));
+            course_mark(
+                c, d->bound != NULL && strcmp(o->name, d->bound) == 0 ? MARK_BOUND : MARK_OPTION,
+                o->name, tool_result_value(&d->t, k));
     }
     for (const char *const *key = d->reads; key != NULL && *key != NULL; key++) {
         const char *value = rc_grid_get(c->g, *key);

@@ -44,6 +44,7 @@ enum {
 struct mark {
     enum mark_kind {
         MARK_OPTION, /* of the command line */
+        MARK_BOUND,  /* the same, a number that may rise */
         MARK_FILE,   /* CRC-32 of what an option has read from a file */
         MARK_FRAME,  /* CRC-32 of a map     */
         MARK_KEY,    /* of the input        */
@@ -142,7 +143,8 @@ struct drive {
     const struct tool_frame *beside;
     const char *const *reads, *const *changeable;
     void (*mark)(struct drive *d);
-    bool independent; /* no point depends on those before it */
+    const char *bound; /* option of a number that may rise; NULL: none */
+    bool independent;  /* no point depends on those before it */
     void (*keys)(struct drive *d, struct rc_model *m, struct rc_grid *frame);
     void (*columns)(struct drive *d, const struct rc_model *m); /* before those of the model */
     /* For a tool with more output than usual. It adds text before a point (plan), warnings, and all

@@ -215,6 +215,15 @@ slip_frame(struct drive *d, struct rc_model *m, struct rc_grid *frame, const cha
     return frame->v;
 }
 
+/* The state of the model has the dissipation if it is wanted. */
+static void
+mark(struct drive *d)
+{
+    const struct slip_run *run = (struct slip_run *)(void *)d;
+
+    course_mark(&d->course, MARK_OPTION, "output", run->law.dissipation ? "dissipation" : "");
+}
+
 static void
 begin(struct drive *d, struct rc_model *m)
 {
@@ -251,6 +260,7 @@ follow(struct slip_run *run)
     run->state = (struct slip_state){.dissipated_total = 0};
     d->frame = slip_frame;
     d->unit = "m";
+    d->mark = mark;
     d->begin = begin;
     d->judge = judge;
     d->all_keys = set_keys;
