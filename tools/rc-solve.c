@@ -160,7 +160,7 @@ main(int argc, char **argv)
     /* Values of lists are points; with another tolerance the iteration continues. */
     static const char *const changeable[] = {"tol",   "load",   "mean-pressure", "approach", "time",
                                              "speed", "travel", "passes",        "pull-off", NULL};
-    static const char *const reads[] = {"periodic", HEIGHT_ERROR, NULL};
+    static const char *const reads[] = {HEIGHT_ERROR, NULL};
     static struct run run = {.d = {.args = &args.drive,
                                    .output = &args.output,
                                    .list = solve_frames,

@@ -228,26 +228,36 @@ refuse_mark(const struct course *c, const struct mark *mark, const char *was)
 
 /* ---- reading ---- */
 
-/* Refuses a frame of another grid or problem; map: its values are a map, not a row of values. */
+static void
+compare_marks(const struct course *c, const struct rc_grid *saved, bool hidden)
+{
+    char key[64];
+
+    for (size_t k = 0; k < c->marks; k++) {
+        const struct mark *mark = &c->mark[k];
+        const char *was = rc_grid_get(saved, key_of(mark, key));
+        if (was == NULL)
+            was = "";
+        if (kinds[mark->kind].hidden == hidden && strcmp(was, mark->value) != 0 &&
+            !has_risen(mark, was))
+            refuse_mark(c, mark, was);
+    }
+}
+
+/* Refuses a frame of another grid or problem. Marks that the message can show come first. map: its values
+ * are a map, not a row of values. */
 static void
 compare(const struct course *c, const struct rc_grid *saved, bool map)
 {
     const struct rc_grid *g = c->g;
     const char *name = c->checkpoint->journal.name;
 
+    compare_marks(c, saved, false);
     if (saved->dx != g->dx || saved->dy != g->dy ||
         (map ? saved->nx != g->nx || saved->ny != g->ny : saved->ny != 1))
         tool_refuse(c->t, g, "--checkpoint %s: it belongs to another grid, %zu x %zu nodes", name,
                     saved->nx, saved->ny);
-    for (size_t k = 0; k < c->marks; k++) {
-        const struct mark *mark = &c->mark[k];
-        char key[64];
-        const char *was = rc_grid_get(saved, key_of(mark, key));
-        if (was == NULL)
-            was = "";
-        if (strcmp(was, mark->value) != 0 && !has_risen(mark, was))
-            refuse_mark(c, mark, was);
-    }
+    compare_marks(c, saved, true);
 }
 
 /* Reads numbers from the header; returns how many. */

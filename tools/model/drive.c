@@ -135,6 +135,14 @@ course_mark_map(struct course *c, const char *name, const struct rc_grid *map)
                         ranks_crc(c->t, rc_crc32_add(0, map->v, bytes), bytes));
 }
 
+void
+course_mark_key(struct course *c, const struct rc_grid *map, const char *key, const char *name)
+{
+    const char *value = rc_grid_get(map, key);
+
+    course_mark(c, MARK_KEY, name, value != NULL ? value : "");
+}
+
 static bool
 is_among(const char *name, const char *const *list)
 {
@@ -171,10 +179,8 @@ mark_case(struct drive *d)
                 c, d->bound != NULL && strcmp(o->name, d->bound) == 0 ? MARK_BOUND : MARK_OPTION,
                 o->name, tool_result_value(&d->t, k));
     }
-    for (const char *const *key = d->reads; key != NULL && *key != NULL; key++) {
-        const char *value = rc_grid_get(c->g, *key);
-        course_mark(c, MARK_KEY, *key, value != NULL ? value : "");
-    }
+    for (const char *const *key = d->reads; key != NULL && *key != NULL; key++)
+        course_mark_key(c, c->g, *key, *key);
     for (const struct tool_frame *f = d->beside; f != NULL && f->channel != NULL; f++)
         course_mark_map(c, f->channel, *f->frame);
     course_mark_map(c, c->g->channel, c->g);

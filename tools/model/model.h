@@ -84,6 +84,9 @@ struct course {
 /* Sets a mark. A text that is too long is replaced by its CRC-32. */
 void course_mark(struct course *c, enum mark_kind kind, const char *name, const char *value);
 void course_mark_crc(struct course *c, enum mark_kind kind, const char *name, uint32_t crc);
+/* A key of a map, which the mark calls `name`. */
+void course_mark_key(struct course *c, const struct rc_grid *map, const char *key,
+                     const char *name);
 /* CRC-32 of a map (NULL: none), of all ranks. */
 void course_mark_map(struct course *c, const char *name, const struct rc_grid *map);
 /* Starts towards a point, from the state of this case in the checkpoint or from the last kept point. */

@@ -177,12 +177,14 @@ void
 travel_mark(struct run *run)
 {
     const struct travelling *w = &run->travelling;
-    const char *repeats = w->counter != NULL ? rc_grid_get(w->counter, "periodic") : NULL;
+    struct course *c = &run->d.course;
 
     if (!w->wanted)
         return;
-    course_mark_map(&run->d.course, w->track->channel, w->track);
-    course_mark(&run->d.course, MARK_KEY, "counter.periodic", repeats != NULL ? repeats : "");
+    course_mark_map(c, w->track->channel, w->track);
+    course_mark_key(c, w->track, "periodic", "periodic");
+    if (w->counter != NULL)
+        course_mark_key(c, w->counter, "periodic", "counter.periodic");
 }
 
 /* ---- passes ---- */
