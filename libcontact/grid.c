@@ -34,6 +34,9 @@ rc_size_mul(size_t a, size_t b, size_t *product, struct rc_err *err)
     return RC_OK;
 }
 
+/* Areas, wave numbers and their powers are numbers of double precision within these spacings. */
+static const double least_spacing = 1e-60, largest_spacing = 1e60;
+
 enum rc_status
 rc_shape_check(const struct rc_shape *s, struct rc_err *err)
 {
@@ -45,6 +48,9 @@ rc_shape_check(const struct rc_shape *s, struct rc_err *err)
     if (!(s->dx > 0 && s->dy > 0) || isinf(s->dx) || isinf(s->dy))
         return rc_err_set(err, "spacing dx=%g dy=%g m: both must be positive and finite", s->dx,
                           s->dy);
+    if (fmin(s->dx, s->dy) < least_spacing || fmax(s->dx, s->dy) > largest_spacing)
+        return rc_err_set(err, "spacing dx=%g dy=%g m: both must be from %g to %g", s->dx, s->dy,
+                          least_spacing, largest_spacing);
     if (rc_size_mul(s->nx, s->ny, &nodes, err) != RC_OK ||
         rc_size_mul(nodes, sizeof(double), &bytes, err) != RC_OK)
         return RC_FAIL;

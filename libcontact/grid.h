@@ -67,7 +67,7 @@ struct rc_shape {
     double dx, dy;
 };
 
-/* RC_FAIL for a zero size, a spacing that is not positive and finite, or a node count whose bytes
+/* RC_FAIL for a zero size, a spacing that is not from 1e-60 to 1e60, or a node count whose bytes
  * would overflow size_t. */
 RC_API enum rc_status rc_shape_check(const struct rc_shape *shape, struct rc_err *err);
 

@@ -672,6 +672,38 @@ numbers_read_as_people_write_them(void **state)
         assert_string_equal(ticks_text_to(text, &t, k), labels[k - t.first]);
 }
 
+static double
+slack(double lo, double hi)
+{
+    return 1e-8 * fmax(fabs(lo), fabs(hi)) + 1e-300;
+}
+
+/* Few marks, all within the range: of ranges at the ends of double precision too. */
+static void
+every_range_has_few_marks(void **state)
+{
+    static const double ends[] = {0,     5e-324, 1e-310, 2.3e-308, 1e-300,   1,
+                                  1e300, 1e307,  9e307,  1.79e308, INFINITY, NAN};
+    enum {
+        ENDS = sizeof ends / sizeof *ends
+    };
+    struct ticks t;
+
+    (void)state;
+    for (int i = 0; i < 4 * ENDS * ENDS; i++) {
+        const double lo = (i & 1 ? -1 : 1) * ends[i / 4 % ENDS],
+                     hi = (i & 2 ? -1 : 1) * ends[i / 4 / ENDS];
+        if (lo >= hi)
+            continue;
+        ticks_choose(&t, lo, hi, 5);
+        assert_true(t.last - t.first <= 40 && t.last - t.first >= -1);
+        if (isfinite(lo) && isfinite(hi))
+            for (long long k = t.first; k <= t.last; k++)
+                assert_true(ticks_at(&t, k) >= lo - slack(lo, hi) &&
+                            ticks_at(&t, k) <= hi + slack(lo, hi));
+    }
+}
+
 /* ---- text ---- */
 
 enum {
@@ -880,6 +912,7 @@ main(void)
         cmocka_unit_test(cells_are_means_of_what_they_cover),
         cmocka_unit_test(contours_of_a_plane_are_straight),
         cmocka_unit_test(numbers_read_as_people_write_them),
+        cmocka_unit_test(every_range_has_few_marks),
         cmocka_unit_test(text_lies_where_it_is_measured),
         cmocka_unit_test(raised_digits_are_smaller_and_higher),
         cmocka_unit_test(what_no_font_has_is_a_question_mark_and_told),

@@ -196,8 +196,13 @@ ticks_choose(struct ticks *t, double lo, double hi, double most)
     double least = (hi - lo) / most, step;
     int k = 0;
 
-    /* within the resolution of doubles, so that a range of one unit in the last place gets a mark too */
+    *t = (struct ticks){.digit = 1, .first = 1, .last = 0}; /* no marks */
+    if (!isfinite(lo) || !isfinite(hi))
+        return;
+    /* within the resolution of doubles, so that a range of one unit in the last place gets a mark too; and
+     * within their range */
     least = fmax(least, 1e-15 * fmax(fabs(lo), fabs(hi)));
+    least = fmin(fmax(least, 1e-307), 1e307);
     t->power = (int)floor(log10(least));
     while (k < 3 && digits[k] * pow(10, t->power) < least * (1 - slack))
         k++;
