@@ -269,6 +269,8 @@ state(struct rc_model *m, struct rc_state *s)
     if (started)
         past = *rc_adhesion_past(a->path);
     RC_STATE_FLAGS(s, &anew);
+    if (rc_state_refused(s))
+        return;
     if (rc_state_reads(s) && m->moved && m->status != RC_FAIL)
         m->status = RC_MORE; /* the next step decides whether it is the solution */
     if (anew) {
@@ -278,6 +280,8 @@ state(struct rc_model *m, struct rc_state *s)
     }
     RC_STATE_FLAGS(s, &started, &past.begun, &dented);
     RC_STATE_NUMBERS(s, &approach, &past.dents[0], &past.dents[1]);
+    if (rc_state_refused(s))
+        return;
     if (!rc_state_reads(s)) {
         if (dented)
             rc_state_map(s, a->n, a->dent);

@@ -36,6 +36,8 @@ const double *rc_state_read_map(struct rc_state *s, size_t n);
 bool rc_state_holds(struct rc_state *s, size_t n);
 /* True if the state is being read and was not refused. */
 bool rc_state_reads(const struct rc_state *s);
+/* True if the state was refused: the members that were to be read are then unknown. */
+bool rc_state_refused(const struct rc_state *s);
 /* Exchanges a further model that the row drives in addition to its inner one. */
 void rc_state_model(struct rc_state *s, struct rc_model *m);
 /* Refuses a state that is being read. `why` is copied: a part of a sentence. */

@@ -31,6 +31,12 @@ rc_state_reads(const struct rc_state *s)
     return s->mode == READS && !s->bad;
 }
 
+bool
+rc_state_refused(const struct rc_state *s)
+{
+    return s->bad;
+}
+
 void
 rc_state_refuse(struct rc_state *s, const char *why)
 {
@@ -61,11 +67,19 @@ rc_state_numbers(struct rc_state *s, size_t n, double *v)
     s->at += n;
 }
 
+/* Refuses a state without a further map of n values. */
+static void
+demand_map(struct rc_state *s, size_t n)
+{
+    if (n > s->n - s->map_at || s->maps == s->all_maps)
+        rc_state_refuse(s, "numbers are missing");
+}
+
 double *
 rc_state_map(struct rc_state *s, size_t n, double *v)
 {
-    if (s->mode == READS && n > s->n - s->map_at)
-        rc_state_refuse(s, "numbers are missing");
+    if (s->mode == READS)
+        demand_map(s, n);
     if (s->bad)
         return NULL;
     if (s->mode == READS)
@@ -80,8 +94,7 @@ rc_state_map(struct rc_state *s, size_t n, double *v)
 const double *
 rc_state_read_map(struct rc_state *s, size_t n)
 {
-    if (n > s->n - s->map_at)
-        rc_state_refuse(s, "numbers are missing");
+    demand_map(s, n);
     if (s->bad)
         return NULL;
     s->map_at += n;
@@ -177,7 +190,7 @@ static void
 exchange_members(struct rc_model *m, struct rc_state *s)
 {
     m->row->state(m, s);
-    if (m->inner != NULL)
+    if (m->inner != NULL && !s->bad)
         rc_state_model(s, m->inner);
 }
 
@@ -222,6 +235,8 @@ rc_state_model(struct rc_state *s, struct rc_model *m)
     exchange_point(s, &m->to);
     m->status = (enum rc_status)((int)status + RC_FAIL);
     m->moved = moved;
+    if (m->status == RC_MORE && !m->moved)
+        rc_state_refuse(s, "it has steps without a point");
     if (m->moved && !m->row->forgets)
         rc_state_copy(s, &m->kept); /* a restored model needs it for its own later return */
     if (!s->bad)
@@ -298,7 +313,7 @@ exchange_all(struct rc_model *m, struct rc_state *s, size_t numbers, size_t maps
 
     rc_state_count(s, &numbers, most);
     rc_state_count(s, &maps, most);
-    if (rc_state_reads(s) && numbers > s->n)
+    if (rc_state_reads(s) && (numbers < s->at || numbers > s->n))
         rc_state_refuse(s, "numbers are missing");
     if (rc_state_reads(s)) {
         s->numbers = s->map_at = numbers;

@@ -748,6 +748,8 @@ state(struct rc_model *m, struct rc_state *s)
     rc_state_number(s, &y->load, 0);
     rc_state_number(s, &solved, 0);
     rc_state_numbers(s, 1, &y->first_top);
+    if (rc_state_refused(s))
+        return;
     if (slabs > 0)
         exchange_volume(y, s, slabs);
     else

@@ -612,6 +612,9 @@ step_contact(struct rolling *f, struct rc_err *err)
     }
     if (pose(f, err) != RC_OK)
         return RC_FAIL;
+    if (f->resumes && level >= f->levels)
+        return rc_err_set(err, "the state has %zu coarser grids, and this contact has %zu", level,
+                          f->levels - 1);
     f->level = f->resumes ? level : f->levels - 1;
     begin(f);
     return RC_MORE;
@@ -730,6 +733,8 @@ state(struct rc_model *m, struct rc_state *s)
     RC_STATE_NUMBERS(s, &f->x, &f->inherited, &f->coarse.moment, &f->coarse_error);
     rc_state_numbers(s, 2, f->coarse.force);
     rc_state_numbers(s, 2, f->coarse.creep);
+    if (rc_state_refused(s))
+        return;
     if (rc_state_reads(s)) {
         f->resumes = false;
         f->again = f->stage == ROLLING || f->stage == THERE;

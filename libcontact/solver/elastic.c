@@ -267,7 +267,7 @@ fill(struct rc_model *m, size_t frame, double *to, struct rc_err *err)
     const struct rc_solver *s = e->solver;
     struct rc_contact again;
 
-    if (!e->looked)
+    if (!e->looked || (!e->apart && s == NULL))
         return rc_err_set(err, "call rc_model_look before reading a frame");
     if ((frame == RC_FRAME_GAP || frame == RC_FRAME_DISPLACEMENT) && !e->apart && !s->it.known) {
         (void)rc_iterate_displace_rows(e->solver);
@@ -413,6 +413,8 @@ state(struct rc_model *m, struct rc_state *s)
 
     RC_STATE_FLAGS(s, &dented, &e->apart, &pressed);
     RC_STATE_NUMBERS(s, &e->first_top, &e->top, &e->height_error, &e->off, &load);
+    if (rc_state_refused(s))
+        return;
     if (!rc_state_reads(s)) { /* writing: the solver's pressure is not changed */
         if (dented)
             rc_state_map(s, e->n, e->dent);
@@ -423,6 +425,8 @@ state(struct rc_model *m, struct rc_state *s)
     e->looked = e->deformed = false;
     if (dented || e->dent != NULL)
         read_dent(e, s, dented);
+    if (m->moved && !e->apart && !pressed)
+        rc_state_refuse(s, "the pressure of its point is missing");
     if (pressed && rc_state_reads(s))
         read_pressure(e, s, load);
     if (e->solver == NULL && own_heights(e, e->given, &err) != RC_OK)

@@ -1,6 +1,6 @@
 /* Laws of every model. A run may be stopped after any step and continued from its state in another model. The
  * result is the same as that of a run without a stop. Points that were not kept have no effect. Other data
- * are refused as a state, and figures and frames have names. The test runs for every row of models.list, and
+ * are refused as a state, a false number in a state does no harm, and figures and frames have names. The test runs for every row of models.list, and
  * also with the model of tests/toys. */
 #include <setjmp.h>
 #include <stdarg.h>
@@ -551,6 +551,84 @@ forgets(void **state)
 
 /* ---- refusals ---- */
 
+/* Restores a state that may be false: it is refused, or steps, figures and frames follow. */
+static bool
+taken(const struct kind *kind, const double *v, size_t n)
+{
+    static double frame[N];
+    struct rc_model *m = make(kind);
+    struct rc_err err = {""};
+    const struct rc_frame_kind *f;
+    struct rc_point at;
+    bool going;
+    const bool fine = rc_model_restore(m, v, n, &going, &err) == RC_OK;
+
+    if (!fine)
+        assert_string_not_equal(err.text, "");
+    for (int k = 0; k < 3 && fine && going; k++)
+        going = rc_model_step(m, &err) == RC_MORE;
+    if (fine && rc_model_look(m, &at, &err) == RC_OK)
+        for (size_t k = 0; (f = rc_model_frame_kind(m, k)) != NULL; k++)
+            (void)rc_model_frame(m, f->name, frame, &err);
+    rc_model_free(m);
+    return fine;
+}
+
+/* A state of a file may hold any numbers: each of the first ones, and some of the others, is replaced. */
+static void
+false_states(void **state)
+{
+    static const double lies[] = {0,    1,    -1,      0.5,   2,      3,        7,
+                                  1000, 1e15, 4503e12, 1e300, -1e300, INFINITY, 1e-300};
+    enum {
+        LIES = sizeof lies / sizeof *lies,
+        STOPS = 4
+    };
+
+    const bool all = getenv("RC_LONG") != NULL;
+
+    (void)state;
+    for (size_t q = 0; q < sizeof kinds / sizeof *kinds; q++) {
+        const struct kind *kind = &kinds[q];
+        size_t tried = 0, fine = 0, lie = q;
+        for (size_t stop = 1; stop <= STOPS; stop += all ? 1 : 2) {
+            struct rc_model *m = make(kind);
+            const struct rc_point first = point_of(kind, 0), second = point_of(kind, 1);
+            size_t few = 3 * stop, n;
+            struct rc_err err = {""};
+            double *v;
+            if (stop > STOPS / 2) {
+                assert_int_equal(rc_model_run(m, &first, &err), RC_OK);
+                assert_int_equal(rc_model_keep(m, &err), RC_OK);
+            }
+            assert_int_equal(rc_model_go(m, stop > STOPS / 2 ? &second : &first, &err), RC_MORE);
+            (void)steps(m, &few, &err);
+            n = rc_model_state_size(m);
+            v = calloc(n + 1, sizeof *v);
+            assert_non_null(v);
+            rc_model_state(m, v);
+            rc_model_free(m);
+            for (size_t k = 0; k < n; k += k < 60 || (all && k < 240) ? 1 : n / 20 + 1)
+                for (int times = 0; times < (all ? 6 : 2); times++, tried++) {
+                    const double was = v[k];
+                    v[k] = times == 0 ? was + 1 : lies[lie++ % LIES];
+                    fine += taken(kind, v, n);
+                    v[k] = was;
+                }
+            for (size_t most = v[0] > 0 ? 6 : 0; most-- > 0; tried++) { /* of maps and numbers */
+                const double was[2] = {v[0], v[1]};
+                v[0] = (double[]){0, 1, 2, was[0] - 1, (double)n, (double)n - 1}[most];
+                v[1] = (double[]){0, was[1], 1, was[1] + 1, was[1], 1e9}[most];
+                fine += taken(kind, v, n);
+                v[0] = was[0], v[1] = was[1];
+            }
+            free(v);
+        }
+        printf("%s: %zu false states, %zu taken\n", kind->name, tried, fine);
+        assert_true(tried > 200 && fine < tried);
+    }
+}
+
 static void
 refused(const struct kind *kind, const double *v, size_t n, const char *why)
 {
@@ -736,9 +814,10 @@ int
 main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(all_rows),   cmocka_unit_test(points),  cmocka_unit_test(stops),
-        cmocka_unit_test(reached),    cmocka_unit_test(forgets), cmocka_unit_test(states_of_others),
-        cmocka_unit_test(plans),
+        cmocka_unit_test(all_rows),   cmocka_unit_test(points),
+        cmocka_unit_test(stops),      cmocka_unit_test(reached),
+        cmocka_unit_test(forgets),    cmocka_unit_test(states_of_others),
+        cmocka_unit_test(plans),      cmocka_unit_test(false_states),
 #ifdef RC_TOYS
         cmocka_unit_test(relaxation),
 #endif

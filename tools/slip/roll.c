@@ -138,9 +138,11 @@ model_of(struct slip_run *run)
 
     if (run->args->steady)
         return new_model(run);
-    if (run->path == NULL)
+    if (run->path == NULL) {
         run->path = new_model(run);
-    else if (memcmp(now, run->first, sizeof now) != 0)
+        tool_must(&run->d.t, p, /* the map of this case is freed before the next one */
+                  rc_model_set_heights(run->path, p->v, &run->d.t.err));
+    } else if (memcmp(now, run->first, sizeof now) != 0)
         tool_refuse(&run->d.t, p,
                     "its grid, boundary or bodies differ from those of the case before: roll over "
                     "the cases of one rc-solve --travel");
