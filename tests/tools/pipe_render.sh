@@ -80,14 +80,40 @@ claim "it has 777 pixels" size 777 - w.png
 
 # ---- every kind of picture ----
 
-claim "a figure with contours is drawn" rc-render --contour -o f.png three.rcg
-claim "a figure with missing nodes is drawn" rc-render -o f.png missing.rcg
-claim "a section with uneven depths is drawn" rc-render --contour --section y -o f.png section.rcg
+# says_extremes VALUE NX NY FILE: the figure, an SVG, gives the least and the largest finite value of this
+# expression to four digits.
+says_extremes() {
+    perl -CS -0777 -e '
+        my ($value, $nx, $ny, $file) = @ARGV;
+        my $get = eval "sub { my (\$i, \$j) = \@_; $value }";
+        my @v = sort { $a <=> $b } grep { $_ - $_ == 0 } map { my $j = $_; map { $get->($_, $j) } 0 .. $nx - 1 } 0 .. $ny - 1;
+        open my $f, "<:utf8", $file or die; my $svg = <$f>;
+        $svg =~ s{10(?:</tspan>)?<tspan[^>]*>([^<]*)</tspan>}{10^$1}g; $svg =~ s{</?tspan[^>]*>}{}g; $svg =~ s/<[^>]*>/\n/g;
+        my ($line) = $svg =~ /(min .* max .*)/ or die "no extremes\n";
+        $line =~ s/\x{2212}/-/g;
+        my %prefix = (m => -3, "\x{b5}" => -6, n => -9, p => -12, k => 3, M => 6, G => 9);
+        for my $which (["min", $v[0]], ["max", $v[-1]]) {
+            my ($digits, $power, $prefix) = $line =~ /$which->[0] (-?[0-9.]+(?:e-?\d+)?)(?:\x{b7}10\^(-?\d+))?(?: ([pn\x{b5}mkMG]?)(?:m|Pa)\b)?/
+                or die "no number in $line\n";
+            my ($mantissa, $own) = (split(/e/, $digits), 0);
+            my $is = $mantissa . "e" . ($own + ($power // 0) + ($prefix{$prefix // ""} // 0));
+            my $most = abs $which->[1];
+            die "$line: $is is not $which->[1]\n" if abs($is - $which->[1]) > 6e-4 * $most + 1e-323;
+        }' -- "$@"
+}
+claim "a figure with contours is drawn" rc-render --contour -o f.svg three.rcg
+claim "  of its pressure" says_extremes '$i > 5 ? 1e9 * $i : 0' 21 20 f.svg
+claim "a figure with missing nodes is drawn" rc-render -o f.svg missing.rcg
+claim "  with the extremes of the others" says_extremes '$i < 3 ? "nan" : 1e-6 * $i * $j' 12 9 f.svg
+claim "a section with uneven depths is drawn" rc-render --contour --section y -o f.svg section.rcg
+claim "  with its extremes" says_extremes '1e8 * $j' 20 4 f.svg
 while read -r nx ny; do
-    stream height m "$nx" "$ny" "" '1e-9 * (($i * 7 + $j * 3) % 11)' >shape.rcg
-    claim "a figure of $nx x $ny nodes is drawn" rc-render --contour --quiet -o f.png shape.rcg
+    heights='1e-9 * (($i * 7 + $j * 3) % 11)'
+    stream height m "$nx" "$ny" "" "$heights" >shape.rcg
+    claim "a figure of $nx x $ny nodes is drawn" rc-render --contour --quiet -o f.svg shape.rcg
+    claim "  with its extremes" says_extremes "$heights" "$nx" "$ny" f.svg
     claim "a raw picture of $nx x $ny nodes is drawn" rc-render --raw -o f.png shape.rcg
-    claim "it has $nx x $ny pixels" size "$nx" "$ny" f.png
+    claim "  with $nx x $ny pixels" size "$nx" "$ny" f.png
 done <<'END'
 1000 3
 3 1000
@@ -99,9 +125,11 @@ done <<'END'
 END
 while read -r value; do
     stream height m 9 8 "" "$value" >value.rcg
-    claim "a figure of the values $value is drawn" rc-render --contour -o f.png value.rcg
+    claim "a figure of the values $value is drawn" rc-render --contour -o f.svg value.rcg
+    claim "  with its extremes" says_extremes "$value" 9 8 f.svg
     stream pressure Pa 9 1 "" "$value" >value.rcg
-    claim "a curve of the values $value is drawn" rc-render -o f.png value.rcg
+    claim "a curve of the values $value is drawn" rc-render -o f.svg value.rcg
+    claim "  with its extremes" says_extremes "$value" 9 1 f.svg
 done <<'END'
 0
 3e-6

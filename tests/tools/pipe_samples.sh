@@ -18,12 +18,24 @@ between 0.545 "$(awk -v a="$(field contact_area sphere.json)" -v b="$hertz" 'BEG
 near "$(field max_pressure sphere.json)" 6e9 "$same" "  the largest pressure is the hardness"
 between 1e-9 "$(field plastic_area sphere.json)" 6e-9 "  on a part of it"
 
+# one_line FILE WORDS DEPTHS LEVEL LIMIT: a pipeline of one line draws it. The pressure carries the load, and the
+# hardness limits it if the tips reach it (LIMIT, else empty). The picture shows the largest stress of its depth.
+one_line() {
+    local most
+    claim "a pipeline of one line draws $2" bash -c "
+        rc-import '$1' | rc-detrend $4 |
+            rc-solve --mean-pressure 30MPa --estar 114GPa --hardness 6GPa --quiet --report line.json |
+            rc-stress --nu 0.3 --depths $3 --components mises | tee line.rcg |
+            rc-render --channel mises --depth 0 -o line.svg"
+    near "$(field mean_pressure line.json)" 30e6 "$summed" "  the load is that of its mean pressure"
+    between "${5:-30e6}" "$(field max_pressure line.json)" 6e9 "  the hardness limits its tips"
+    most=$(rc-pick --channel mises --depth 0 line.rcg | rc-export --format csv | grep -v '^#' | tr , '\n' | awk '$1 > m { m = $1 } END { print m }')
+    near "$(sed -n 's/.*max \([0-9.]*\) GPa<.*/\1e9/p; s/.*max \([0-9.]*\) MPa<.*/\1e6/p' line.svg)" "$most" 1e-3 \
+        "  the picture shows the largest stress"
+}
 for sample in $samples; do
-    claim "a pipeline of one line draws $sample" bash -c "
-        rc-import '$RC_SOURCE/sample_surfaces/$sample' | rc-detrend --fill --poly 2 |
-            rc-solve --mean-pressure 30MPa --estar 114GPa --hardness 6GPa --quiet |
-            rc-stress --nu 0.3 --depths 0,2um,5um --components mises |
-            rc-render --channel mises -o $sample.png && says PNG head -c 4 $sample.png"
+    case $sample in *brass*) limit= ;; *) limit=6e9 ;; esac
+    one_line "$RC_SOURCE/sample_surfaces/$sample" "$sample" 0,2um,5um '--fill --poly 2' $limit
 done
 claim "the demo runs" bash -c '
     mkdir demo && cd demo && bash "$RC_SOURCE/sample_surfaces/demo.sh" >said.txt &&
@@ -35,12 +47,7 @@ claim "  it runs on another file too" bash -c '
     cd demo && says "^  load +[0-9.]+ N$" bash "$RC_SOURCE/sample_surfaces/demo.sh" ../again/turned-brass.txt'
 
 if [ -d "$RC_CORPUS/corpus" ]; then
-    real=$RC_CORPUS/corpus/x3p/bulletxtrctr__Hamby252_Barrel1_Bullet1_Land1.x3p
-    claim "a pipeline of one line draws a real X3P" bash -c "
-        rc-import '$real' | rc-detrend --poly 2 --fill |
-            rc-solve --mean-pressure 30MPa --estar 114GPa --hardness 6GPa --quiet |
-            rc-stress --nu 0.3 --depths 0,5um --components mises |
-            rc-render --channel mises -o real.png && says PNG head -c 4 real.png"
+    one_line "$RC_CORPUS/corpus/x3p/bulletxtrctr__Hamby252_Barrel1_Bullet1_Land1.x3p" "a real X3P" 0,5um '--poly 2 --fill' 6e9
 else
     untried "real files: there is no corpus beside the project"
 fi

@@ -4,7 +4,8 @@
 
 rc-synth sphere --nx 33 --ny 29 --dx 20um --radius 7.5mm -o ball.rcg
 
-# 143: ended by SIGTERM. The FIFO stays open, so the tool waits for a frame that never comes.
+# 143: ended by SIGTERM. The FIFO stays open, so the tool waits for a frame that never comes: it has read all bytes
+# (FIONREAD is 0x541B), and sleeps.
 waiting() {
     local tool status
     mkfifo fifo
@@ -12,7 +13,8 @@ waiting() {
     tool=$!
     exec 9>fifo
     head -c 100 ball.rcg >&9
-    sleep 0.5
+    until perl -e 'my $n = "\0" x 4; ioctl(STDIN, 0x541B, $n) or exit 0; exit(unpack("i", $n) != 0)' <&9 &&
+        grep -q '^State:.[SZ]' "/proc/$tool/status"; do sleep 0.02; done
     kill -TERM "$tool"
     wait "$tool"
     status=$?

@@ -16,8 +16,18 @@ claim "rc-pick cuts the window of the last position" bash -c "
 for name in max_pressure approach contact_area; do
     near "$(field $name last.json)" "$(field $name still.json)" 1e-5 "its $name"
 done
-claim "the approach is counted anew at each position, the height is not" bash -c "
-    rc-render --curve position:height,approach -o curve.png moving.json && [ -s curve.png ]"
+# The approach is counted from the first touch at each position, the height of body 2 from a fixed datum: their sum
+# is the largest height there, of the track less the paraboloid of the ball.
+rc-export --format csv track.rcg | grep -v '^#' >track.csv
+for case in 1 4 7; do
+    sed -n "${case}s/\"effects\": {[^}]*}//p" moving.json >at.json
+    near "$(awk "BEGIN { printf \"%.17g\", $(field height at.json) + $(field approach at.json) }")" \
+        "$(awk -F, -v at=$((case - 4)) '{ y = NR - 32.5
+            for (i = 1; i <= NF; i++) { x = i - 100.5 - at; z = $i - (x * x + y * y) * 1e-12 / 4e-3; if (NR == 1 && i == 1 || z > most) most = z } }
+            END { printf "%.17g", most }' track.csv)" 1e-9 "height and approach at position $case make the largest height"
+done
+claim "  both can be drawn" bash -c "
+    rc-render --curve position:height,approach -o curve.svg moving.json && says 'Height.*Approach|Approach.*Height' tr '\n' ' ' <curve.svg"
 
 claim "rc-add sums the surfaces at position 0" bash -c "
     rc-add track.rcg other.rcg 2>cut.txt | $solve --report sum.json --output pressure -o sum.rcg &&

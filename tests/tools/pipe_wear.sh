@@ -206,8 +206,7 @@ refuses 2 'larger than the one before' "cycles that fall" "$wear --cycles 10,1 -
 whole="$wear --tol 0.01 --distance 1m,1000m"
 interrupted() {
     $whole --checkpoint kept.rcg --interval 0.01 -o cut.rcg ball.rcg &
-    until [ -s kept.rcg ] || ! kill -0 $!; do sleep 0.02; done
-    sleep 0.2
+    until [ "$(grep -ac ^RCGEND kept.rcg 2>/dev/null)" -ge 6 ] || ! kill -0 $!; do sleep 0.01; done
     kill -TERM $!
     wait $!
     [ $? = 143 ]

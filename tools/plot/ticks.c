@@ -103,6 +103,7 @@ unit_text_to(char text[TICKS_TEXT], const char *unit)
 void
 scale_choose(struct scale *scale, double largest, const char *unit)
 {
+    const int least = -306; /* of a power of 10 with full precision */
     double size = fabs(largest);
     int power = size > 0 && isfinite(size) ? 3 * (int)floor(log10(size) / 3 + 1e-12) : 0;
 
@@ -110,6 +111,7 @@ scale_choose(struct scale *scale, double largest, const char *unit)
         unit = "";
     if (!takes_prefix(unit) && size >= 0.1 && size < 1e4)
         power = 0;
+    power = power < least ? least : power;
     scale->size = pow(10, power);
     if (takes_prefix(unit) && prefix_of(power) != NULL)
         snprintf(scale->unit, sizeof scale->unit, "%s%.48s", prefix_of(power), unit_text(unit));
