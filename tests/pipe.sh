@@ -170,6 +170,14 @@ tool_sources() {
     printf '%s\n' "$RC_SOURCE"/tools/rc-*.c
 }
 
+# total CHANNEL STREAM CASE: the sum of a frame times the area of a node: the load of a pressure, in N.
+total() {
+    rc-pick --quiet --channel "$1" --case "$3" "$2" >total.rcg
+    rc-export --format csv total.rcg | grep -v '^#' | tr , '\n' |
+        awk -v cell="$(grep -am 2 -E '^d[xy]=' total.rcg | cut -d = -f 2 | paste -s -d '*' | sed 's/\*/ /')" \
+            'BEGIN { split(cell, d, " ") } { sum += $1 } END { printf "%.17g\n", sum * d[1] * d[2] }'
+}
+
 # energy_of STREAM CELL OPTIONS: half the sum of the first pressure times its displacement by rc-deflect,
 # times the area CELL of a cell in m2.
 energy_of() {

@@ -9,6 +9,7 @@ claim "a list of loads is solved without interruption" bash -c "$solve --load 0.
 claim "the resumed run gives the same bits, in one step per case" bash -c "
     $solve --load 0.1N:0.5N:3 --checkpoint kept.rcg --resume --report again.json -o again.rcg rough.rcg &&
     cmp whole.rcg again.rcg && [ \$(grep -c '\"iterations\": 1,' again.json) = 3 ]"
+for case in 1 2 3; do near "$(total pressure again.rcg $case)" 0.$((2 * case - 1)) "$summed" "  which carry load $case"; done
 claim "the report omits what needs the iteration, with the reason" bash -c "
     $solve --load 0.1N:0.5N:3 --checkpoint kept.rcg --resume --discretization --report left.json -o left.rcg rough.rcg &&
     grep -q '\"discretization\": \"left out: resumed' left.json &&

@@ -26,6 +26,7 @@ read -r steel film below <<<"$(sed 's/.*\[//; s/,//g' said.txt | xargs)"
 near "$steel" 1.86e9 "$three_digits" "  largest Mises stress in steel without the film, Pa"
 near "$film" 2.23e9 "$three_digits" "  in the film"
 near "$below" 1.66e9 "$three_digits" "  in the steel under it"
+near "$(total pressure coated.rcg 1)" "$(sed -n 's/^load=//p' <(head -c 2000 coated.rcg | tr -d '\0'))" "$summed" "  the film carries the load"
 rc-stress --depths 2um,2.000002um --components mises --report sides.json -o sides.rcg coated.rcg
 near "$(grep -o '"by_depth": \[[^],]*' sides.json | head -n 1 | sed 's/.*\[//')" 2.19e9 "$three_digits" \
     "  on the lower side of the film"

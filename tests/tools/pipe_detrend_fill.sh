@@ -15,6 +15,9 @@ map 20 20 'i >= 5 && i < 12 && j >= 5 && j < 8' >more.rcg
 claim "filling more causes a warning with the share and the largest width" \
     warns 'rc-detrend: .*, case 1, frame 1 \(height\): 5\.25 % of the points were missing \(21 of 400\).* widest hole is 8 um wide' \
     rc-detrend --fill more.rcg -o out.rcg
+claim "a hole in a plane is filled with the plane" bash -c "
+    rc-export --format csv out.rcg | grep -v '^#' | awk -F, '{ for (i = 1; i <= NF; i++) { d = \$i * 1e9 - (i - 1 + NR - 1); if (d * d > 1e-16) bad = 1; n++ } }
+        END { exit bad || n != 400 }'"
 map 20 20 'i < 5' >edge.rcg
 # the outermost column is 5 um from the only rim
 claim "a hole at the edge counts as twice as wide" warns '25 % .* widest hole is 10 um wide' rc-detrend --fill edge.rcg -o out.rcg

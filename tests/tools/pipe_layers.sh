@@ -12,6 +12,9 @@ claim "  the report has it" says '"layers": "on: 1 on a substrate"' cat hard.jso
 solve --report bare.json ball.rcg -o bare.rcg
 claim "without a layer the report says so" says '"layers": "left out: one material"' cat bare.json
 claim "  the stream has no key of layers" bash -c 'rc-info bare.rcg >bare.txt && lacks layers= bare.txt'
+near "$(field load bare.json)" 350 "$summed" "  the load is carried"
+near "$(field max_pressure bare.json)" "$(awk 'BEGIN { e = 100e9 / 0.91
+    printf "%.17g", (6 * 350 * e * e / 3.14159265358979 ^ 3 / 0.1 ^ 2) ^ (1 / 3) }')" "$coarse_grid" "  with the pressure of Hertz"
 claim "a hard layer reduces the contact area" awk -v a="$(field contact_area hard.json)" -v b="$(field contact_area bare.json)" \
     'BEGIN { exit !(a < 0.5 * b) }'
 

@@ -28,6 +28,10 @@ history="--mean-pressure 150MPa,0,200MPa --yield 2GPa,10GPa"
 $solve $history --report plain.tsv -o plain.rcg rough.rcg
 $solve $history --checkpoint kept.rcg --interval 0 --report whole.tsv -o whole.rcg rough.rcg
 claim "a checkpoint does not change the result" cmp plain.rcg whole.rcg
+for row in 1:150 3:200; do
+    near "$(figures_of whole.tsv | awk -v k="${row%:*}" '$1 ~ /^mean_pressure/ && ++n == k { print $2 }')" "${row#*:}e6" "$summed" \
+        "  load ${row%:*} is carried"
+done
 claim "it has states of each load" bash -c "rc-info kept.rcg >info.txt && [ \"\$(grep -c '(state)' info.txt)\" -gt 20 ]"
 claim "a resumed run gives the same bits" bash -c "
     cp kept.rcg again.rcg && $solve $history --checkpoint again.rcg --resume --report again.tsv -o again-out.rcg rough.rcg &&
