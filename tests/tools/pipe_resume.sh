@@ -1,0 +1,17 @@
+# The law of --resume (resume.py): a run with one option, key, frame or file changed since its checkpoint is
+# refused, and the message names the change, or its result is that of a fresh run. Before a release all modes
+# of the tools are walked; of every commit some.
+. "$(dirname "$0")/../pipe.sh"
+. "$RC_SOURCE/tests/python.sh"
+
+if ! python=$(python_with json 2>why.txt); then
+    cat why.txt
+    exit 77
+fi
+walk() { "$python" "$RC_SOURCE/tests/tools/resume.py" "$@" | tee walk.txt >&2; }
+if before_release; then
+    claim "whatever changes is refused by its name or takes effect, in all modes" walk full "$scratch"
+else
+    claim "whatever changes is refused by its name or takes effect" walk quick "$scratch" history yield passes tangential path-file cycles
+fi
+tail -n 1 walk.txt
