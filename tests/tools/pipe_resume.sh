@@ -4,10 +4,7 @@
 . "$(dirname "$0")/../pipe.sh"
 . "$RC_SOURCE/tests/python.sh"
 
-if ! python=$(python_with json 2>why.txt); then
-    cat why.txt
-    exit 77
-fi
+python=$(python_with json 2>why.txt) || skip "$(cat why.txt)"
 walk() { "$python" "$RC_SOURCE/tests/tools/resume.py" "$@" | tee walk.txt >&2; }
 if before_release; then
     claim "whatever changes is refused by its name or takes effect, in all modes" walk full "$scratch"

@@ -194,7 +194,7 @@ key_of(const struct mark *mark, char key[64])
 {
     snprintf(key, 64, "%s.%s", kinds[mark->kind].key, mark->name);
     for (char *c = key; *c != '\0'; c++)
-        *c = (char)tolower((unsigned char)*c);
+        *c = *c == ' ' ? '.' : (char)tolower((unsigned char)*c);
     return key;
 }
 

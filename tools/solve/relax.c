@@ -209,8 +209,8 @@ relax_mark(struct run *run)
     course_mark_crc(c, MARK_FILE, "relaxation", crc);
     if (!x->wanted)
         return;
-    course_mark(c, MARK_POINT, "shortest.time", rc_number(x->shortest));
-    course_mark(c, MARK_POINT, "last.time", rc_number(relax_time(run, relax_points(run) - 1)));
+    course_mark(c, MARK_POINT, "shortest time", rc_number(x->shortest));
+    course_mark(c, MARK_POINT, "last time", rc_number(relax_time(run, relax_points(run) - 1)));
 }
 
 /* ---- results ---- */
