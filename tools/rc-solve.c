@@ -172,7 +172,8 @@ main(int argc, char **argv)
     tool_start(&run.d.t, &info, argc, argv, &args);
     check_arguments(&run);
     run.d.beside = beside;
-    if (args.physics.history || run.relaxing.wanted) { /* the errors of earlier points stay */
+    if ((args.physics.history && !run.adhering.wanted) ||
+        run.relaxing.wanted) { /* the errors of earlier points stay */
         run.d.changeable = changeable + 1;
         run.d.bound = run.yielding.wanted ? NULL : "tol";
     }
