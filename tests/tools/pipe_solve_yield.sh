@@ -109,6 +109,9 @@ $elastic --mean-pressure 150MPa --yield line.tsv --increments 8 --report table.j
 $elastic --mean-pressure 150MPa --yield 2GPa,10GPa --increments 8 --report line.json --output pressure rough.rcg -o l.rcg
 near "$(field max_pressure table.json)" "$(field max_pressure line.json)" 1e-9 "a table of a straight line is that line"
 near "$(field increments table.json)" 8 0 "  in as many increments as were asked for"
+printf 'stress/MPa;strain (%%)\n2000;0,0\n7000;50,0\n' >line.csv
+$elastic --mean-pressure 150MPa --yield line.csv --increments 8 --report units.json --output pressure rough.rcg -o u.rcg
+near "$(field max_pressure units.json)" "$(field max_pressure line.json)" 1e-9 "  with units in the heading"
 $elastic --mean-pressure 150MPa --yield 2GPa,10GPa --increments 8 --slabs 6 --report six.json --output pressure rough.rcg -o s.rcg
 near "$(field slabs six.json)" 6 0 "so many slabs"
 $elastic --mean-pressure 150MPa --yield 2GPa,10GPa --increments 2 --verbose --report two.json --output pressure rough.rcg -o s.rcg 2>two.err
@@ -169,7 +172,9 @@ table 'line 2: stress 1e.09 Pa: it must not be below 2e.09' "a table that falls"
 table 'line 1: plastic strain 0.01: the table must begin at 0' "a table that does not begin at 0" '0.01 2GPa\n'
 table 'line 3: plastic strain 0.1: it must be above 0.1' "a table whose strain stands still" '0 2GPa\n0.1 3GPa\n0.1 4GPa\n'
 table 'line 1: stress 0 Pa: it must be above 0' "a table without a yield stress" '0 0\n'
-table "line 1: '0 nan'" "a number that is none, which is not a heading" '0 nan\n0.1 1GPa\n'
+table "no column 'sress': the columns are strain, stress: did you mean stress" "a column of another name" 'strain sress\n0 2GPa\n'
+table 'line 1: stress: unknown unit .mm' "a unit of another kind" 'strain stress/mm\n0 2000\n'
+table "line 1: stress: 'nan'" "a number that is none, which is not a heading" '0 nan\n0.1 1GPa\n'
 refuses 2 'the yield stress, 1 Pa, is below a millionth of E' "a yield stress without its unit" "$base --periodic --yield 1 absent.rcg"
 refuses 2 'the yield stress, 1 TPa, is above E' "a yield stress above the modulus" "$base --periodic --yield 1e12 absent.rcg"
 refuses 2 'output residual has no effect without --yield' "a residual displacement of nothing" "$base --periodic --output residual absent.rcg"

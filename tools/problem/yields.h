@@ -10,10 +10,10 @@
 
 struct yield_law {
     struct rc_yield law;
-    double *table[2]; /* plastic strain, stress; NULL: no table */
+    struct columns table; /* plastic strain and stress, of a file */
 };
 
-/* "Y", "Y,HM" or a table FILE.tsv. */
+/* "Y", "Y,HM" or a file with a table. */
 enum rc_status yield_law_read(struct yield_law *law, const char *text, struct rc_err *err);
 /* Ends the tool if an option that excludes --yield is given. */
 void yield_law_refuse(struct tool *tool, bool given, const char *what, const char *why);

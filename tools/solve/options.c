@@ -8,7 +8,7 @@
 /* clang-format off */
 const struct opt solve_contact_options[] = {
     {.group = physics_options, AT(physics)},
-    {.name = "yield", .type = OPT_TEXT, AT(yield), .result = true, .arg = "Y[,HM]|FILE.tsv",
+    {.name = "yield", .type = OPT_TEXT, AT(yield), .result = true, .arg = "Y[,HM]|FILE",
      .help = "yield stress of body 1 (in its volume), and its increase per plastic strain, HM"},
     {.name = "adhesion", .type = OPT_TEXT, AT(adhesion), .result = true, .arg = "WORK[,LAW[,RANGE]]",
      .help = "the bodies attract each other: 50mJ/m2, 50mJ/m2,exponential,2nm; a list is a path"},

@@ -123,7 +123,7 @@ yield_mark(struct run *run)
     if (y->law.points > 0)
         course_mark_crc(
             &run->d.course, MARK_FILE, "yield",
-            rc_crc32_add(rc_crc32_add(0, y->read.table[0], bytes), y->read.table[1], bytes));
+            rc_crc32_add(rc_crc32_add(0, y->read.table.v[0], bytes), y->read.table.v[1], bytes));
 }
 
 /* ---- the loads ---- */
