@@ -87,6 +87,9 @@ claim "  a loop is drawn" says 'Force along x against displacement along x' lege
 printf 'load fx fy # of a joint\n240N 0 0\n\n240N,43.2N,0\n240N\t-43.2N\t0\n240 43.2 0\n' >loop.txt
 rc-slip --mu 0.3 --history loop.txt --report loop2.tsv -o loop2.rcg ball.rcg
 claim "--history is --path from a file" cmp <(cut -f 1-39 loop.tsv) <(cut -f 1-39 loop2.tsv)
+printf 'load (kN);fx (N);fy (N)\n0,24;0;0\n0,24;43,2;0\n0,24;-43,2;0\n0,24;43,2;0\n' >loop.csv
+rc-slip --mu 0.3 --history loop.csv --report loop3.tsv -o loop3.rcg ball.rcg
+claim "  with units in the heading and decimal commas too" cmp <(cut -f 1-39 loop.tsv) <(cut -f 1-39 loop3.tsv)
 # 14,000 characters, which the history of the stream and a checkpoint keep completely
 rc-synth sphere --nx 4 --dx 10um --radius 1mm | rc-solve --quiet --load 1N $steel -o small.rcg
 awk 'BEGIN { for (k = 0; k < 600; k++) printf "1N %.15fN 0\n", k % 2 * 0.123456789012345 + k * 1e-6 }' >long.txt
@@ -183,6 +186,8 @@ refuses 2 'LOAD,FX,FY' "a corner of two numbers" "rc-slip --mu 0.3 --path '240N,
 refuses 2 'must be finite and not negative' "a load that pulls" "rc-slip --mu 0.3 --path '-240N,1N,0' -o x.rcg ball.rcg"
 printf '240N 0 0\n240N zero 0\n' >bad.txt
 refuses 2 'line 2' "a history with a word, and its line" "rc-slip --mu 0.3 --history bad.txt -o x.rcg ball.rcg"
+refuses 2 'bad.txt: line 2: the load must be finite and not negative' "  with a load that pulls" \
+    "printf 'load/N fx/N fy/N\n-1 0 0\n' >bad.txt; rc-slip --mu 0.3 --history bad.txt -o x.rcg ball.rcg"
 refuses 2 'No such file' "a history that is not there" "rc-slip --mu 0.3 --history none.txt -o x.rcg ball.rcg"
 refuses 2 'auto or a number' "increments of 0" "rc-slip --mu 0.3 --tangential 1N --increments 0 -o x.rcg ball.rcg"
 refuses 2 'give both bodies' "one body" "rc-slip --mu 0.3 --tangential 1N --E1 1GPa --nu1 0.3 -o x.rcg ball.rcg"

@@ -1,7 +1,6 @@
 /* Paths: loads and forces, corner by corner. */
 #include "slip.h"
 
-#include <errno.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -34,14 +33,15 @@ read_corner(const char *text, struct slip_corner *c, struct rc_err *err)
     }
     if (text[strspn(text, apart)] != '\0')
         return rc_err_set(err, "it must be LOAD,FX,FY, as in 240N,36N,0");
-    if (!(c->load >= 0) || isinf(c->load) || !isfinite(c->to[0]) || !isfinite(c->to[1]))
-        return rc_err_set(err, "the load must be finite and not negative, forces finite");
     return RC_OK;
 }
 
+/* `where`: the option and the place in it. */
 static void
-add_corner(struct slip_run *run, const struct slip_corner *c)
+add_corner(struct slip_run *run, const struct slip_corner *c, const char *where)
 {
+    if (!(c->load >= 0) || isinf(c->load) || !isfinite(c->to[0]) || !isfinite(c->to[1]))
+        tool_usage(&run->d.t, "%s: the load must be finite and not negative, forces finite", where);
     run->given =
         tool_grown(&run->d.t, run->given, run->givens, &run->room, sizeof *run->given, "a path");
     run->given[run->givens++] = *c;
@@ -57,7 +57,7 @@ static void
 read_path(struct slip_run *run, const char *path)
 {
     struct slip_corner c;
-    char part[256];
+    char part[256], where[300];
 
     while (*path != '\0') {
         size_t n = strcspn(path, ";");
@@ -70,42 +70,33 @@ read_path(struct slip_run *run, const char *path)
             continue;
         if (read_corner(part, &c, &run->d.t.err) != RC_OK)
             tool_usage(&run->d.t, "--path %s: %s", part, run->d.t.err.text);
-        add_corner(run, &c);
+        snprintf(where, sizeof where, "--path %s", part);
+        add_corner(run, &c, where);
     }
     if (run->givens == 0)
         tool_usage(&run->d.t, "--path: it must be LOAD,FX,FY; ..., as in 240N,36N,0");
 }
 
-/* Reads a file of such lines. '#' begins a comment, and a first line of words is a heading. */
 static void
 read_history(struct slip_run *run, const char *name)
 {
-    FILE *file = fopen(name, "r");
-    struct slip_corner c;
-    char line[512];
-    size_t number = 0;
+    static const struct wanted_column wanted[] = {
+        {.names = "load p fz normalload normalforce", .unit = UNIT_N},
+        {.names = "fx forcex tangentialx", .unit = UNIT_N},
+        {.names = "fy forcey tangentialy", .unit = UNIT_N},
+    };
+    struct columns c;
+    char where[300];
 
-    if (file == NULL)
-        tool_usage(&run->d.t, "--history %s: %s", name, strerror(errno));
-    while (fgets(line, sizeof line, file) != NULL) {
-        number++;
-        if (strchr(line, '\n') == NULL && !feof(file))
-            tool_usage(&run->d.t, "--history %s: line %zu is too long", name, number);
-        line[strcspn(line, "#\r\n")] = '\0';
-        if (blank(line) || (run->givens == 0 && strpbrk(line, "0123456789") == NULL))
-            continue;
-        if (read_corner(line, &c, &run->d.t.err) != RC_OK)
-            tool_usage(&run->d.t, "--history %s: line %zu: %s", name, number, run->d.t.err.text);
-        add_corner(run, &c);
+    if (columns_read(&c, name, wanted, 3, false, &run->d.t.err) != RC_OK)
+        tool_usage(&run->d.t, "--history %s: %s", name, run->d.t.err.text);
+    for (size_t k = 0; k < c.n; k++) {
+        const struct slip_corner corner = {.load = c.v[0][k], .to = {c.v[1][k], c.v[2][k]}};
+
+        snprintf(where, sizeof where, "--history %.200s: line %zu", name, c.line[k]);
+        add_corner(run, &corner, where);
     }
-    if (ferror(file))
-        tool_usage(&run->d.t, "--history %s: %s", name, strerror(errno));
-    fclose(file);
-    if (run->givens == 0)
-        tool_usage(
-            &run->d.t,
-            "--history %s: the file contains no line with load, force along x and force along y",
-            name);
+    columns_free(&c);
 }
 
 /* Writes the path in SI units into the history of the stream, from whichever option it came. */
