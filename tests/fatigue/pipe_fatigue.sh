@@ -103,6 +103,13 @@ near "$(json '.by_depth.crossland[0] * 558' table.json)" "$(json '.by_depth.cros
 near "$(json '.by_depth.crossland[1]' table.json)" "$(json '.by_depth.crossland[1]' plain.json)" 1e-6 "  half-way"
 near "$(json '.by_depth.crossland[2]' table.json)" "$(json '.by_depth.crossland[2] * 2' plain.json)" 1e-9 "  below"
 
+for heading in 'depth/um bending/MPa torsion/MPa' '# depth (um) bending (MPa) torsion (MPa)'; do
+    printf '%s\n0 900 558\n4 900 558\n6 300 186\n' "$heading" >units.txt
+    rc-fatigue --quiet --limits units.txt --pass x --depths 3um,5um,9um --report units.json -o x.rcg pressed.rcg
+    near "$(json '.by_depth.crossland[1]' units.json)" "$(json '.by_depth.crossland[1]' table.json)" 1e-12 \
+        "  with units in the heading '$heading'"
+done
+
 # ---- residual stress ----
 
 rc-stress --quiet --depths 5um --components sxx,syy pressed.rcg -o uneven.rcg
@@ -137,6 +144,8 @@ refuses 1 'leave out --pass x' "a pass of positions" "$pass --depths 5um -o x.rc
 refuses 1 'has 1 material, and there are limits of 2' "limits of a coat, without one" "rc-fatigue $list --pass x --depths 5um -o x.rcg pressed.rcg"
 refuses 2 'leave out the options with numbers' "limits twice" "$pass --limits limits.txt --depths 5um -o x.rcg pressed.rcg"
 refuses 2 'line 2' "a table with a wrong line" "rc-fatigue --limits <(printf '0 1MPa .6MPa\n1um 2MPa\n') --pass x --depths 5um -o x.rcg pressed.rcg"
+refuses 2 'no column .torsoin.: .*did you mean torsion' "  of other columns" "rc-fatigue --limits <(printf 'depth bending torsoin\n0 1 .6\n') --pass x --depths 5um -o x.rcg pressed.rcg"
+refuses 2 'line 2: -1e.08: it must be at least 0' "  with a negative limit" "rc-fatigue --limits <(printf 'depth bending/MPa torsion/MPa\n0 -100 60\n') --pass x --depths 5um -o x.rcg pressed.rcg"
 refuses 2 'depths must increase' "  with depths that fall" "rc-fatigue --limits <(printf '1um 1MPa .6MPa\n0 1MPa .6MPa\n') --pass x --depths 5um -o x.rcg pressed.rcg"
 refuses 2 'must be C' "a life without a power" "$pass --life 0 --depths 5um -o x.rcg pressed.rcg"
 refuses 1 'only some of the cases have the key position' "a case without its position" "rc-fatigue $limits --depths 5um -o x.rcg moved-0.rcg pressed.rcg"

@@ -8,59 +8,40 @@
 
 /* ---- limits ---- */
 
-/* Adds a line "depth bending torsion [yield]" of the table. */
-static void
-add_line(struct tool *t, struct fatigue_limits *l, size_t *room, size_t number, char *line)
-{
-    static const enum unit unit[] = {UNIT_M, UNIT_PA, UNIT_PA, UNIT_PA};
-    const char *name = l->asked->table;
-    double v[4] = {0};
-    struct rc_err err;
-    char *at = NULL, *word = strtok_r(line, " \t,", &at);
-    size_t k = 0, same = *room;
-
-    for (; word != NULL && k < 4; word = strtok_r(NULL, " \t,", &at), k++)
-        if (unit_number(word, unit[k], &v[k], &err) != RC_OK || !(v[k] >= 0) || isinf(v[k])) {
-            if (k == 0 && l->n == 0 && number == 1)
-                return; /* a heading */
-            tool_usage(t, "--limits %s, line %zu: '%s': it must be a depth and limits, at least 0",
-                       name, number, word);
-        }
-    if (k < 3 || word != NULL)
-        tool_usage(
-            t,
-            "--limits %s, line %zu: it must hold a depth, the limits in bending and torsion, "
-            "and at most the yield stress",
-            name, number);
-    if (l->n > 0 && !(v[0] > l->depth[l->n - 1]))
-        tool_usage(t, "--limits %s, line %zu: depth %g m: the depths must increase", name, number,
-                   v[0]);
-    l->depth = tool_grown(t, l->depth, l->n, room, sizeof *l->depth, "a table of limits");
-    l->at = tool_grown(t, l->at, l->n, &same, sizeof *l->at, "a table of limits");
-    l->depth[l->n] = v[0];
-    l->at[l->n++] = (struct rc_fatigue_limits){v[1], v[2], v[3]};
-}
-
 static void
 read_table(struct tool *t, struct fatigue_limits *l)
 {
-    FILE *file = fopen(l->asked->table, "r");
-    size_t number = 0, room = 0;
-    char line[512];
+    static const struct wanted_column wanted[] = {
+        {.names = "depth z", .unit = UNIT_M},
+        {.names = "bending bendinglimit", .unit = UNIT_PA},
+        {.names = "torsion torsionlimit", .unit = UNIT_PA},
+        {.names = "yield yieldstress", .unit = UNIT_PA, .optional = true},
+    };
+    enum {
+        KINDS = sizeof wanted / sizeof *wanted
+    };
+    const char *name = l->asked->table;
+    struct columns c;
 
-    if (file == NULL)
-        tool_die(t, "--limits %s: %s", l->asked->table, strerror(errno));
-    while (fgets(line, sizeof line, file) != NULL) {
-        number++;
-        line[strcspn(line, "#\r\n")] = '\0';
-        if (line[strspn(line, " \t")] != '\0')
-            add_line(t, l, &room, number, line);
+    if (columns_read(&c, name, wanted, KINDS, false, &t->err) != RC_OK)
+        tool_usage(t, "--limits %s: %s", name, t->err.text);
+    l->n = c.n;
+    l->depth = tool_room(t, l->n, sizeof *l->depth, "a table of limits");
+    l->at = tool_room(t, l->n, sizeof *l->at, "a table of limits");
+    for (size_t k = 0; k < l->n; k++) {
+        double v[KINDS] = {0};
+
+        for (size_t i = 0; i < KINDS && c.v[i] != NULL; i++)
+            if (!((v[i] = c.v[i][k]) >= 0))
+                tool_usage(t, "--limits %s: line %zu: %g: it must be at least 0", name, c.line[k],
+                           v[i]);
+        if (k > 0 && !(v[0] > l->depth[k - 1]))
+            tool_usage(t, "--limits %s: line %zu: depth %g m: the depths must increase", name,
+                       c.line[k], v[0]);
+        l->depth[k] = v[0];
+        l->at[k] = (struct rc_fatigue_limits){v[1], v[2], v[3]};
     }
-    if (ferror(file))
-        tool_die(t, "--limits %s: %s", l->asked->table, strerror(errno));
-    fclose(file);
-    if (l->n == 0)
-        tool_usage(t, "--limits %s: it holds no limits", l->asked->table);
+    columns_free(&c);
 }
 
 static double
