@@ -39,6 +39,23 @@ $solve --relaxation curve.csv --load 0.2mN --time 50ms --report curve.json -o t.
 near "$(field approach curve.json)" "$(field approach typed.json)" 5e-3 "a master curve of this material is fitted"
 between 0 "$(field relaxation_misfit curve.json)" 0.05 "  with a small misfit"
 
+# the same curve as instruments and programs write it: other names, units in brackets, decimal commas, tan delta
+awk -F, 'NR > 2 { print $1 "\t" $2 "\t" $3 "\t" $3 / $2 }' curve.csv >body.tsv
+{ printf 'Frequency (Hz)\tStorage modulus (MPa)\tLoss modulus (MPa)\ttan delta\n'; cat body.tsv; } >dma.tsv
+{ echo 'Frequency (Hz);Storage modulus (MPa);Loss modulus (MPa)'; cut -f 1-3 body.tsv | tr '\t.' ';,'; } >comma.csv
+{ printf 'f, E_stor, E_loss\nHz, MPa, MPa\n'; cut -f 1-3 body.tsv | tr '\t' ','; } >names.csv
+{ echo '# omega/(rad/s) storage/kPa loss/kPa'; awk '{ print $1 * 6.283185307, 1e3 * $2, 1e3 * $3 }' body.tsv; } >omega.txt
+for file in dma.tsv comma.csv names.csv omega.txt; do
+    $solve --relaxation $file --load 0.2mN --time 50ms --report same.json -o t.rcg ball.rcg
+    near "$(field approach same.json)" "$(field approach curve.json)" 1e-7 "  as $(head -n 1 $file | tr '\t' ' ')"
+done
+printf 'E;tau\nMPa;ms\n1;inf\n9;1,0\n' >terms.csv
+$solve --relaxation terms.csv --load 0.2mN --time 50ms --report same.json -o t.rcg ball.rcg
+near "$(field approach same.json)" "$(field approach typed.json)" "$same" "a table of terms in other units"
+claim "a relaxed modulus of 0 has a warning" warns 'relaxed modulus is 0, so that body 1 flows' \
+    ${solve/--quiet/} --relaxation 0,9MPa:1ms --load 0.2mN --time 1ms -o t.rcg ball.rcg
+claim "  and one above 0 has none" bash -c "${solve/--quiet/} $solid --load 0.2mN --time 1ms -o t.rcg ball.rcg 2>none.err; ! grep flows none.err"
+
 # ---- a layer on a rigid base ----
 
 layer="rc-solve --quiet --threads 1 --E1 rigid --E2 rigid --tol 1e-3"
@@ -101,13 +118,24 @@ refuses 2 'a term must be' "a term without a time" "$solve --relaxation 1MPa,9MP
 refuses 2 'only once' "two equal times" "$solve --relaxation 1MPa,9MPa:1s,2MPa:1s --time 0 $more"
 refuses 2 'at least 0' "a negative modulus" "$solve --relaxation 1MPa,-9MPa:1s --time 0 $more"
 refuses 2 'No such file' "no file" "$solve --relaxation none.tsv --time 0 $more"
-refuses 2 'heading' "another heading" "$solve --relaxation ball.rcg --time 0 $more"
-long=$(printf 'x%.0s' {1..60}) # a unit that filled the place of one and more
+refuses 2 'binary' "a stream" "$solve --relaxation ball.rcg --time 0 $more"
+long=$(printf 'x%.0s' {1..60}) # a unit that once filled the place of one and more
 for tan in tandelta/1 "tan/$long" "tan/${long}${long}${long}"; do
     printf 'frequency/Hz storage/MPa loss/MPa %s\n1 1 1 1\n' "$tan" >four.txt
-    refuses 2 'more than 3 columns: keep .*such as tan delta' "a fourth column ${tan:0:9}" \
+    refuses 2 'at least 4|no column .tan.|too long' "a fourth column ${tan:0:9}" \
         "$solve --relaxation four.txt --time 0 $more"
 done
+for table in 'time/s E/MPa\n0.001 10\n0.01 8\n' 't,E_relax\ns,MPa\n0.001,10\n0.01,8\n' \
+    'Time (s);E(t) (MPa)\n0,001;10\n0,01;8\n'; do
+    printf "$table" >measured.txt
+    refuses 2 'measured E.t. must be fitted first' "a measured E(t), $table" "$solve --relaxation measured.txt --time 0 $more"
+done
+printf 'tau E\n1 9\n' >bare.txt
+refuses 2 'bare.txt: line 2: E: give its unit' "a table of moduli without a unit" "$solve --relaxation bare.txt --time 0 $more"
+printf 'frequency storage\n1 9MPa\n' >two.txt
+refuses 2 'heading must be' "a table without losses" "$solve --relaxation two.txt --time 0 $more"
+printf 'f,storage/MPa,loss/MPa\n1,1,1\n2,0,1\n' >zero.txt
+refuses 2 'line 3: storage: it must be above 0' "a storage modulus of 0" "$solve --relaxation zero.txt --time 0 $more"
 refuses 2 '--time LIST' "no times" "$solve $solid $more"
 refuses 2 'must rise' "times that fall" "$solve $solid --time 0,2,1 $more"
 refuses 2 'equal length' "other times than loads" "$solve $solid --time 0,2 --load 1uN,2uN,3uN -o x.rcg ball.rcg"

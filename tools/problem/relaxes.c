@@ -1,19 +1,12 @@
 /*
- * --relaxation: terms on the command line, a file of terms, or a master curve.
+ * --relaxation: terms on the command line, a table of terms, or a master curve.
  */
 #include "relaxes.h"
 
-#include <ctype.h>
-#include <errno.h>
 #include <math.h>
-#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
-enum {
-    COLUMNS = 3,
-    WORD = 64
-};
 static const double hertz = 6.283185307179586; /* rad/s */
 
 /* A modulus must have a unit: 5 could be meant in MPa. */
@@ -69,234 +62,117 @@ read_terms(struct relaxation_law *law, const char *text, double shift, struct rc
     return law->material != NULL ? RC_OK : RC_FAIL;
 }
 
-/* ---- a file ---- */
+/* ---- a table ---- */
 
-/* What a column holds, by its name. */
 enum kind {
     TAU,
     MODULUS,
+    TIME,
     FREQUENCY,
     OMEGA,
     STORAGE,
     LOSS,
-    OTHER
+    TAN_DELTA,
+    KINDS
 };
-static const struct {
-    const char *name;
-    enum kind kind;
-} names[] = {
-    {"tau", TAU},
-    {"time", TAU},
-    {"e", MODULUS},
-    {"modulus", MODULUS},
-    {"frequency", FREQUENCY},
-    {"f", FREQUENCY},
-    {"omega", OMEGA},
-    {"storage", STORAGE},
-    {"e'", STORAGE},
-    {"loss", LOSS},
-    {"e''", LOSS},
-    {"e\"", LOSS},
-};
-
-struct table {
-    enum kind kind[COLUMNS];
-    char unit[COLUMNS][WORD]; /* "": none */
-    size_t columns, n, room;
-    double *v; /* by lines */
+static const struct wanted_column wanted[KINDS] = {
+    [TAU] = {.names = "tau relaxationtime", .unit = UNIT_S, .optional = true, .infinite = true},
+    [MODULUS] = {.names = "E modulus relaxationmodulus erelax e(t)",
+                 .unit = UNIT_PA,
+                 .optional = true,
+                 .needs_unit = true},
+    [TIME] = {.names = "time t", .unit = UNIT_S, .optional = true},
+    [FREQUENCY] = {.names = "frequency f freq", .unit = UNIT_HZ, .optional = true},
+    [OMEGA] = {.names = "omega angularfrequency", .unit = UNIT_RAD_S, .optional = true},
+    [STORAGE] = {.names = "storage storagemodulus e' estor estorage",
+                 .unit = UNIT_PA,
+                 .optional = true,
+                 .needs_unit = true},
+    [LOSS] = {.names = "loss lossmodulus e'' e\" eloss",
+              .unit = UNIT_PA,
+              .optional = true,
+              .needs_unit = true},
+    [TAN_DELTA] = {.names = "tandelta tan(delta) tand lossfactor", .ignored = true},
 };
 
-/* Splits a line at blanks, commas and semicolons. */
-static size_t
-split(char *line, char *word[COLUMNS + 1])
+/* True if the table has these columns and no others. */
+static bool
+has(const struct columns *c, unsigned kinds)
 {
-    char *save = NULL;
-    size_t n = 0;
+    unsigned there = 0;
 
-    line[strcspn(line, "#\r\n")] = '\0';
-    for (char *w = strtok_r(line, " \t,;", &save); w != NULL && n <= COLUMNS;
-         w = strtok_r(NULL, " \t,;", &save))
-        word[n++] = w;
-    return n;
+    for (unsigned k = 0; k < KINDS; k++)
+        there |= c->v[k] != NULL ? 1U << k : 0;
+    return there == kinds;
 }
 
-/* "storage/MPa" is a name and a unit. */
+/* A line of each term; the line `inf E` has the relaxed modulus. */
 static enum rc_status
-read_heading(struct table *t, size_t n, char *word[], struct rc_err *err)
+take_terms(struct relaxation_law *law, struct columns *c, double shift, struct rc_err *err)
 {
-    if (n > COLUMNS)
-        return rc_err_set(err,
-                          "it has more than %d columns: keep `tau E`, `frequency storage "
-                          "loss` or `omega storage loss`, and remove the others, such as tan "
-                          "delta",
-                          COLUMNS);
-    for (size_t c = 0; c < n; c++) {
-        char *slash = strchr(word[c], '/');
-        t->kind[c] = OTHER;
-        if (slash != NULL) {
-            *slash = '\0';
-            snprintf(t->unit[c], WORD, "%s", slash + 1);
+    double *tau = c->v[TAU], *modulus = c->v[MODULUS], relaxed = 0;
+    size_t terms = 0;
+
+    for (size_t k = 0; k < c->n; k++)
+        if (isinf(tau[k])) {
+            relaxed += modulus[k];
+        } else {
+            tau[terms] = tau[k] * shift;
+            modulus[terms++] = modulus[k];
         }
-        for (char *p = word[c]; *p != '\0'; p++)
-            *p = (char)tolower((unsigned char)*p);
-        for (size_t k = 0; k < sizeof names / sizeof *names; k++)
-            if (strcmp(word[c], names[k].name) == 0)
-                t->kind[c] = names[k].kind;
+    law->misfit = NAN;
+    law->material = rc_relaxation_new(relaxed, terms, modulus, tau, err);
+    return law->material != NULL ? RC_OK : RC_FAIL;
+}
+
+static enum rc_status
+fit_curve(struct relaxation_law *law, struct columns *c, double shift, struct rc_err *err)
+{
+    const unsigned frequency = c->v[OMEGA] != NULL ? OMEGA : FREQUENCY;
+    const unsigned kind[] = {frequency, STORAGE, LOSS};
+    double *omega = c->v[frequency];
+
+    for (size_t k = 0; k < c->n; k++) {
+        for (size_t i = 0; i < 3; i++)
+            if (!(c->v[kind[i]][k] > 0))
+                return rc_err_set(err, "line %zu: %.*s: it must be above 0", c->line[k],
+                                  (int)strcspn(wanted[kind[i]].names, " "), wanted[kind[i]].names);
+        omega[k] *= (frequency == FREQUENCY ? hertz : 1) / shift;
     }
-    t->columns = n;
-    if (n == 2 && t->kind[0] == TAU && t->kind[1] == MODULUS)
-        return RC_OK;
-    if (n == 3 && (t->kind[0] == FREQUENCY || t->kind[0] == OMEGA) && t->kind[1] == STORAGE &&
-        t->kind[2] == LOSS)
-        return RC_OK;
+    law->material = rc_relaxation_fit(c->n, omega, c->v[STORAGE], c->v[LOSS], 0, &law->misfit, err);
+    return law->material != NULL ? RC_OK : RC_FAIL;
+}
+
+static enum rc_status
+take_table(struct relaxation_law *law, struct columns *c, double shift, struct rc_err *err)
+{
+    const unsigned moduli = 1U << STORAGE | 1U << LOSS;
+
+    if (has(c, 1U << TAU | 1U << MODULUS))
+        return take_terms(law, c, shift, err);
+    if (has(c, 1U << FREQUENCY | moduli) || has(c, 1U << OMEGA | moduli))
+        return fit_curve(law, c, shift, err);
+    if (has(c, 1U << TIME | 1U << MODULUS))
+        return rc_err_set(err,
+                          "its columns time and E are a measured relaxation: a table of measured "
+                          "E(t) must be fitted first, for example in another program: give its "
+                          "terms in columns `tau E`");
     return rc_err_set(err,
                       "its heading must be `tau E`, `frequency storage loss` or `omega storage "
                       "loss`");
 }
 
-static bool
-is_number(const char *word)
-{
-    char *end;
-
-    (void)strtod(word, &end);
-    return end != word;
-}
-
-static enum rc_status
-read_value(const struct table *t, size_t c, const char *word, double *value, struct rc_err *err)
-{
-    char text[2 * WORD], *end;
-
-    if (t->kind[c] == TAU && strcmp(word, "inf") == 0) {
-        *value = INFINITY;
-        return RC_OK;
-    }
-    (void)strtod(word, &end);
-    snprintf(text, sizeof text, "%.*s%.*s", WORD - 1, word, WORD - 1,
-             *end == '\0' ? t->unit[c] : "");
-    if (t->kind[c] == TAU)
-        return unit_number(text, UNIT_S, value, err);
-    if (t->kind[c] != FREQUENCY && t->kind[c] != OMEGA)
-        return read_modulus(text, value, err);
-    if (t->unit[c][0] != '\0' && strcmp(t->unit[c], t->kind[c] == OMEGA ? "rad/s" : "Hz") != 0)
-        return rc_err_set(err, "unit %s: a frequency must be in Hz, and omega in rad/s",
-                          t->unit[c]);
-    if (*end != '\0')
-        return rc_err_set(err, "'%s' is not a number", word);
-    *value = strtod(word, NULL) * (t->kind[c] == FREQUENCY ? hertz : 1);
-    return RC_OK;
-}
-
-static enum rc_status
-add_line(struct table *t, char *word[], struct rc_err *err)
-{
-    if (t->n == t->room) {
-        double *v = realloc(t->v, (2 * t->room + 64) * COLUMNS * sizeof *v);
-        if (v == NULL)
-            return rc_err_set(err, "out of memory");
-        t->v = v;
-        t->room = 2 * t->room + 64;
-    }
-    for (size_t c = 0; c < t->columns; c++)
-        if (read_value(t, c, word[c], &t->v[t->n * COLUMNS + c], err) != RC_OK)
-            return RC_FAIL;
-    t->n++;
-    return RC_OK;
-}
-
-/* The first line is the heading. A second line without numbers holds units. */
-static enum rc_status
-read_line(struct table *t, size_t number, char *line, struct rc_err *err)
-{
-    char *word[COLUMNS + 1];
-    const size_t n = split(line, word);
-    struct rc_err why;
-
-    if (n == 0)
-        return RC_OK;
-    if (t->columns == 0)
-        return read_heading(t, n, word, err);
-    if (n != t->columns)
-        return rc_err_set(err, "line %zu: it must hold %zu values", number, t->columns);
-    if (t->n == 0 && !is_number(word[0]) && !is_number(word[n - 1])) {
-        for (size_t c = 0; c < n; c++)
-            snprintf(t->unit[c], WORD, "%s", word[c]);
-        return RC_OK;
-    }
-    return add_line(t, word, &why) == RC_OK ? RC_OK
-                                            : rc_err_set(err, "line %zu: %s", number, why.text);
-}
-
-/* The columns of the table, one after another. */
-static double *
-columns_of(const struct table *t)
-{
-    double *v = malloc((t->n * COLUMNS + 1) * sizeof *v);
-
-    for (size_t k = 0; k < t->n && v != NULL; k++)
-        for (size_t c = 0; c < t->columns; c++)
-            v[c * t->n + k] = t->v[k * COLUMNS + c];
-    return v;
-}
-
-/* The line `inf E` is the relaxed modulus. */
-static enum rc_status
-take_table(struct relaxation_law *law, const struct table *t, double shift, struct rc_err *err)
-{
-    const size_t n = t->n;
-    RC_OWNED double *v = columns_of(t);
-    double relaxed = 0;
-    size_t terms = 0;
-
-    if (v == NULL)
-        return rc_err_set(err, "out of memory");
-    for (size_t k = 0; k < n && t->columns == 2; k++)
-        if (isinf(v[k])) {
-            relaxed += v[n + k];
-        } else {
-            v[terms] = v[k] * shift;
-            v[n + terms++] = v[n + k];
-        }
-    for (size_t k = 0; k < n && t->columns == 3; k++)
-        v[k] /= shift;
-    law->misfit = NAN;
-    law->material = t->columns == 2
-                        ? rc_relaxation_new(relaxed, terms, v + n, v, err)
-                        : rc_relaxation_fit(n, v, v + n, v + 2 * n, 0, &law->misfit, err);
-    return law->material != NULL ? RC_OK : RC_FAIL;
-}
-
-static enum rc_status
-read_file(struct relaxation_law *law, FILE *file, double shift, struct rc_err *err)
-{
-    struct table t = {.columns = 0};
-    enum rc_status status = RC_OK;
-    char line[512];
-
-    for (size_t number = 1; status == RC_OK && fgets(line, sizeof line, file) != NULL; number++)
-        status = read_line(&t, number, line, err);
-    if (status == RC_OK && ferror(file))
-        status = rc_err_set(err, "%s", strerror(errno));
-    if (status == RC_OK && t.n == 0)
-        status = rc_err_set(err, "it holds no values");
-    if (status == RC_OK)
-        status = take_table(law, &t, shift, err);
-    free(t.v);
-    return status;
-}
-
 enum rc_status
 relaxation_law_read(struct relaxation_law *law, const char *text, double shift, struct rc_err *err)
 {
-    FILE *file = strchr(text, ':') != NULL ? NULL : fopen(text, "r");
+    struct columns c;
     enum rc_status status;
 
-    if (file == NULL && strchr(text, ':') == NULL && strchr(text, '.') != NULL && !is_number(text))
-        return rc_err_set(err, "%s", strerror(errno));
-    if (file == NULL)
+    if (strchr(text, ':') != NULL || !columns_file(text))
         return read_terms(law, text, shift, err);
-    status = read_file(law, file, shift, err);
-    fclose(file);
+    status = columns_read(&c, text, wanted, KINDS, true, err);
+    if (status == RC_OK)
+        status = take_table(law, &c, shift, err);
+    columns_free(&c);
     return status;
 }

@@ -12,7 +12,7 @@ struct relaxation_law {
     double misfit;                  /* of a master curve; NAN: the terms were given */
 };
 
-/* "Einf,E1:tau1,...", or a file with a heading: `tau E`, or `frequency storage loss` (Hz; `omega`: rad/s).
+/* "Einf,E1:tau1,...", or a table with a heading: `tau E`, or `frequency storage loss` (Hz; `omega`: rad/s).
  * All times are multiplied by `shift`. */
 enum rc_status relaxation_law_read(struct relaxation_law *law, const char *text, double shift,
                                    struct rc_err *err);

@@ -67,6 +67,7 @@ static const struct {
     [UNIT_DIFFUSIVITY] = {"m2/s", "mm2/s m2/s", NULL},
     [UNIT_HEAT] = {"J/m3K", "kJ/m3K MJ/m3K", NULL},
     [UNIT_HZ] = {"Hz", "Hz kHz", NULL},
+    [UNIT_RAD_S] = {"rad/s", "rad/s", NULL},
     [UNIT_W_MK] = {"W/mK or S/m", "W/mK", NULL},
     [UNIT_S_M] = {"W/mK or S/m", "S/m", NULL},
     [UNIT_WEAR] = {"m2/N", "mm3/Nm", "mm3/Nm or 1/GPa", true},

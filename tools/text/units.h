@@ -23,6 +23,7 @@ enum unit {
     UNIT_DIFFUSIVITY, /* square metres per second          */
     UNIT_HEAT,        /* joules per cubic metre and kelvin */
     UNIT_HZ,          /* per second                        */
+    UNIT_RAD_S,       /* radians per second                */
     UNIT_W_MK,        /* watts per metre and kelvin        */
     UNIT_S_M,         /* siemens per metre                 */
     UNIT_WEAR,        /* volume per force and distance     */
