@@ -27,7 +27,7 @@ static const struct opt opts[] = {
     {.name = "archard", .type = OPT_NUMBERS, AT(archard), .min = 0, .max = INFINITY, .result = true,
      .arg = "K1[,K2]", .help = "instead: Archard's numbers, V = K P s/H, no factor 3; needs --hardness"},
     {.name = "hardness", .type = OPT_NUMBER, .unit = UNIT_HARD, AT(hardness), ABOVE_0, .result = true,
-     .arg = "PRESSURE", .help = "H of --archard; the bound of the pressure is that of rc-solve"},
+     .arg = "PRESSURE", .help = "H of --archard; 600HV is 600 times 9.80665 MPa. The bound of the pressure is that of rc-solve"},
     {.name = "energy", .type = OPT_TEXT, AT(energy), .result = true, .arg = "K1[,K2]",
      .help = "instead: volume per energy of friction, in mm3/J or m3/J; needs --mu"},
     {.name = "mu", .type = OPT_NUMBER, AT(mu), ABOVE_0, .result = true, .arg = "COEFFICIENT",
@@ -136,6 +136,13 @@ read_law(struct run *run)
                           "with its unit, as in 1e-5mm3/J");
     if (args.archard.n > 2)
         tool_usage(t, "--archard: it must be K1 or K1,K2");
+    if (t->vickers != NULL) {
+        args.hardness = unit_vickers_on_faces(args.hardness);
+        tool_warn(t,
+                  "--hardness %s is %s: H of Archard's law is HV times 9.80665 MPa, as tables of K "
+                  "take it; rc-solve --hardness takes this over sin 68 deg",
+                  t->vickers, shown_in_unit(args.hardness, "Pa"));
+    }
     for (size_t b = 0; b < 2; b++) {
         if (b < args.archard.n)
             k[b] = args.archard.v[b] / args.hardness;

@@ -58,6 +58,10 @@ near "$(volume rc-wear --coefficient 2e-6mm3/Nm --distance 1m)" 2e-18 1e-12 "in 
 near "$(volume rc-wear --coefficient 2e-15m2/N,0 --distance 1m)" 2e-18 1e-12 "in m2/N"
 near "$(volume rc-wear --coefficient "2e-6 1/GPa" --distance 1m)" 2e-18 1e-12 "in 1/GPa"
 near "$(volume rc-wear --archard 4e-6 --hardness 2GPa --distance 1m)" 2e-18 1e-12 "by Archard's number"
+near "$(volume rc-wear --archard 4e-6 --hardness 600HV --distance 1m)" "$(awk 'BEGIN { print 4e-9 / (600 * 9.80665e6) }')" 1e-6 \
+    "  with H of a Vickers number, K P s/(HV 9.80665 MPa)"
+claim "  which a warning says" warns '600HV is 5.88399 GPa: H of Archard' \
+    rc-wear --archard 4e-6 --hardness 600HV --distance 1m --dry-run pressed.rcg
 near "$(volume rc-wear --energy 1e-5mm3/J --mu 0.2 --distance 1m)" 2e-18 1e-12 "by energy"
 claim "a worn surface wears on" bash -c "
     $wear --distance 1m -o part.rcg pressed.rcg && $wear --distance 9m --report rest.tsv -o rest.rcg part.rcg &&

@@ -144,6 +144,12 @@ unit_vickers(const char *text)
     return unit != NULL && is_vickers(unit, strlen(unit));
 }
 
+double
+unit_vickers_on_faces(double pressure)
+{
+    return pressure * sin(68 * acos(-1) / 180);
+}
+
 /* "N/mm2", "kN/m^2": the power of ten of a force over an area. */
 static bool
 stress_power(const char *text, size_t n, int *power)
@@ -254,7 +260,7 @@ apply_unit(const char *digits, size_t length, const char *suffix, size_t n, enum
     if (unit == UNIT_NONE)
         return false;
     if (unit == UNIT_HARD && is_vickers(suffix, n)) {
-        *value *= 9.80665e6 / sin(68 * acos(-1) / 180);
+        *value *= 9.80665e6 / unit_vickers_on_faces(1);
         return true;
     }
     if (unit == UNIT_K && (same("degC", suffix, n) || same("\302\260C", suffix, n))) {

@@ -48,6 +48,8 @@ enum rc_status unit_number(const char *text, enum unit unit, double *value, stru
  * sloping faces of the indentation. As a pressure it is the mean over the projected area, which is smaller by
  * the factor sin(68 degrees). */
 bool unit_vickers(const char *text);
+/* Pa: the mean over the sloping faces, HV times 9.80665 MPa, from this pressure. */
+double unit_vickers_on_faces(double pressure);
 
 /* A whole number as a size; SIZE_MAX if it is too large. */
 static inline size_t
