@@ -8,7 +8,8 @@
  *     if (rc_model_go(m, &to, &err) == RC_MORE)
  *         while (rc_model_step(m, &err) == RC_MORE)
  *             ;                              (show progress, obey signals, write a checkpoint)
- *     rc_model_look(m, &at, &err);
+ *     if (rc_model_look(m, &at, &err) != RC_OK)
+ *         ;                                  (err.text has the reason; the figures are then NAN)
  *     printf("%g m, %g Pa\n", at.at[RC_APPROACH], rc_model_number(m, "max_pressure"));
  *     rc_model_keep(m, &err);                (the point becomes history; without it the next go forgets it)
  *
@@ -115,8 +116,9 @@ RC_API const struct rc_figure *rc_figures(const char *name);
  * none. */
 RC_API const struct rc_figure *rc_figure_find(const char *name);
 
-/* Figure k of the model after its look, those of inner models first; NULL past the last. `data`: its
- * struct. A name that an outer model has too is the outer one's, and is given once. */
+/* Figure k of the model, those of inner models first; NULL past the last. `data`: its struct; NULL, so that
+ * the figure is unknown, unless a look came after the last step. A name that an outer model has too is the
+ * outer one's, and is given once. */
 RC_API const struct rc_figure *rc_model_figure(const struct rc_model *model, size_t k,
                                                const void **data);
 /* The value of a figure by its name; NAN: unknown, or there is none. */
@@ -146,7 +148,7 @@ RC_API enum rc_status rc_model_step(struct rc_model *model, struct rc_err *err);
 RC_API enum rc_status rc_model_run(struct rc_model *model, const struct rc_point *to,
                                    struct rc_err *err);
 /* Brings the figures up to date. `at` (or NULL): the point with the axes that were found, NAN where
- * unknown. */
+ * unknown. RC_FAIL after a go or a step that failed, with NAN in `at`. */
 RC_API enum rc_status rc_model_look(struct rc_model *model, struct rc_point *at,
                                     struct rc_err *err);
 /* The point that was reached becomes history. RC_FAIL when none is reached, or memory is short. */

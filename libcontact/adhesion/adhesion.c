@@ -498,7 +498,7 @@ own_error(const struct rc_adhesion *a)
     const struct rc_gap_told *t = &a->gap.told;
     double mu = a->judged > 0 ? softest(a) : a->mu[a->control], worst, measured;
 
-    if (a->judged > 0 && isinf(a->hidden))
+    if ((a->judged > 0 && isinf(a->hidden)) || !isfinite(t->error) || !isfinite(t->size))
         return INFINITY;
     mu = mu == 0 ? 1 : fmin(fmax(mu, single), 1);
     worst = fmax(safe / sqrt(mu), safe_soft / fmax(mu, soft)) * t->error;

@@ -21,7 +21,6 @@ struct adhesive {
     bool pulls;   /* the point is a retraction                                        */
     bool again;   /* a state was read: the next step sets the point                   */
     bool returns; /* the state at the last kept point is being read                   */
-    bool looked;
     struct rc_adhesive_figures figures;
 };
 
@@ -89,7 +88,6 @@ go(struct rc_model *m, struct rc_err *err)
 {
     struct adhesive *a = (struct adhesive *)m;
 
-    a->looked = false;
     return set_point(a, err);
 }
 
@@ -102,7 +100,6 @@ step(struct rc_model *m, struct rc_err *err)
 
     if (a->again && set_point(a, err) != RC_OK)
         return RC_FAIL;
-    a->looked = false;
     status = rc_adhesion_step(a->path, err);
     rc_adhesion_progress(a->path, &at);
     a->started |= !at.coarser;
@@ -144,7 +141,6 @@ look(struct rc_model *m, struct rc_point *at, struct rc_err *err)
                                              .converged = f->converged};
     at->at[RC_LOAD] = f->load;
     at->at[RC_APPROACH] = f->approach;
-    a->looked = true;
     return RC_OK;
 }
 
@@ -171,8 +167,7 @@ fill(struct rc_model *m, size_t frame, double *to, struct rc_err *err)
 {
     struct adhesive *a = (struct adhesive *)m;
 
-    if (!a->looked)
-        return rc_err_set(err, "call rc_model_look before reading a frame");
+    (void)err;
     if (frame == RC_FRAME_PRESSURE)
         rc_adhesion_pressure(a->path, to);
     else if (frame == RC_FRAME_DISPLACEMENT)
@@ -289,7 +284,7 @@ state(struct rc_model *m, struct rc_state *s)
             rc_adhesion_pressure(a->path, to);
         return;
     }
-    a->looked = a->pulls = false;
+    a->pulls = false;
     if (dented || a->dent != NULL)
         read_dent(a, s, dented);
     if (started) {

@@ -108,8 +108,9 @@ rc_model_go(struct rc_model *m, const struct rc_point *to, struct rc_err *err)
 {
     struct rc_point next;
 
+    m->looked = false;
     if (aim(m, to, &next, err) != RC_OK)
-        return RC_FAIL;
+        return m->status = RC_FAIL;
     if ((m->moved ? rc_model_recall(m, err) : rc_model_remember(m, err)) != RC_OK)
         return m->status = RC_FAIL;
     m->to = next;
@@ -124,7 +125,10 @@ rc_model_step(struct rc_model *m, struct rc_err *err)
         return rc_err_set(err,
                           "the %s model has no next point, because its last rc_model_go failed",
                           m->row->name);
-    return m->status != RC_MORE ? m->status : (m->status = m->row->step(m, err));
+    if (m->status != RC_MORE)
+        return m->status;
+    m->looked = false;
+    return m->status = m->row->step(m, err);
 }
 
 enum rc_status
@@ -143,6 +147,15 @@ rc_model_look(struct rc_model *m, struct rc_point *at, struct rc_err *err)
 {
     struct rc_point own = m->to;
 
+    for (enum rc_axis k = 0; k < RC_AXES && at != NULL; k++)
+        at->at[k] = NAN;
+    if (at != NULL)
+        at->given = 0;
+    if (m->status == RC_FAIL)
+        return rc_err_set(err,
+                          "the %s model has no figures, because its last rc_model_go or "
+                          "rc_model_step failed",
+                          m->row->name);
     if (m->inner != NULL) {
         if (rc_model_look(m->inner, &own, err) != RC_OK)
             return RC_FAIL;
@@ -153,6 +166,7 @@ rc_model_look(struct rc_model *m, struct rc_point *at, struct rc_err *err)
     }
     if (m->row->look(m, &own, err) != RC_OK)
         return RC_FAIL;
+    m->looked = true;
     if (at != NULL)
         *at = own;
     return RC_OK;
@@ -260,7 +274,7 @@ figure_at(const struct rc_model *top, const struct rc_model *m, size_t *k, const
     const struct rc_figure *f = m->inner == NULL ? NULL : figure_at(top, m->inner, k, data);
 
     for (const struct rc_figure_set *s = m->row->figures; f == NULL && s->table != NULL; s++) {
-        *data = (const char *)m + s->at;
+        *data = top->looked ? (const char *)m + s->at : NULL;
         for (const struct rc_figure *at = s->table; f == NULL && at->name != NULL; at++)
             if (!is_outer(top, m, at->name) && (*k)-- == 0)
                 f = at;
@@ -302,7 +316,8 @@ rc_model_frame(struct rc_model *m, const char *name, double *to, struct rc_err *
     for (struct rc_model *at = m; at != NULL; at = at->inner)
         for (size_t k = 0; at->row->frame[k].name != NULL; k++)
             if (strcmp(at->row->frame[k].name, name) == 0)
-                return at->row->fill(at, k, to, err);
+                return m->looked ? at->row->fill(at, k, to, err)
+                                 : rc_err_set(err, "call rc_model_look before reading a frame");
     return rc_err_set(err, "the %s model has no frame '%s'", m->row->name, name);
 }
 

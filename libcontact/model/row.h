@@ -18,12 +18,15 @@ void rc_state_finite(struct rc_state *s, size_t n, double *v);
 void rc_state_number(struct rc_state *s, double *v, double least);
 /* A size, at most `most`, as one number. */
 void rc_state_count(struct rc_state *s, size_t *n, size_t most);
-/* Members one after the other, each by its address: numbers, finite ones of at least 0, counts, booleans. */
+/* Members one after the other, each by its address: finite numbers, finite ones of at least 0, counts,
+ * booleans; open ones may be NaN or infinite. */
 #define RC_STATE_NUMBERS(s, ...) rc_state_each_number(s, (double *const[]){__VA_ARGS__, NULL})
+#define RC_STATE_OPEN(s, ...) rc_state_each_open(s, (double *const[]){__VA_ARGS__, NULL})
 #define RC_STATE_SIZES(s, ...) rc_state_each_size(s, (double *const[]){__VA_ARGS__, NULL})
 #define RC_STATE_COUNTS(s, ...) rc_state_each_count(s, (size_t *const[]){__VA_ARGS__, NULL})
 #define RC_STATE_FLAGS(s, ...) rc_state_each_flag(s, (bool *const[]){__VA_ARGS__, NULL})
 void rc_state_each_number(struct rc_state *s, double *const *v);
+void rc_state_each_open(struct rc_state *s, double *const *v);
 void rc_state_each_size(struct rc_state *s, double *const *v);
 void rc_state_each_count(struct rc_state *s, size_t *const *n);
 void rc_state_each_flag(struct rc_state *s, bool *const *flag);
@@ -133,6 +136,7 @@ struct rc_model {
     struct rc_point from, to;  /* last point kept, with its found axes; next one */
     enum rc_status status;     /* RC_MORE: the point is not reached yet */
     bool moved;                /* true: steps were made since the last keep */
+    bool looked;               /* the figures belong to the present step */
     struct rc_state_copy kept; /* state at the last keep                */
     struct rc_store own;       /* memory that is freed with the model   */
 };

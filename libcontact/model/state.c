@@ -75,16 +75,27 @@ demand_map(struct rc_state *s, size_t n)
         rc_state_refuse(s, "numbers are missing");
 }
 
+/* Refuses numbers that are not finite, also in single precision. */
+static bool
+finite(struct rc_state *s, size_t n, const double *v)
+{
+    for (size_t k = 0; k < n && !s->bad; k++)
+        if (!(fabs(v[k]) <= (double)FLT_MAX))
+            rc_state_refuse(s, "a number is not finite");
+    return !s->bad;
+}
+
 double *
 rc_state_map(struct rc_state *s, size_t n, double *v)
 {
-    if (s->mode == READS)
-        demand_map(s, n);
-    if (s->bad)
+    const double *from;
+
+    if (s->mode == READS) {
+        if ((from = rc_state_read_map(s, n)) != NULL)
+            memcpy(v, from, n * sizeof *v);
         return NULL;
-    if (s->mode == READS)
-        memcpy(v, s->from + s->map_at, n * sizeof *v);
-    else if (s->mode == WRITES && v != NULL)
+    }
+    if (s->mode == WRITES && v != NULL)
         memcpy(s->to + s->map_at, v, n * sizeof *v);
     s->map_at += n;
     s->maps++;
@@ -95,7 +106,7 @@ const double *
 rc_state_read_map(struct rc_state *s, size_t n)
 {
     demand_map(s, n);
-    if (s->bad)
+    if (s->bad || !finite(s, n, s->from + s->map_at))
         return NULL;
     s->map_at += n;
     s->maps++;
@@ -120,7 +131,31 @@ void
 rc_state_each_number(struct rc_state *s, double *const *v)
 {
     for (; *v != NULL; v++)
-        rc_state_numbers(s, 1, *v);
+        rc_state_finite(s, 1, *v);
+}
+
+/* A number that is not finite has a place above all numbers of single precision. */
+void
+rc_state_each_open(struct rc_state *s, double *const *v)
+{
+    static const double places[] = {1e300, 2e300, 3e300};
+    static const double are[] = {INFINITY, -INFINITY, NAN};
+
+    for (; *v != NULL; v++) {
+        double stored = **v;
+        size_t k = isnan(stored) ? 2 : isinf(stored) ? stored < 0 : 3;
+        if (k < 3)
+            stored = places[k];
+        rc_state_numbers(s, 1, &stored);
+        if (!rc_state_reads(s))
+            continue;
+        for (k = 0; k < 3 && stored != places[k]; k++)
+            ;
+        if (k < 3)
+            **v = are[k];
+        else if (finite(s, 1, &stored))
+            **v = stored;
+    }
 }
 
 void
@@ -144,9 +179,8 @@ void
 rc_state_finite(struct rc_state *s, size_t n, double *v)
 {
     rc_state_numbers(s, n, v);
-    for (size_t k = 0; k < n && rc_state_reads(s); k++)
-        if (!(fabs(v[k]) <= (double)FLT_MAX))
-            rc_state_refuse(s, "a number is not finite");
+    if (rc_state_reads(s))
+        (void)finite(s, n, v);
 }
 
 void
@@ -182,7 +216,11 @@ exchange_point(struct rc_state *s, struct rc_point *p)
 
     rc_state_count(s, &given, (1u << RC_AXES) - 1);
     p->given = (unsigned)given;
-    rc_state_numbers(s, RC_AXES, p->at);
+    for (enum rc_axis k = 0; k < RC_AXES; k++)
+        if (k == RC_APPROACH) /* of a retraction it is -INFINITY */
+            RC_STATE_OPEN(s, &p->at[k]);
+        else
+            rc_state_finite(s, 1, &p->at[k]);
 }
 
 /* Exchanges the members of the row, then the inner models. */
@@ -237,6 +275,7 @@ rc_state_model(struct rc_state *s, struct rc_model *m)
     m->moved = moved;
     if (m->status == RC_MORE && !m->moved)
         rc_state_refuse(s, "it has steps without a point");
+    m->looked &= !rc_state_reads(s);
     if (m->moved && !m->row->forgets)
         rc_state_copy(s, &m->kept); /* a restored model needs it for its own later return */
     if (!s->bad)

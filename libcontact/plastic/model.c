@@ -75,8 +75,7 @@ struct yielding {
                                     depth, m */
     enum stage stage;
     enum rc_status reached; /* status of the elastic contact */
-    bool looked;
-    bool travels, moved; /* the heights may change; they have changed since the last load */
+    bool travels, moved;    /* the heights may change; they have changed since the last load */
     struct rc_yielding_figures figures;
 };
 
@@ -429,7 +428,6 @@ go(struct rc_model *m, struct rc_err *err)
 {
     struct yielding *y = (struct yielding *)m;
 
-    y->looked = false;
     y->left -= y->left > 0;
     return set_load(y, m->to.at[RC_LOAD], err);
 }
@@ -586,7 +584,6 @@ look(struct rc_model *m, struct rc_point *at, struct rc_err *err)
     f->indentation = (m->to.at[RC_LOAD] > 0 ? f->contact.approach : 0) + y->first_top - y->top;
     at->at[RC_LOAD] = f->contact.load;
     at->at[RC_APPROACH] = f->contact.approach;
-    y->looked = true;
     return RC_OK;
 }
 
@@ -596,8 +593,6 @@ fill(struct rc_model *m, size_t frame, double *to, struct rc_err *err)
     struct yielding *y = (struct yielding *)m;
     struct rc_contact again;
 
-    if (!y->looked)
-        return rc_err_set(err, "call rc_model_look before reading a frame");
     memset(to, 0, y->n * sizeof *to);
     if (frame == SHAPE)
         shape(y, to);
@@ -681,7 +676,7 @@ exchange_elastic(struct yielding *y, struct rc_state *s, double solved)
 
     if (!rc_state_reads(s)) {
         if (solved > 0) /* the cast is safe: writing does not change the pressure */
-            rc_state_numbers(s, y->n, (double *)rc_solver_pressure(y->elastic));
+            rc_state_finite(s, y->n, (double *)rc_solver_pressure(y->elastic));
         return;
     }
     forget_volume(y);
@@ -689,7 +684,7 @@ exchange_elastic(struct yielding *y, struct rc_state *s, double solved)
     if (solved > 0 && (p = rc_alloc(y->n, sizeof *p)) == NULL)
         rc_state_refuse(s, "memory is short");
     else if (solved > 0)
-        rc_state_numbers(s, y->n, p);
+        rc_state_finite(s, y->n, p);
     if (rc_state_reads(s) &&
         (set_load(y, y->load, &err) != RC_OK ||
          (solved > 0 &&
@@ -709,7 +704,7 @@ exchange_volume(struct yielding *y, struct rc_state *s, size_t slabs)
         rc_state_refuse(s, "memory is short");
         return;
     }
-    rc_state_numbers(s, slabs, thickness);
+    rc_state_finite(s, slabs, thickness);
     if (rc_state_reads(s) && (y->plastic == NULL || slabs != y->slabs ||
                               memcmp(thickness, y->thickness, slabs * sizeof *thickness) != 0)) {
         forget_volume(y);
@@ -747,7 +742,7 @@ state(struct rc_model *m, struct rc_state *s)
     rc_state_count(s, &slabs, SIZE_MAX / sizeof(double));
     rc_state_number(s, &y->load, 0);
     rc_state_number(s, &solved, 0);
-    rc_state_numbers(s, 1, &y->first_top);
+    rc_state_finite(s, 1, &y->first_top);
     if (rc_state_refused(s))
         return;
     if (slabs > 0)
@@ -756,7 +751,6 @@ state(struct rc_model *m, struct rc_state *s)
         exchange_elastic(y, s, solved);
     if (rc_state_reads(s) && m->moved)
         m->status = RC_MORE; /* the next step decides whether it is the solution */
-    y->looked &= !rc_state_reads(s);
 }
 
 static void

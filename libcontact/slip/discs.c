@@ -791,8 +791,10 @@ rc_discs_step(struct rc_discs *d)
     seen = look(d, mean);
     if (!seen)
         d->found.estimate = 1;
-    else if (!(d->found.estimate > d->asked.tol))
+    else if (d->found.estimate <= d->asked.tol)
         return d->judged.carries ? RC_OK : RC_SHORT;
+    else if (isnan(d->found.estimate)) /* a number is too large */
+        return RC_SHORT;
     if (d->found.steps >= d->asked.most)
         return RC_SHORT;
     d->found.steps++;

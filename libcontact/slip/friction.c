@@ -288,7 +288,8 @@ slide(struct friction *f, struct way *w, struct rc_err *err)
     if (f->alternates && !apart(w)) {
         w->traction_change = take(f->n, 2, q, w->before);
         w->factor = left_over(w->passes, w->traction_change, before);
-        if (w->factor * fmax(w->traction_change, w->pressure_change) > w->tol / 2) {
+        if (!(w->factor * w->traction_change <= w->tol / 2 &&
+              w->factor * w->pressure_change <= w->tol / 2)) {
             if (w->passes < most)
                 return press(f, w, err);
             status = RC_SHORT;
@@ -636,9 +637,9 @@ exchange_increment(struct friction *f, struct rc_state *s)
     rc_state_count(s, &w->passes, SIZE_MAX / 2);
     RC_STATE_NUMBERS(s, &w->pressure_change, &w->traction_change, &w->factor, &w->pressure_error);
     for (int c = 0; c < 3 && f->alternates; c++) /* tractions of the previous pass */
-        rc_state_numbers(s, f->n, c < 2 ? w->before[c] : w->p);
+        rc_state_finite(s, f->n, c < 2 ? w->before[c] : w->p);
     for (int c = 0; c < 2 && f->problem.fewer > 0; c++)
-        rc_state_numbers(s, f->n, f->lag[c]);
+        rc_state_finite(s, f->n, f->lag[c]);
     rc_slip_increment(w->slip, s);
     if (!rc_state_reads(s))
         return;
@@ -659,7 +660,7 @@ exchange_ways(struct friction *f, struct rc_state *s)
 {
     for (size_t j = 0; j <= f->problem.fewer; j++) {
         struct way *w = &f->way[j];
-        rc_state_numbers(s, 2, w->inherited);
+        rc_state_finite(s, 2, w->inherited);
         rc_slip_history(w->slip, s);
         if (j > 0 && w->inner != NULL)
             rc_state_model(s, w->inner);
@@ -680,7 +681,7 @@ state(struct rc_model *m, struct rc_state *s)
     RC_STATE_FLAGS(s, &f->good, &f->before.carries);
     rc_state_count(s, &told, RC_TOLD_UNKNOWN);
     if (f->energy != NULL)
-        rc_state_numbers(s, f->n, f->energy);
+        rc_state_finite(s, f->n, f->energy);
     RC_STATE_NUMBERS(s, &f->dissipated, &f->lagging, &f->lag_before, &f->doubt);
     exchange_ways(f, s);
     if (rc_state_reads(s)) {

@@ -731,8 +731,8 @@ state(struct rc_model *m, struct rc_state *s)
     rc_state_count(s, &f->level, LEVELS - 1);
     RC_STATE_FLAGS(s, &f->rolls);
     RC_STATE_NUMBERS(s, &f->x, &f->inherited, &f->coarse.moment, &f->coarse_error);
-    rc_state_numbers(s, 2, f->coarse.force);
-    rc_state_numbers(s, 2, f->coarse.creep);
+    rc_state_finite(s, 2, f->coarse.force);
+    rc_state_finite(s, 2, f->coarse.creep);
     if (rc_state_refused(s))
         return;
     if (rc_state_reads(s)) {
@@ -753,7 +753,7 @@ state(struct rc_model *m, struct rc_state *s)
     }
     if (!rc_state_holds(s, (path ? 4 : 2) * l->d->n + 2))
         return;
-    rc_state_numbers(s, 2, l->d->v);
+    rc_state_finite(s, 2, l->d->v);
     for (int c = 0; c < 2 && path; c++)
         rc_state_finite(s, l->d->n, l->d->old[c]);
     for (int c = 0; c < 2; c++)

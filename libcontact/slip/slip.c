@@ -209,14 +209,14 @@ rc_slip_history(struct rc_slip *s, struct rc_state *state)
 
     RC_STATE_FLAGS(state, &s->has_gap_old, &s->apart);
     for (size_t k = 0; k < sizeof maps / sizeof *maps; k++)
-        rc_state_numbers(state, s->n, maps[k]);
+        rc_state_finite(state, s->n, maps[k]);
     for (size_t k = 0; k < s->n; k++) {
         size_t touched = s->touched[k];
         rc_state_count(state, &touched, 1);
         s->touched[k] = (unsigned char)touched;
     }
-    rc_state_numbers(state, 1, &s->load_old);
-    rc_state_numbers(state, 2, s->force_old);
+    rc_state_finite(state, 1, &s->load_old);
+    rc_state_finite(state, 2, s->force_old);
     if (!rc_state_reads(state))
         return;
     s->asked = s->begun = s->done = s->tried = false;
@@ -229,7 +229,7 @@ void
 rc_slip_increment(struct rc_slip *s, struct rc_state *state)
 {
     for (int c = 0; c < 2; c++)
-        rc_state_numbers(state, s->n, s->discs->q[c]);
+        rc_state_finite(state, s->n, s->discs->q[c]);
     if (rc_state_reads(state))
         s->tried = true;
 }

@@ -509,6 +509,10 @@ rc_steady_step(struct rc_steady *d, struct rc_err *err)
 
     if (before == 0)
         d->found.estimate = 0;
+    if (isnan(before)) { /* a number is too large */
+        d->found.estimate = INFINITY;
+        return RC_SHORT;
+    }
     if (d->found.estimate <= d->asked.tol)
         return RC_OK;
     if (d->found.steps >= d->asked.most)

@@ -30,7 +30,7 @@ struct elastic {
     double first_top, top;    /* m: highest node of the first shape, and of the present one   */
     struct rc_solver *solver; /* NULL: no load so far                                         */
     bool apart;               /* no load at this point */
-    bool looked, deformed;    /* the figures belong to this point; its dents are in the shape */
+    bool deformed;            /* the dents of this point are in the shape */
     struct rc_elastic_figures figures;
 };
 
@@ -143,7 +143,7 @@ go(struct rc_model *m, struct rc_err *err)
         return rc_err_set(
             err, "%s %g %s: it must not be negative, because the bodies do not attract each other",
             by_approach ? "approach" : "load", v, by_approach ? "m" : "N");
-    e->looked = e->deformed = false;
+    e->deformed = false;
     e->apart = v == 0;
     if (!e->apart)
         status = press(e, by_approach ? 0 : v, by_approach ? v : 0, err);
@@ -201,12 +201,12 @@ look(struct rc_model *m, struct rc_point *at, struct rc_err *err)
     struct elastic *e = (struct elastic *)m;
     struct rc_elastic_figures *f = &e->figures;
 
-    if ((e->apart || e->solver == NULL) && !e->looked) {
+    if ((e->apart || e->solver == NULL) && !m->looked) {
         rc_contact_apart(e->problem.ranks, &m->shape,
                          e->solver != NULL ? e->solver->posed.h : e->given, NULL, &f->contact);
         f->stiffness = NAN;
         f->conductance = f->conductance_lower = e->asks.conductivity[0] > 0 ? 0 : NAN;
-    } else if (!e->looked) {
+    } else if (!m->looked) {
         rc_solver_result(e->solver, NULL, NULL, &f->contact);
         f->kernel = rc_solver_engine(e->solver);
         f->method = rc_solver_method(e->solver);
@@ -220,7 +220,6 @@ look(struct rc_model *m, struct rc_point *at, struct rc_err *err)
     f->residual_indentation = e->deformed || e->apart ? e->first_top - highest(e) : NAN;
     at->at[RC_LOAD] = f->contact.load;
     at->at[RC_APPROACH] = f->contact.approach;
-    e->looked = true;
     return RC_OK;
 }
 
@@ -267,7 +266,7 @@ fill(struct rc_model *m, size_t frame, double *to, struct rc_err *err)
     const struct rc_solver *s = e->solver;
     struct rc_contact again;
 
-    if (!e->looked || (!e->apart && s == NULL))
+    if (!e->apart && s == NULL)
         return rc_err_set(err, "call rc_model_look before reading a frame");
     if ((frame == RC_FRAME_GAP || frame == RC_FRAME_DISPLACEMENT) && !e->apart && !s->it.known) {
         (void)rc_iterate_displace_rows(e->solver);
@@ -351,7 +350,7 @@ respond(struct rc_model *m, const double *e, double *z, struct rc_err *err)
 {
     struct elastic *v = (struct elastic *)m;
 
-    if (!v->looked || v->apart)
+    if (!m->looked || v->apart)
         return rc_err_set(
             err, "call rc_model_look before asking for the response to a change of heights");
     rc_solver_respond(v->solver, e, z);
@@ -422,7 +421,7 @@ state(struct rc_model *m, struct rc_state *s)
             rc_state_map(s, e->n, e->solver->it.p);
         return;
     }
-    e->looked = e->deformed = false;
+    e->deformed = false;
     if (dented || e->dent != NULL)
         read_dent(e, s, dented);
     if (m->moved && !e->apart && !pressed)

@@ -297,8 +297,8 @@ state(struct rc_model *m, struct rc_state *s)
     rc_state_count(s, &v->known, 2);
     RC_STATE_FLAGS(s, &v->taken);
     RC_STATE_NUMBERS(s, &v->first_top);
-    rc_state_numbers(s, 2, v->x);
-    rc_state_numbers(s, 2, v->column);
+    rc_state_finite(s, 2, v->x);
+    rc_state_finite(s, 2, v->column);
     for (size_t k = 0; k < v->known; k++)
         rc_state_map(s, v->n, v->p[k]);
     if (rc_state_reads(s) && m->to.given != 0 && pose(v, &err) != RC_OK)

@@ -316,7 +316,7 @@ take_step(struct creep *v, enum rc_status status, struct rc_err *err)
         v->f.increments++;
     }
     v->f.contact.convolutions += rc_model_number(v->base.inner, "convolutions");
-    if (at.at[RC_LOAD] > 0) {
+    if (!(at.at[RC_LOAD] == 0)) {
         v->good = v->good && status == RC_OK;
         v->worst = fmax(v->worst, rc_model_number(v->base.inner, "pressure_error_estimate"));
     }
@@ -353,9 +353,10 @@ compare(struct creep *v, struct rc_err *err)
         rc_total_add(&fine, v->room[i]);
         nodes += rc_in_contact(v->room[i]);
     }
-    size = fmax(rc_total_value(&coarse), rc_total_value(&fine));
+    size = rc_total_value(&coarse) > rc_total_value(&fine) ? rc_total_value(&coarse)
+                                                           : rc_total_value(&fine);
     v->f.increment_error =
-        v->left_out + (size > 0 ? (1 + few / fmax(nodes, 1)) * rc_total_value(&apart) / size : 0);
+        v->left_out + (size != 0 ? (1 + few / fmax(nodes, 1)) * rc_total_value(&apart) / size : 0);
     return RC_OK;
 }
 
@@ -543,7 +544,7 @@ look(struct rc_model *m, struct rc_point *at, struct rc_err *err)
     f->contact.mean_gap = v->c * f->contact.mean_gap + v->beyond;
     f->contact.gap_error *= v->c;
     f->contact.elastic_energy = NAN; /* the bodies dissipate a part of the work */
-    if (f->contact.load > 0)
+    if (f->contact.load != 0)
         f->contact.pressure_error += v->worst + f->increment_error;
     f->contact.converged = v->taken && judge(v) == RC_OK;
     f->time = v->taken ? v->end : v->run[v->on].t;
@@ -571,11 +572,11 @@ state(struct rc_model *m, struct rc_state *s)
     RC_STATE_FLAGS(s, &begun, &v->good, &v->taken);
     RC_STATE_COUNTS(s, &v->f.increments, &v->increments, &v->steps, &v->run[COARSE].steps,
                     &v->run[FINE].steps);
-    RC_STATE_NUMBERS(s, &v->start, &v->end, &v->dt, &v->slope, &v->beyond, &v->least, &v->most,
-                     &v->shrink, &v->tried, &v->load, &v->worst, &v->posed_top,
-                     &v->f.increment_error, &v->f.contact.convolutions, &v->run[COARSE].t,
-                     &v->run[FINE].t);
-    rc_state_numbers(s, v->terms, v->equivalent);
+    RC_STATE_NUMBERS(s, &v->start, &v->end, &v->dt, &v->beyond, &v->shrink, &v->load, &v->worst,
+                     &v->posed_top, &v->f.increment_error, &v->f.contact.convolutions,
+                     &v->run[COARSE].t, &v->run[FINE].t);
+    RC_STATE_OPEN(s, &v->slope, &v->least, &v->most, &v->tried);
+    rc_state_finite(s, v->terms, v->equivalent);
     if (rc_state_reads(s) && begun && allocate(v, &err) != RC_OK)
         rc_state_refuse(s, "memory is short");
     if (!begun)
@@ -685,6 +686,9 @@ make(struct creep *v, const double *h, const struct rc_viscoelastic_problem *a, 
     v->problem.points = a->points > 0 ? a->points : 1;
     v->problem.tol = a->tol > 0 ? a->tol : usual_tol;
     v->n = s->nx * s->ny;
+    for (size_t k = 0; k < v->n; k++)
+        if (!isfinite(h[k]))
+            return rc_err_set(err, "height %zu is not a finite number", k);
     v->h = h;
     v->top = rc_highest(h, v->n);
     v->good = true;

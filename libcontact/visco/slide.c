@@ -83,7 +83,7 @@ struct slide {
     size_t contacts, iterations;
     double convolutions;
     bool ended; /* the state that was read is that of a last contact     */
-    bool done, looked;
+    bool done;
     struct rc_slide_figures f;
 };
 
@@ -401,7 +401,7 @@ go(struct rc_model *m, struct rc_err *err)
     s->convolutions = 0;
     s->tol = loosest;
     s->estimate = NAN;
-    s->done = s->looked = s->ended = false;
+    s->done = s->ended = false;
     inner = rc_point_for(m->inner, &m->to);
     m->inner->row->accuracy(m->inner, s->tol / s->problem.tol);
     if (rc_model_go(m->inner, &inner, err) != RC_MORE)
@@ -482,7 +482,7 @@ look(struct rc_model *m, struct rc_point *at, struct rc_err *err)
     const double spent = s->convolutions;
     double force[2], steep;
 
-    if (s->looked)
+    if (m->looked)
         goto done;
     find_friction(s, force, &steep);
     s->convolutions = spent;
@@ -502,7 +502,6 @@ look(struct rc_model *m, struct rc_point *at, struct rc_err *err)
     f->convolutions = s->convolutions + rc_solver_convolutions(v);
     f->converged = s->done && c->converged;
     f->elastic_energy = NAN;
-    s->looked = true;
 done:
     at->at[RC_LOAD] = c->load;
     at->at[RC_APPROACH] = f->approach;
@@ -586,7 +585,7 @@ state(struct rc_model *m, struct rc_state *x)
         exchange_waves(s, x);
     if (!rc_state_reads(x))
         return;
-    s->done = s->looked = false;
+    s->done = false;
     s->ended = m->status == RC_OK || m->status == RC_SHORT;
     for (size_t k = 0; k < s->n; k++)
         s->room[k] = s->h[k] - s->g[k];

@@ -251,6 +251,7 @@ step(struct rc_model *m, struct rc_err *err)
         v->s += v->t;
         v->f.steps++;
         find_figures(v);
+        m->looked = true; /* also without a look, which may change the contact */
         return set_out(v, err);
     case PRESS:
         memcpy(v->other, v->p, v->n * sizeof *v->p);
@@ -287,6 +288,7 @@ look(struct rc_model *m, struct rc_point *at, struct rc_err *err)
 
     (void)err;
     find_figures(v);
+    v->f.converged = v->f.converged && m->status != RC_MORE;
     at->at[RC_DISTANCE] = v->s;
     return RC_OK;
 }

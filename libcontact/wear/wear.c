@@ -414,6 +414,7 @@ take(struct wear *v, double first, double last, double error, double of_p1, doub
     v->kept = false;
     v->f.steps += v->stage != PRESS;
     find_figures(v);
+    v->base.looked = true; /* also without a look, which may change the contact */
     return RC_OK;
 }
 
@@ -649,6 +650,7 @@ look(struct rc_model *m, struct rc_point *at, struct rc_err *err)
     struct wear *v = (struct wear *)m;
 
     find_figures(v);
+    v->f.converged = v->f.converged && m->status != RC_MORE;
     at->at[RC_DISTANCE] = v->s;
     return find_approach(v, &at->at[RC_APPROACH], err);
 }
@@ -677,10 +679,10 @@ state(struct rc_model *m, struct rc_state *s)
     RC_STATE_FLAGS(s, &v->kept, &v->good, &v->met);
     RC_STATE_COUNTS(s, &v->f.steps, &v->f.rejected, &v->f.contacts);
     RC_STATE_NUMBERS(s, &v->s, &v->end, &v->t, &v->tried, &v->f.convolutions);
-    rc_state_numbers(s, ERRORS, v->error);
+    rc_state_finite(s, ERRORS, v->error);
     rc_state_map(s, v->n, v->worn);
     if (v->row > 0)
-        rc_state_numbers(s, m->shape.ny, v->deep);
+        rc_state_finite(s, m->shape.ny, v->deep);
     rc_state_map(s, v->n, v->p0);
     rc_state_map(s, v->n, v->e);
     if (v->stage == SECOND)

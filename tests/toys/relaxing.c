@@ -180,15 +180,13 @@ state(struct rc_model *m, struct rc_state *s)
     struct rc_err err;
     double sum;
 
-    rc_state_numbers(s, r->n, r->s);
-    rc_state_numbers(s, 1, &r->t);
-    rc_state_numbers(s, 1, &r->dt);
-    rc_state_numbers(s, 1, &r->f.step_error);
+    rc_state_finite(s, r->n, r->s);
+    RC_STATE_NUMBERS(s, &r->t, &r->dt, &r->f.step_error);
     rc_state_count(s, &r->f.steps, (size_t)1 << 40);
     rc_state_count(s, &r->f.rejected, (size_t)1 << 40);
     rc_state_count(s, &trying, 1);
     if (trying)
-        rc_state_numbers(s, r->n, r->p[0]);
+        rc_state_finite(s, r->n, r->p[0]);
     if (!rc_state_reads(s))
         return;
     r->trying = trying;
