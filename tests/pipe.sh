@@ -178,6 +178,11 @@ total() {
             'BEGIN { split(cell, d, " ") } { sum += $1 } END { printf "%.17g\n", sum * d[1] * d[2] }'
 }
 
+# channels STREAM: prints the channels of its frames.
+channels() {
+    rc-info --quiet --json "$1" | sed 's/.*"channel": "\([^"]*\)".*/\1/' | xargs
+}
+
 # energy_of STREAM CELL OPTIONS: half the sum of the first pressure times its displacement by rc-deflect,
 # times the area CELL of a cell in m2.
 energy_of() {

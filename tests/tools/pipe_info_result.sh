@@ -56,6 +56,7 @@ claim "  its JSON has none either" bash -c 'rc-pick --set channel=height hand.rc
 
 rc-synth selfaffine --nx 64 --dx 1um --hurst 0.8 --rms-height 10nm --seed 2 -o rough.rcg
 rc-solve --quiet --load 100mN --hardness 300MPa --estar 100GPa --report report.json rough.rcg -o result.rcg
+claim "a solution has four frames" says '^4$' bash -c 'rc-info --json result.rcg | wc -l'
 rc-info --json result.rcg | head -n 1 >info.json
 for name in load contact_nodes contact_area contact_fraction max_pressure approach plastic_area; do
     near "$(field $name info.json)" "$(field $name report.json)" "$summed" "$name is that of the solver's report"

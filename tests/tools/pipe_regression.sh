@@ -30,6 +30,7 @@ row() {
         rc-solve --quiet $options --tol 1e-8 --output pressure --report solve.json -o pressure.rcg &&
         rc-stress --quiet --nu 0.3 --depths 0.5um,2um,8um --components mises --report stress.json \
             -o mises.rcg pressure.rcg &&
+        [ "$(channels mises.rcg)" = "mises mises mises" ] &&
         keeps solve.json contact_area "$area" "$of_contact" && keeps solve.json max_pressure "$peak" "$beside" &&
         keeps solve.json approach "$approach" "$beside" && keeps solve.json plastic_area "$plastic" "$of_plastic" &&
         keeps stress.json mises "$mises" "$beside"

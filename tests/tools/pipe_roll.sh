@@ -55,8 +55,9 @@ near "$(number "1e-3 * $(column force_x both.tsv) - 5e-4 * $(column force_y both
     "$(column power both.tsv)" 1e-9 "power is force times creepage plus moment times spin, in the middle of a step"
 paste -d ' ' <(values both.rcg pressure | tr ',' '\n') <(values both.rcg traction-x | tr ',' '\n') <(values both.rcg traction-y | tr ',' '\n') \
     <(values both.rcg slip-x | tr ',' '\n') <(values both.rcg slip-y | tr ',' '\n') >five.txt
+claim "the frames are those of the page" test "$(channels both.rcg)" = "pressure traction-x traction-y slip-x slip-y"
 claim "tractions are at most mu p, and slip is opposite to them and 0 below this limit" awk '
-    { q = sqrt($2 ^ 2 + $3 ^ 2); s = sqrt($4 ^ 2 + $5 ^ 2); if (q > 0.3 * $1 * (1 + 1e-9)) exit bad = 1
+    { if (NF != 5) exit bad = 1; q = sqrt($2 ^ 2 + $3 ^ 2); s = sqrt($4 ^ 2 + $5 ^ 2); if (q > 0.3 * $1 * (1 + 1e-9)) exit bad = 1
       if (q < 0.3 * $1 * (1 - 1e-6) && s != 0) exit bad = 1; if (s > 0) { n++; if ($2 * $4 + $3 * $5 > 0) exit bad = 1 } }
     END { exit bad || NR != 4096 || n < 100 }' five.txt
 rc-slip --mu 0.3 --creep-force "$(column force_x both.tsv),$(column force_y both.tsv)" --steady --tol 1e-6 --report back.tsv -o back.rcg ball.rcg

@@ -24,7 +24,10 @@ done
 
 claim "each speed is a case" bash -c "
     rc-solve $rubber --mean-pressure 0.2MPa --speed=-0.1,0.01,1 --checkpoint kept.rcg --report road.tsv -o sliding.rcg road.rcg"
-claim "  of four frames with the speed as a key" says '^4$' bash -c "rc-info sliding.rcg | grep -c speed=-0.1"
+for speed in -0.1 0.01 1; do
+    claim "  of four frames with the speed $speed as a key" says '^4$' bash -c "rc-info sliding.rcg | grep -cx ' .*speed=$speed'"
+done
+for case in 1 2 3; do near "$(total pressure sliding.rcg $case)" 0.08192 "$summed" "  whose pressures carry the load"; done
 claim "  the resumed run gives the same bits" bash -c "
     rc-solve $rubber --mean-pressure 0.2MPa --speed=-0.1,0.01,1 --checkpoint kept.rcg --resume --report again.tsv -o again.rcg road.rcg &&
     cmp sliding.rcg again.rcg"

@@ -17,6 +17,7 @@ apart() { paste -d ' ' <(values "$1" "$3" "$4") <(values "$2" "$3" "$4") | awk '
 printf '100N 0 0\n240N 43.2N 0\n240N -20N 30N\n120N 20N 0\n' >way.txt
 slip="rc-slip --quiet --mu 0.3 --history way.txt"
 claim "a path is solved without interruption" bash -c "$slip --checkpoint kept.rcg --report whole.tsv -o whole.rcg alike.rcg"
+near "$(total pressure alike.rcg 1)" 240 "$summed" "  its contact carries the load"
 near "$(total traction-x whole.rcg 2)" 43.2 1e-3 "  its tractions carry the force"
 near "$(column tangential_x 3 whole.tsv)" -20 1e-3 "  and its report has it"
 near "$(column stick_fraction 2 whole.tsv)" "$(awk 'BEGIN { print 0.4 ^ (2 / 3) }')" "$coarse_grid" \

@@ -13,6 +13,7 @@ within=3e-3 # 46 nodes in the radius: an error of about a tenth of a node
 
 $press --load 240N --conductivity 45W/mK,16.3W/mK --report heat.json ball.rcg
 near "$(field conductance heat.json)" "$(circle 45 16.3)" "$within" "heat through Hertz's circle, W/K"
+near "$(total pressure p.rcg 1)" 240 "$summed" "  whose pressures carry the load"
 near "$(field conductance_lower heat.json)" "$(field conductance heat.json)" 1e-6 "  and the bound of it"
 between 0 "$(field conductance_lower heat.json)" "$(field conductance heat.json)" "  is below it"
 $press --load 240N --conductivity '58 MS/m,7.1MS/m' --report current.json ball.rcg

@@ -21,6 +21,7 @@ work() {
 hertz=$(awk 'BEGIN { printf "%.9g", (9 * 0.02 ^ 2 / (16 * 114e9 ^ 2 * 1e-3)) ^ (1 / 3) }')
 near "$(cell indentation/m 1)" "$hertz" 0.01 "the first load is elastic: Hertz's approach"
 near "$(cell residual_indentation/m 1)" 0 0 "  and leaves nothing"
+for case in 1:0.02 4:1 23:0.1; do near "$(total pressure result.rcg "${case%:*}")" "${case#*:}" "$summed" "  load ${case%:*} is carried"; done
 claim "1 N leaves an indentation" awk -v r="$(cell residual_indentation/m 4)" 'BEGIN { exit !(r > 1e-8) }'
 near "$(cell residual_indentation/m 12)" "$(cell residual_indentation/m 4)" 1e-9 "  which unloading and loading to less leave as it is"
 for pair in 5:19 6:18 7:17 8:16 9:15 10:14 11:13 4:20; do

@@ -10,6 +10,7 @@ export -f press
 claim "5 kN/m on a profile causes no message" bash -c 'press --load 5kN/m 2>err && [ ! -s err ]'
 near "$(field max_pressure r.json)" 126.157e6 1e-3 "Hertz's largest pressure of a line contact"
 near "$(field load r.json)" 2.5e-3 "$summed" "  5 kN/m on 500 nm: 2.5 mN"
+near "$(total pressure p.rcg 1)" 2.5e-3 "$summed" "  which its pressures carry"
 claim "  the history has it as given" says 'rc-solve.* --load 5000N/m' rc-info p.rcg
 claim "the same force in N causes a note about the width" warns 'the force on this profile acts on a width of 500 nm: give --load in N/m' press --load 2.5mN
 near "$(field max_pressure r.json)" 126.157e6 1e-3 "  and does the same"

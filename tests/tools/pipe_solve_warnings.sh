@@ -17,6 +17,7 @@ between 0 "$(field max_pressure soft.json)" 3e8 "a light load stays below a tent
 claim "there is no warning" bash -c 'solve 3GPa 1mN 2>err; ! grep -q "E\*" err'
 solve 3GPa 1 --quiet --report hard.json
 between 3e8 "$(field max_pressure hard.json)" 3e9 "a heavy one is above"
+near "$(total pressure p.rcg 1)" 1 "$summed" "  its pressures carry it"
 claim "a warning gives the fraction of E*" \
     warns 'case 1, load 1 N: the largest pressure, [0-9.]+ [MG]Pa, is 0\.[0-9]+ of E\*' solve 3GPa 1
 claim "E* without its unit causes a warning that names it" warns 'above E\*, which is 3 Pa: was its unit forgotten' solve 3 1mN

@@ -32,6 +32,7 @@ for row in 1:150 3:200; do
     near "$(figures_of whole.tsv | awk -v k="${row%:*}" '$1 ~ /^mean_pressure/ && ++n == k { print $2 }')" "${row#*:}e6" "$summed" \
         "  load ${row%:*} is carried"
 done
+near "$(total pressure plain.rcg 1)" 0.3456 "$summed" "  by its pressures, 150 MPa on 48 um by 48 um"
 claim "it has states of each load" bash -c "rc-info kept.rcg >info.txt && [ \"\$(grep -c '(state)' info.txt)\" -gt 20 ]"
 claim "a resumed run gives the same bits" bash -c "
     cp kept.rcg again.rcg && $solve $history --checkpoint again.rcg --resume --report again.tsv -o again-out.rcg rough.rcg &&

@@ -9,6 +9,10 @@ rc-synth selfaffine --nx 30 --ny 25 --dx 1um --hurst 0.8 --rms-height 0.1um --ro
 rc-synth sphere --nx 48 --ny 48 --dx 10um --radius 7.5mm |
     rc-solve --quiet --load 120N --layer 30um,400GPa,0.2 --E1 208GPa --nu1 0.3 --E2 rigid --output pressure -o coated.rcg
 
+near "$(total pressure ball.rcg 1)" 120 "$summed" "the ball carries its load"
+rc-stress --depths 0 --components szz -o surface.rcg ball.rcg
+near "$(total szz surface.rcg 1)" -120 "$of_sum" "  and so does the stress at its surface"
+
 # traction FILE CHANNEL FACTOR: prints the frame of FILE under another name, its values times a factor,
 # without an end line
 traction() {

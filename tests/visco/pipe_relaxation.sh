@@ -18,6 +18,8 @@ for case in 1:0 2:3e-3 3:5e-2; do
     near "$(field time case.json)" "${case#*:}" "$rounding" "case ${case%:*} has its time"
     near "$(field approach case.json)" "$(ball "${case#*:}")" "$coarse_grid" "  and Hertz's approach at E(t)"
 done
+claim "the cases have the asked frames" test "$(channels creep.rcg)" = "pressure gap pressure gap pressure gap"
+for case in 1 2 3; do near "$(total pressure creep.rcg $case)" 2e-4 "$summed" "  which carry the load"; done
 claim "frames have the key time" bash -c "[ \$(rc-info --json creep.rcg | grep -c '\"time\": *\"\?0.05') -ge 1 ]"
 near "$(field equivalent_load case.json)" "$(awk 'BEGIN { print 2e-4 * (10 - 9 * exp(-5)) }')" 1e-6 "the equivalent load is P J(t)/J(0)"
 $solve $solid --load 0.2mN --time 3ms,50ms --report later.json -o later.rcg ball.rcg
