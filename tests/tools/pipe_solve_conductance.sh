@@ -41,6 +41,8 @@ claim "  the conductance is larger than its stiffness implies" awk -v c="$(field
 # ---- a table, histories ----
 
 $press --load 60N:240N:2 --conductivity 45W/mK,16.3W/mK --report heat.tsv ball.rcg
+near "$(total pressure p.rcg 1)" 60 "$summed" "a list of loads has the first one"
+near "$(total pressure p.rcg 2)" 240 "$summed" "  and the last one"
 claim "a table has its unit" bash -c "head -n 1 heat.tsv | tr '\t' '\n' | grep -qx conductance/W/K"
 near "$(awk -F '\t' 'NR == 1 { for (i = 1; i <= NF; i++) if ($i == "conductance/W/K") c = i } NR == 2 { print $c }' heat.tsv)" \
     "$(awk -v c="$(circle 45 16.3)" 'BEGIN { print c * 0.25 ^ (1 / 3) }')" "$within" "  and its rows grow with the load to the third"

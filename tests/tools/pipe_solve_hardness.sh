@@ -39,6 +39,7 @@ beside h.rcg phases.rcg >case.rcg
 solve --report two.json --output pressure,gap,plastic case.rcg -o two.rcg
 claim "the report has the range of two phases" bash -c 'grep -q "\"hardness_min\": 2000000000, \"hardness_max\": 5000000000" two.json'
 claim "  the effect is on" says '"hardness": "on"' cat two.json
+claim "  its frames are written" test "$(channels two.rcg)" = "pressure gap plastic"
 near "$(field max_pressure two.json)" 5e9 1e-12 "  the largest pressure is the larger hardness"
 soft() { rc-pick --channel pressure --crop 0,0,16,80 two.rcg | rc-info --json | grep -o '"maximum": [^,]*' | cut -d' ' -f2; }
 near "$(soft)" 2e9 1e-12 "  and in the soft phase the smaller one"

@@ -8,6 +8,8 @@ loads=20mN,0.2N,0.6N,1N,0.8N,0.6N,0.4N,0.2N,0.1N,20mN,1mN,0,1mN,20mN,0.1N,0.2N,0
 rc-solve --quiet --history --estar 114GPa --hardness 1GPa --tol 1e-6 --load $loads --output pressure,gap,displacement,height,plastic \
     --report ball.tsv ball.rcg -o result.rcg
 
+claim "each of 25 cases has its five frames" test "$(channels result.rcg)" = "$(for _ in {1..25}; do echo pressure gap displacement height plastic; done | xargs)"
+
 # cell COLUMN ROW
 cell() {
     awk -F'\t' -v name="$1" -v row="$2" 'NR == 1 { for (c = 1; c <= NF; c++) if ($c == name) k = c } NR == row + 1 { print $k }' ball.tsv

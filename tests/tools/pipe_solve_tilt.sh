@@ -35,6 +35,8 @@ claim "  its angles are null, with the reason" bash -c '
     grep -q "\"tilt_x\": null, \"tilt_y\": null" none.json && grep -q "\"tilt\": \"left out: no --tilt free\"" none.json'
 claim "  --tilt free takes more convolutions" awk -v a="$(field convolutions none.json)" -v b="$(field convolutions rest.json)" 'BEGIN { exit !(b > a) }'
 $press --load 0.1N,0.3N --tilt free --tol 1e-6 --report list.tsv rough.rcg -o list.rcg
+near "$(total pressure list.rcg 1)" 0.1 "$summed" "a list of loads has the first one"
+near "$(total pressure list.rcg 2)" 0.3 "$summed" "  and the last one"
 near "$(awk -F '\t' 'NR == 1 { for (i = 1; i <= NF; i++) if ($i ~ "^tilt_x") c = i } NR == 3 { print $c }' list.tsv)" \
     "$(field tilt_x rest.json)" 1e-4 "a list of loads comes to the same angle"
 $press --approach "$(field approach rest.json)" --tilt free --tol 1e-6 --report back.json rough.rcg -o back.rcg

@@ -33,6 +33,9 @@ for row in 1:150 3:200; do
         "  load ${row%:*} is carried"
 done
 near "$(total pressure plain.rcg 1)" 0.3456 "$summed" "  by its pressures, 150 MPa on 48 um by 48 um"
+claim "  and each load has its frames" test "$(channels plain.rcg | sed 's/\( exx eyy exy exz eyz peeq\)*//g')" = \
+    "pressure residual pressure residual pressure residual"
+claim "  of the strain in each slab" test $(($(channels plain.rcg | tr ' ' '\n' | grep -c peeq) % 3)) = 0
 claim "it has states of each load" bash -c "rc-info kept.rcg >info.txt && [ \"\$(grep -c '(state)' info.txt)\" -gt 20 ]"
 claim "a resumed run gives the same bits" bash -c "
     cp kept.rcg again.rcg && $solve $history --checkpoint again.rcg --resume --report again.tsv -o again-out.rcg rough.rcg &&

@@ -11,6 +11,8 @@ rc-add a.rcg b.rcg | rc-pick --set channel=pressure --set unit=Pa --set boundary
     --set 'layers=2.5e-06,2e11,0.3;inf,2e11,0.3' -o two.rcg
 rc-stress --depths 0,1um,2.5um,3um,8um --components szz,s1,s3,mises --report two.json two.rcg -o two-stress.rcg
 
+claim "each depth has a frame for each component" test "$(channels two-stress.rcg)" = \
+    "$(for _ in 1 2 3 4 5; do echo szz mises s1 s3; done | xargs)"
 cat >judge.pl <<'END'
 use JSON::PP;
 local $/;

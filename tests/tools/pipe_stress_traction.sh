@@ -70,6 +70,9 @@ for surface in ball rough coated; do
         rc-stress --quiet --depths 0,3um,20um $how --report map.json -o map.rcg after.rcg
         between 0 "$(largest mu.rcg map.rcg)" 1e-12 "$surface, ${how:-slices}: mu p beside the pressure is --mu"
     done
+    rc-stress --quiet --depths 0,3um,20um -o map.rcg after.rcg
+    claim "  all components are there at each depth" test "$(channels map.rcg)" = \
+        "$(for _ in 1 2 3; do echo sxx syy szz sxy sxz syz mises; done | xargs)"
     claim "  the tractions may precede the pressure" cmp <(rc-stress --quiet --depths 3um after.rcg) <(rc-stress --quiet --depths 3um before.rcg)
 done
 
