@@ -477,14 +477,16 @@ put_step(struct course *c, struct rc_model *m)
 {
     struct run *run = (struct run *)(void *)c->t;
     const struct rc_wear_figures *f = rc_wear_result(m);
-    struct rc_point none = {0};
+    struct rc_point at = {0};
 
     if (f->steps == run->written || !report_wanted(&run->steps))
         return;
     run->written = f->steps;
     report_begin(&run->steps);
     report_count(&run->steps, "case", c->number, NULL);
-    report_model(&run->steps, m, &none, 0);
+    rc_point_set(&at, RC_LOAD, run->d.point->at[RC_LOAD]);
+    at.at[RC_APPROACH] = NAN; /* the contact within a step has other heights than the worn ones */
+    report_model(&run->steps, m, &at, at.given);
     report_finish_row(&run->steps);
 }
 

@@ -76,6 +76,10 @@ claim "the contact before any wear is that of rc-solve" bash -c "
     rc-solve --quiet --periodic --load 1mN --estar 1GPa --report elastic.tsv -o elastic.rcg rough.rcg"
 near "$(column max_pressure 1 none.tsv)" "$(column max_pressure 1 elastic.tsv)" 1e-3 "  its largest pressure"
 near "$(column approach 1 none.tsv)" "$(column approach 1 elastic.tsv)" 1e-3 "  its approach"
+claim "the contact after wear is that of rc-solve on the worn heights" bash -c "
+    $wear --distance 10m --tol 1e-2 --report worn.tsv -o worn.rcg pressed.rcg && rc-pick --channel height worn.rcg |
+        rc-solve --quiet --periodic --load 1mN --estar 1GPa --report again.tsv -o again.rcg"
+near "$(column approach 1 worn.tsv)" "$(column approach 1 again.tsv)" 1e-3 "  its approach"
 
 # ---- a ball on a track: the half width of the groove is (3 R k2 P s / (2 L))^(1/3), here 13.6 um ----
 

@@ -346,6 +346,7 @@ report_table(struct report *r, const struct rc_figure *table, const void *data)
 void
 report_model(struct report *r, const struct rc_model *m, const struct rc_point *at, unsigned given)
 {
+    struct rc_figure found[RC_AXES]; /* an outer model finds another value than the inner figure */
     struct figures f[REPORT_COLUMNS];
     size_t n = 0;
 
@@ -360,6 +361,11 @@ report_model(struct report *r, const struct rc_model *m, const struct rc_point *
             k++;
         if (k == n && (given >> a & 1 || given >> axis->partner & 1))
             report_number(r, axis->name, at->at[a], axis->unit);
+        if (k < n && !(given >> a & 1) && given >> axis->partner & 1) {
+            found[a] = *f[k].table;
+            found[a].at = offsetof(struct rc_point, at) + a * sizeof *at->at;
+            f[k] = (struct figures){&found[a], at};
+        }
     }
     if (report_wanted(r))
         put_figures(r, f, n);
