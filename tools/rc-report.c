@@ -4,8 +4,10 @@
 #include <errno.h>
 #include <fcntl.h>
 #include <math.h>
+#include <signal.h>
 #include <stdlib.h>
 #include <string.h>
+#include <time.h>
 #include <unistd.h>
 
 #include "formats/core/core.h"
@@ -86,6 +88,40 @@ remove_folder(void)
     rmdir(folder);
 }
 
+/* A process of its own waits for the end of this one, which nothing else may notice (kill -9), and then
+ * removes the folder. The other tools end with this one, so that no file is added later. */
+static void
+guard_folder(struct tool *t)
+{
+    enum {
+        FILES = 1024,
+        TRIES = 40
+    };
+    static const struct timespec pause = {.tv_nsec = 50000000};
+    int end[2];
+    char nothing;
+
+    if (pipe(end) != 0)
+        tool_die(t, "no pipe can be made: %s", strerror(errno));
+    (void)fcntl(end[1], F_SETFD, FD_CLOEXEC);
+    if (fork() != 0) { /* without this process only kill -9 leaves the folder */
+        (void)close(end[0]);
+        return;
+    }
+    (void)setsid(); /* a signal to all processes of a terminal does not end it */
+    signal(SIGTERM, SIG_IGN);
+    for (int fd = 0; fd < FILES; fd++)
+        if (fd != end[0])
+            (void)close(fd);
+    while (read(end[0], &nothing, 1) < 0 && errno == EINTR)
+        continue;
+    for (int k = 0; k < TRIES && access(folder, F_OK) == 0; k++) {
+        remove_folder();
+        (void)nanosleep(&pause, NULL);
+    }
+    _exit(0);
+}
+
 static void
 make_folder(struct tool *t)
 {
@@ -96,6 +132,7 @@ make_folder(struct tool *t)
     if (mkdtemp(folder) == NULL)
         tool_die(t, "a temporary folder %s cannot be made: %s", folder, strerror(errno));
     atexit(remove_folder);
+    guard_folder(t);
 }
 
 static FILE *

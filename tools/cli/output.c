@@ -98,6 +98,8 @@ void
 output_handle_signals(void)
 {
     handle(end_by);
+    signal(SIGXFSZ,
+           SIG_IGN); /* a write beyond the limit of a file's size fails, as on a full disk */
 }
 
 /* ---- the file or the stream ---- */

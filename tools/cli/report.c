@@ -11,6 +11,10 @@
 #include "tools/machine/machine.h"
 #include "ranks.h"
 
+enum {
+    ROW = 1 << 16 /* bytes: most rows are shorter */
+};
+
 /* ---- the file ---- */
 
 static bool
@@ -39,10 +43,14 @@ report_wanted(const struct report *r)
     return r->name != NULL;
 }
 
+/* Ends the tool. The file keeps the rows that were written whole. */
 static _Noreturn void
 failed(struct report *r)
 {
-    tool_die(r->tool, "--report %s: writing failed (%s)", r->name, strerror(errno));
+    const int why = file_error(r->file);
+
+    file_forget(r->file, r->whole);
+    tool_die(r->tool, "--report %s: writing failed (%s)", r->name, strerror(why));
 }
 
 void
@@ -50,8 +58,8 @@ report_close(struct report *r)
 {
     if (r->file == NULL)
         return;
-    if (ferror(r->file) || (r->file == stdout ? fflush(r->file) : fclose(r->file)) != 0)
-        failed(r);
+    if (r->file != stdout && fclose(r->file) != 0)
+        tool_die(r->tool, "--report %s: writing failed (%s)", r->name, strerror(errno));
     r->file = NULL;
 }
 
@@ -132,7 +140,6 @@ write_cells(struct report *r)
         r->cell[k] = NULL;
     }
     putc('\n', r->file);
-    fflush(r->file);
 }
 
 /* ---- rows ---- */
@@ -140,14 +147,18 @@ write_cells(struct report *r)
 void
 report_begin(struct report *r)
 {
+    const bool made = r->file == NULL;
+
     if (r->name == NULL)
         return;
-    if (r->file == NULL)
+    if (made)
         r->file = is_standard_output(r->name)
                       ? stdout
                       : fopen(ranks_speak(r->tool) ? r->name : "/dev/null", "w");
     if (r->file == NULL)
         tool_die(r->tool, "--report %s: %s", r->name, strerror(errno));
+    if (made && r->file != stdout)
+        setvbuf(r->file, NULL, _IOFBF, ROW); /* a row is one write */
     if (!r->separator)
         json_open(&r->json, r->file);
 }
@@ -260,8 +271,9 @@ report_finish_row(struct report *r)
         write_cells(r);
     else
         json_close(&r->json);
-    if (ferror(r->file))
+    if (ferror(r->file) || fflush(r->file) != 0)
         failed(r);
+    r->whole = ftello(r->file);
 }
 
 /* ---- figures from their tables ---- */

@@ -11,6 +11,7 @@
 #include <stdbool.h>
 #include <stddef.h>
 #include <stdio.h>
+#include <sys/types.h>
 
 #include "libcontact/model.h"
 #include "tools/text/text.h"
@@ -26,6 +27,7 @@ struct report {
     struct tool *tool;
     const char *name; /* NULL: no report was requested, and nothing is written */
     FILE *file;       /* NULL: no row was written yet                 */
+    off_t whole;      /* end of the last row that was written whole   */
     struct json json;
     char bracket[REPORT_DEPTH]; /* the brackets that end the open objects and arrays */
     size_t depth;

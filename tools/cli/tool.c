@@ -4,6 +4,7 @@
 #include "tool.h"
 
 #include <errno.h>
+#include <fcntl.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -44,10 +45,21 @@ reports_to_output(const struct tool *t)
     return false;
 }
 
+/* The next file that the tool opens would take the place of a standard file that is closed, and a checkpoint
+ * could become the output. Such a standard file fails instead when it is read or written. */
+static void
+hold_standard_files(void)
+{
+    for (int fd = STDIN_FILENO; fd <= STDERR_FILENO; fd++)
+        if (fcntl(fd, F_GETFD) < 0 && errno == EBADF)
+            (void)open("/dev/null", fd == STDIN_FILENO ? O_WRONLY : O_RDONLY);
+}
+
 void
 tool_start(struct tool *t, const struct tool_info *info, int argc, char **argv, void *args)
 {
     *t = (struct tool){.info = info, .args = args, .writes = info->writes};
+    hold_standard_files();
     memory_keep_maps_apart();
     if (info->shares)
         ranks_start(t);

@@ -1,6 +1,7 @@
 #include "whole_file.h"
 
 #include <errno.h>
+#include <fcntl.h>
 #include <signal.h>
 #include <stdlib.h>
 #include <string.h>
@@ -170,15 +171,37 @@ file_settle(FILE *file)
     return result == 0 || errno == EINVAL || errno == EROFS || errno == ENOSYS || errno == ENOTSUP;
 }
 
+int
+file_error(FILE *file)
+{
+    clearerr(file);
+    return putc('\n', file) == EOF || fflush(file) != 0 ? errno : EIO;
+}
+
+void
+file_forget(FILE *file, off_t length)
+{
+    const int nothing = open("/dev/null", O_WRONLY | O_CLOEXEC);
+    struct stat st;
+
+    if (fstat(fileno(file), &st) == 0 && S_ISREG(st.st_mode) && nothing >= 0 &&
+        ftruncate(fileno(file), length) == 0)
+        (void)dup2(nothing, fileno(file)); /* the buffer is written there */
+    if (nothing >= 0)
+        (void)close(nothing);
+}
+
 /* Without file_settle the new name may reach the disk before the data: after a power failure an empty file
  * would then replace the old one. */
 static bool
 close_written(FILE *file, bool settle)
 {
     bool fine;
-    int why = EIO; /* error number of an earlier failed write */
+    int why = EIO;
 
-    if ((fine = !ferror(file)) && !(fine = settle ? file_settle(file) : fflush(file) == 0))
+    if (!(fine = !ferror(file)))
+        why = file_error(file);
+    else if (!(fine = settle ? file_settle(file) : fflush(file) == 0))
         why = errno;
     if (fclose(file) != 0 && fine)
         return false;

@@ -37,6 +37,11 @@ bool whole_file_put(struct whole_file *w, FILE *file);
 /* Waits until the data is on the disk; false with errno. Returns true at once for a device or a file system
  * without this call. */
 bool file_settle(FILE *file);
+/* The error number of a write to this file that has failed: asks the disk again, because errno is that of a
+ * later call. */
+int file_error(FILE *file);
+/* Cuts a regular file at this length; what its buffer holds is lost. */
+void file_forget(FILE *file, off_t length);
 /* Removes all half-written files; safe in a signal handler. */
 void whole_files_remove(void);
 
