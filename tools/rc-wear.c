@@ -80,7 +80,8 @@ struct run {
     struct drive d;
     struct rc_wear_problem law;
     struct report steps;
-    double coat;                /* m: thickness of the top layer; 0: none */
+    double coat;                /* m: least thickness left of the top layer before wear; 0: none */
+    double left;                /* m: the same at the present point; below 0: worn through */
     double relief;              /* m: from the lowest to the highest node before wear */
     size_t written;             /* steps in --steps                      */
     const struct numbers *list; /* of distances or cycles                              */
@@ -444,18 +445,57 @@ judge_map(struct run *run, struct rc_model *m, struct rc_grid *room)
                     where, shown_in_unit(deepest, "m"), shown_in_unit(run->relief, "m"));
 }
 
+/* What is left of the coat, which body 1 has, where that is worn most. An earlier run may have worn it. */
+static void
+find_left(struct run *run, struct rc_model *m)
+{
+    const struct rc_grid *g = run->d.course.g;
+    RC_OWNED double *depth = run->coat > 0 ? malloc(rc_grid_nodes(g) * sizeof *depth) : NULL;
+    struct rc_err err = {"out of memory for the worn depth"};
+
+    run->left = run->coat;
+    if (run->coat == 0)
+        return;
+    if (depth == NULL || rc_model_frame(m, "wear-1", depth, &err) != RC_OK)
+        tool_refuse(&run->d.t, g, "%s", err.text);
+    for (size_t k = 0; k < rc_grid_nodes(g); k++)
+        run->left = fmin(run->left, run->coat - depth[k]);
+}
+
+/* Ends the case where the coat is worn through: the points before stay. */
+static void
+judge(struct drive *d, struct rc_model *m)
+{
+    struct run *run = (struct run *)(void *)d;
+    char text[300];
+
+    find_left(run, m);
+    if (run->left >= 0) {
+        drive_judge_point(d, m);
+        return;
+    }
+    snprintf(text, sizeof text,
+             "after a distance of %s body 1 has lost %s of its coat, and %s was left: a coat that "
+             "is worn through is not implemented",
+             shown_in_unit(rc_wear_result(m)->distance, "m"),
+             shown_in_unit(run->coat - run->left, "m"), shown_in_unit(run->coat, "m"));
+    if (d->at == 0)
+        tool_refuse(&d->t, d->course.g, "%s", text);
+    tool_warn(&d->t, "%s: %s: the output ends with the distance before",
+              tool_where(&d->t, d->course.g), text);
+    tool_fails_with(&d->t, EXIT_SHORT);
+    d->silent = d->ended = true;
+    d->course.number--;
+}
+
 static void
 set_keys(struct drive *d, struct rc_model *m, struct rc_grid *g)
 {
     struct run *run = (struct run *)(void *)d;
     const struct rc_wear_figures *f = rc_wear_result(m);
 
-    if (run->coat > 0 && f->max_wear_depth > run->coat)
-        tool_refuse(
-            &d->t, g,
-            "the worn depth, %s, is more than the thickness of the coat, %s: a coat that is "
-            "worn through is not implemented",
-            shown_in_unit(f->max_wear_depth, "m"), shown_in_unit(run->coat, "m"));
+    if (run->coat > 0)
+        tool_set_number(&d->t, g, "coat_left", run->left);
     d->ended = d->status != RC_MORE && f->distance < d->point[d->at].at[RC_DISTANCE];
     tool_set_number(&d->t, g, "wear_1", run->law.k[0]);
     tool_set_number(&d->t, g, "wear_2", run->law.k[1]);
@@ -546,6 +586,11 @@ do_case(struct run *run, const struct rc_grid *g)
     run->law.estar = estar_of(&problem.pair);
     run->law.tol = args.tol;
     run->coat = layers.layer != NULL ? layers.layer[0].thickness : 0;
+    if (run->coat > 0 && rc_grid_get(g, "coat_left") != NULL)
+        run->coat = fmin(run->coat, key(&d->t, g, "coat_left", "the rest of the coat"));
+    if (layers.layer != NULL && !(run->coat > 0))
+        tool_refuse(&d->t, g, "its coat is worn through: its key coat_left is %s m",
+                    rc_grid_get(g, "coat_left"));
     rc_measure(&shape, g->v, &before);
     run->relief = before.maximum - before.minimum;
     run->written = 0;
@@ -624,14 +669,15 @@ main(int argc, char **argv)
                                         "steps",
                                         "convolutions",
                                         NULL};
-    static const char *const reads[] = {"boundary", "estar",    "layers", "e2",
-                                        "nu2",      "hardness", NULL};
+    static const char *const reads[] = {"boundary", "estar",    "layers",    "e2",
+                                        "nu2",      "hardness", "coat_left", NULL};
     static struct run run = {.d = {.args = &args.drive,
                                    .output = &args.output,
                                    .list = frames,
                                    .tells = tells,
                                    .beside = run.maps,
                                    .reads = reads,
+                                   .judge = judge,
                                    .keys = set_keys,
                                    .course.stepped = put_step},
                              .beside = {{"wear-coefficient", &run.map[COEFFICIENT]},

@@ -151,7 +151,21 @@ claim "  the pressure then falls" awk "BEGIN { exit !($(column max_pressure 2 ha
 near "$(column wear_volume 2 hard.tsv)" 1e-14 1e-12 "  and dents are not worn volume"
 rc-solve --quiet --E1 1GPa --nu1 0.3 --E2 rigid --layer 2um,3GPa,0.3 --load 1mN rough.rcg -o coated.rcg
 claim "a coated body wears" bash -c "$wear --distance 1km -o coat.rcg coated.rcg"
-refuses 1 'more than the thickness of the coat, 2 um' "  not through" "$wear --distance 1000Mm -o x.rcg coated.rcg"
+refuses 1 'lost .* of its coat, and 2 um was left' "  not through" "$wear --distance 1000Mm -o x.rcg coated.rcg"
+refuses 3 'and 2 um was left: .*: the output ends with the distance before' "  in a list of distances" \
+    "rc-wear --coefficient 1e-6mm3/Nm --distance 1km,1000Mm,2000Mm --report through.tsv -o through.rcg coated.rcg"
+claim "    whose first distance is kept" bash -c "[ \$(wc -l <through.tsv) = 2 ] && rc-info --json through.rcg | grep -c '\"distance\": *\"\?1000' &&
+    cmp <(rc-export --channel wear --case 1 --format csv through.rcg) <(rc-export --channel wear --format csv coat.rcg)"
+claim "the wear of body 2 does not count against the coat of body 1" \
+    rc-wear --quiet --coefficient 0,1e-6mm3/Nm --distance 1000Mm -o x.rcg coated.rcg
+left() { rc-info --json "$1" | grep -o '"coat_left": *"\?[^",]*' | head -n 1 | sed 's/.*[ "]//'; }
+deep=$(column max_wear_depth 1 through.tsv)
+near "$(left coat.rcg)" "$(awk "BEGIN { printf \"%.17g\", 2e-6 - $deep }")" 1e-9 "what is left of the coat is a key"
+refuses 1 "was left" "  so that the coat is worn through when it is worn again" "$wear --distance 1km -o x.rcg coat.rcg"
+$wear --distance 50m --report little.tsv -o little.rcg coat.rcg
+near "$(left little.rcg)" "$(awk "BEGIN { printf \"%.17g\", 2e-6 - $deep - $(column max_wear_depth 1 little.tsv) }")" 1e-9 \
+    "  and both runs count"
+refuses 1 'coat is worn through' "  nothing may be left" "rc-pick --set coat_left=0 coated.rcg | $wear --distance 1km -o x.rcg"
 
 rc-solve --quiet --periodic --load 1mN --estar 1GPa \
     <(beside rough.rcg <(map hardness Pa '$i % 32 < 16 ? 1e7 : "inf"')) -o spots.rcg

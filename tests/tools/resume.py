@@ -241,7 +241,7 @@ KEYS = {
     'case': [], 'source': ['other'], 'file.*': [], 'history': ['rc-synth 0 sphere'], 'periodic': ['yes'], 'filled': ['3'], 'outliers': ['3'],
     'dunit': [], 'taper': ['2e-6'], 'form.radius': ['1'], 'form': ['sphere 1e-3'], 'boundary': ['periodic', 'free'], 'estar': ['1e11'],
     'e1': ['1.5e11'], 'nu': ['.25'], 'e2': ['1.5e11'], 'nu2': ['.25'], 'load': ['.02'], 'hardness': ['3e9'], 'hardness_map': ['yes'],
-    'cycles': ['3'], 'wear_1': ['1e-15'], 'wear_2': ['1e-15'], 'bending_limit': ['1e8'], 'torsion_limit': ['1e8'], 'yield': ['1e9'],
+    'cycles': ['3'], 'wear_1': ['1e-15'], 'wear_2': ['1e-15'], 'coat_left': ['1e-3'], 'bending_limit': ['1e8'], 'torsion_limit': ['1e8'], 'yield': ['1e9'],
     'hardening': ['1e9'], 'slabs': ['3'], 'approach': ['1e-7'], 'position': ['1e-6'], 'height': ['1e-6'], 'converged': ['yes', 'no'],
     'window_x': ['1e-6'], 'creep_x': ['1'], 'creep_y': ['1'], 'spin': ['1'], 'friction': ['.2'], 'tau_max': ['1e9'], 'tangential_x': ['1'],
     'tangential_y': ['1'], 'displacement_x': ['1'], 'displacement_y': ['1'], 'mu': ['.3'], 'depth': ['1e-6'],

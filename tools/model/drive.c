@@ -465,9 +465,8 @@ print_plan(struct drive *d, const struct rc_grid *g, const struct rc_model *m)
     course_show(&d->t, g, plan_of(d, g, m), d->points, what);
 }
 
-/* Warns of what the model found, in the way of all tools. */
-static void
-judge(struct drive *d, struct rc_model *m)
+void
+drive_judge_point(struct drive *d, struct rc_model *m)
 {
     char where[512];
 
@@ -494,7 +493,7 @@ end_point(struct drive *d, struct rc_model *m)
 
     tool_must(&d->t, d->course.g, rc_model_look(m, &at, &d->t.err));
     d->silent = false;
-    (d->judge != NULL ? d->judge : judge)(d, m);
+    (d->judge != NULL ? d->judge : drive_judge_point)(d, m);
     if (!d->silent)
         put_frames(d, m, &at);
     if (d->keep != NULL)

@@ -168,7 +168,7 @@ struct drive {
     const struct drive_axis *axes;
     struct rc_point *point;
     size_t points, at; /* at: the point that is reached */
-    bool ended;        /* set by `keys`: later points of the case are left out */
+    bool ended;        /* set by `keys` or `judge`: later points of the case are left out */
     bool lasts;        /* set by the tool, which frees the model: it serves further cases */
     bool silent;       /* set by `judge`: the point has no frames and no row */
     bool spare;        /* set by the tool: the values of the heights are free for those of frames */
@@ -190,6 +190,8 @@ void drive_points(struct drive *d, const struct rc_grid *g, struct rc_model *m);
 void drive_keep(struct drive *d, struct rc_model *m);
 /* The exit status of main. */
 int drive_close(struct drive *d);
+/* Warns of what the model found, in the way of all tools: what d->judge NULL does. */
+void drive_judge_point(struct drive *d, struct rc_model *m);
 /* Warns of figures of the model that are beyond their limits. */
 void drive_judge(struct course *c, const struct rc_model *m, const struct drive_advice *advice,
                  const char *where);
