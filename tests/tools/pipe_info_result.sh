@@ -67,5 +67,7 @@ rc-info --json single.rcg | head -n 1 >info.json
 near "$(field plastic_area info.json)" "$(field plastic_area report.json)" "$summed" "single precision reaches the hardness too"
 claim "  this concerns some nodes" says 'reached on [1-9]' rc-info single.rcg
 rc-solve --quiet --load 100mN --estar 100GPa --tol 1e-18 rough.rcg -o short.rcg
+claim "a tolerance that cannot be reached ends with 3" test $? = 3
 rc-info short.rcg >short.txt 2>short.err
+claim "  and rc-info ends with 3 too" test $? = 3
 claim "a result that stopped short says so" grep -qx '  converged  no: it stopped short of its accuracy' short.txt

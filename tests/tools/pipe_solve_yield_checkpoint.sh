@@ -69,7 +69,9 @@ between 1 "$(($(states late.rcg) - before))" 4 "  and only what is missing is do
 
 harder="--mean-pressure 250MPa --yield 0.8GPa"
 $solve $harder --checkpoint try.rcg --interval 0 --report try.tsv -o try-out.rcg rough.rcg
+claim "a load that needs more increments than it takes ends with 3" test $? = 3
 $solve $harder --checkpoint try.rcg --resume --report try2.tsv -o try2-out.rcg rough.rcg
+claim "  and so does its resumed run" test $? = 3
 claim "with more increments than the first try" test "$(figures_of try.tsv | awk '$1 == "increments" { print $2 }')" -gt 8
 claim "  a resumed run gives the same result" cmp try-out.rcg try2-out.rcg
 head -c "$(ends try.rcg | tail -n 5 | head -n 1)" try.rcg >part.rcg
