@@ -321,6 +321,38 @@ test_spacing_and_curve(void **state)
     free(p);
 }
 
+/* Where all nodes slip along the creepage, q = (mu p, 0) is exact: for nu = 0, and for a profile. */
+static void
+test_full_slide(void **state)
+{
+    static const double creep[] = {0.01, 0.03, 0.1};
+
+    (void)state;
+    for (int what = 0; what < 3; what++)
+        for (size_t c = 0; c < 3; c++) {
+            const struct rc_shape shape =
+                what == 2 ? (struct rc_shape){64, 1, 0.03, 1000} : ellipse_shape(48, 1, 1);
+            const struct rc_rolling_problem law = {.slip = {.pair.estar = 1e9,
+                                                            .nu = what == 2 ? 0.3 : 0,
+                                                            .mu = 0.2,
+                                                            .tol = 1e-6,
+                                                            .threads = 1}};
+            double *p = hertz_ellipse(&shape, 0.9, 1, 5e6), q[48 * 48];
+            uint64_t seed = 7;
+            struct rc_model *m;
+            for (size_t k = 0; k < shape.nx * shape.ny && what == 1; k++)
+                p[k] *= slip_noise(&seed);
+            m = rolling_new(&shape, p, law, &err);
+            assert_int_equal(roll(m, rolling_load(&shape, p), creep[c], 0, 0, false, &err), RC_OK);
+            assert_int_equal(rc_model_frame(m, "traction-x", q, &err), RC_OK);
+            for (size_t k = 0; k < shape.nx * shape.ny; k++)
+                assert_true(fabs(q[k] - 0.2 * p[k]) <= 1e-12 * 5e6);
+            assert_true(rc_rolling_result(m)->convolutions < 45);
+            rc_model_free(m);
+            free(p);
+        }
+}
+
 /* The creepage that a force finds gives this force. */
 static void
 test_force_given(void **state)
@@ -735,6 +767,7 @@ main(void)
         cmocka_unit_test(test_conditions_and_energy),
         cmocka_unit_test(test_estimate_and_work),
         cmocka_unit_test(test_spacing_and_curve),
+        cmocka_unit_test(test_full_slide),
         cmocka_unit_test(test_force_given),
         cmocka_unit_test(test_refusals),
         cmocka_unit_test(test_small_contacts),
