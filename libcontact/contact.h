@@ -1157,8 +1157,10 @@ struct rc_rolling_figures {
     double force[2], moment;
     size_t stick_nodes, slip_nodes; /* numbers of the nodes that carry load */
     double stick_fraction;          /* share of the nodes that carry load                     */
-    double power;                   /* J/m: tractions times the motion of the bodies          */
-    double power_slip;              /* J/m: tractions times slip; the grid loses the rest     */
+    double power;                   /* J/m: force times creepage, moment times spin           */
+    /* J/m: friction energy, the sum of the frame `dissipation`: the mean traction of a step times its slip.
+     * It is `power` in a steady state of similar bodies; on a path elastic energy is the difference. */
+    double power_slip;
     /* Extrapolated from the two finest grids to a spacing of 0; NAN: too few nodes along x, or a path. */
     double extrapolated_creep[2], extrapolated_force[2], extrapolated_moment;
     /* N: Kalker's linear theory for the ellipse of the same area and second moments; NAN: its semi-axes
@@ -1174,7 +1176,8 @@ struct rc_rolling_figures {
 /* A model (model.h) of rolling over an inner model of the same bodies, which it owns from here on. NULL
  * if the inner model is NULL. Beside the axes of the inner model it takes RC_CREEP_X and RC_CREEP_Y, or
  * two forces, and RC_SPIN and RC_POSITION. The position may not fall on a path. Frames: pressure,
- * traction-x, traction-y (Pa), slip-x, slip-y (per length rolled), state (as for friction). RC_FAIL
+ * traction-x, traction-y (Pa), slip-x, slip-y (per length rolled), state (as for friction), dissipation (J/m3:
+ * energy per area and length rolled), slip (per length rolled: dissipation over the largest traction). RC_FAIL
  * during a path if no node is in contact, friction cannot carry the force, or a contact with spin reaches
  * half a period from its middle. RC_FAIL too if the contact reaches the last column (the leading edge), or a column that comes in. Sources: Kalker 1990, Three-
  * dimensional elastic bodies in rolling contact; Newton's method as in libcontact/slip/steady.c. */

@@ -59,13 +59,14 @@ struct rolling {
     double coarse_error;                                     /* N: of the iteration on this grid */
     bool good;                                               /* the contact has converged */
     /* of a path */
-    bool rolls;       /* there is a step before this point                              */
-    double x;         /* m: middle of the map at the last point kept                    */
-    double length;    /* m, of this step                                                */
-    double inherited; /* N: error of the tractions at the last point kept               */
-    double kept;      /* part of it that the contact has not forgotten                  */
-    bool again;       /* a state was read: its contact must be solved again */
-    bool resumes;     /* and the grid of the state starts from its tractions */
+    bool rolls;        /* there is a step before this point                              */
+    double dissipates; /* factor of the friction energy of nodes that slip */
+    double x;          /* m: middle of the map at the last point kept                    */
+    double length;     /* m, of this step                                                */
+    double inherited;  /* N: error of the tractions at the last point kept               */
+    double kept;       /* part of it that the contact has not forgotten                  */
+    bool again;        /* a state was read: its contact must be solved again */
+    bool resumes;      /* and the grid of the state starts from its tractions */
     struct rc_rolling_figures f;
 };
 
@@ -86,7 +87,7 @@ const struct rc_figure rc_figures_rolling[] = {
     {FIGURE(power), "J/m", "Energy per length rolled",
      .says = "force times creepage, moment times spin"},
     {FIGURE(power_slip), "J/m", "Friction energy per length rolled",
-     .says = "traction times slip; the grid loses the difference from `power`"},
+     .says = "sum of the frame dissipation: mean traction of a step times slip"},
     {AS("extrapolated_creep_x", extrapolated_creep[0]), NULL, "Creepage along x, extrapolated",
      .says = "to a spacing of 0"},
     {AS("extrapolated_creep_y", extrapolated_creep[1]), NULL, "Creepage along y, extrapolated",
@@ -118,8 +119,11 @@ const struct rc_figure rc_figures_rolling[] = {
 static const struct rc_figure_set sets[] = {{rc_figures_rolling, offsetof(struct rolling, f)},
                                             {NULL, 0}};
 
-static const struct rc_frame_kind frames[] = {RC_SLIP_FRAME_KINDS("1", " per length rolled"),
-                                              {NULL, NULL, NULL}};
+static const struct rc_frame_kind frames[] = {
+    RC_SLIP_FRAME_KINDS("1", " per length rolled"),
+    [RC_SLIP_DISSIPATION] = {"dissipation", "J/m3", "Dissipated energy per length rolled"},
+    [RC_SLIP_LENGTH] = {"slip", "1", "Path of slip per length rolled"},
+    {NULL, NULL, NULL}};
 
 /* ---- the motion ---- */
 
@@ -259,14 +263,18 @@ pose_level(struct rolling *f, struct level *l, const double *p)
 
     if (coupled)
         rc_tangential_pressure(d->t, p, push);
+    for (size_t k = 0; k < d->n; k++)
+        d->g[k] = fmin(o->mu * p[k], most);
     for (size_t k = 0; k < d->n; k++) {
         double v[2];
-        d->g[k] = fmin(o->mu * p[k], most);
         spin_at(l, spin, k, v);
         for (int c = 0; c < 2; c++)
             d->rigid[c][k] =
-                -v[c] * step_of(l) +
-                (coupled && d->g[k] > 0 ? push[c][k] - (path ? 0 : push[c][k + 1]) : 0);
+                -v[c] * step_of(l) + (!coupled ? 0
+                                      : path   ? push[c][k]
+                                      : k + 1 < d->n && (d->g[k] > 0 || d->g[k + 1] > 0)
+                                          ? push[c][k] - push[c][k + 1]
+                                          : 0);
     }
     for (int c = 0; c < 2; c++)
         d->asked.sum[c] = f->base.to.at[RC_FORCE_X + c] / (d->shape.dx * d->shape.dy);
@@ -458,17 +466,14 @@ look_at(const struct rolling *f, const struct level *l, struct rc_rolling_figure
                        : l->length > 0   ? d->v[c] / step_of(l)
                                          : NAN;
     for (size_t k = 0; k < d->n; k++) {
-        double v[2], at[2];
+        double at[2];
         if (!(d->g[k] > 0))
             continue;
-        spin_at(l, spin, k, v);
         from_middle(l, k, 0, at);
         to->limit += d->g[k] * cell;
         to->moment += (at[0] * d->q[1][k] - at[1] * d->q[0][k]) * cell;
         for (int c = 0; c < 2; c++) {
             to->force[c] += d->q[c][k] * cell;
-            to->power += d->q[c][k] * (to->creep[c] + v[c]) * cell;
-            to->power_slip -= d->q[c][k] * (d->s[c][k] / step_of(l)) * cell;
         }
         n++;
         for (int c = 0; c < 2; c++) {
@@ -476,6 +481,7 @@ look_at(const struct rolling *f, const struct level *l, struct rc_rolling_figure
             m[2 + c] += at[c] * at[c];
         }
     }
+    to->power = to->force[0] * to->creep[0] + to->force[1] * to->creep[1] + to->moment * spin;
     to->moment += none;
     rc_kalker(sqrt((m[2] - m[0] * m[0] / n) / (m[3] - m[1] * m[1] / n)),
               f->shear.kap / (1 + f->shear.kap), kalker);
@@ -510,6 +516,25 @@ extrapolate(const struct rolling *f, struct rc_rolling_figures *to)
                  : NAN;
 }
 
+/* Finds the friction energy, and the factor by which that of the nodes that slip becomes all of it. In a steady
+ * state of similar bodies it is the supplied energy. */
+static void
+find_dissipation(struct rolling *f, struct rc_rolling_figures *to)
+{
+    const struct level *l = f->at;
+    const double unit = l->d->shape.dx * l->d->shape.dy / step_of(l);
+    double all = 0, slips = 0;
+
+    for (size_t k = 0; k < f->n; k++) {
+        all += rc_steady_dissipated(l->d, k, true) * unit;
+        slips += rc_steady_dissipated(l->d, k, false) * unit;
+    }
+    if (!f->problem.path && l->d->t->shear.beta == 0)
+        all = to->power;
+    f->dissipates = slips > 0 && all > 0 ? all / slips : 1;
+    to->power_slip = f->dissipates * slips;
+}
+
 static double
 all_convolutions(const struct rolling *f)
 {
@@ -531,6 +556,7 @@ find_figures(struct rolling *f)
     for (size_t k = f->level; k > 0; k--) /* the best so far */
         refine(&f->at[k], &f->at[k - 1]);
     look_at(f, f->at, to);
+    find_dissipation(f, to);
     extrapolate(f, to);
     for (size_t k = f->level; k < f->levels; k++) {
         to->steps += f->at[k].d->found.steps;
@@ -685,6 +711,17 @@ keep(struct rc_model *m, struct rc_err *err)
     return f->problem.known == NULL ? rc_model_keep(m->inner, err) : RC_OK;
 }
 
+/* J/m3: friction energy per area and length rolled. */
+static double
+dissipation(const struct rolling *f, size_t k)
+{
+    const struct rc_steady *d = f->at->d;
+
+    return d == NULL || !(f->at->length > 0)
+               ? 0
+               : f->dissipates * rc_steady_dissipated(d, k, false) / step_of(f->at);
+}
+
 static enum rc_status
 fill(struct rc_model *m, size_t frame, double *to, struct rc_err *err)
 {
@@ -703,6 +740,12 @@ fill(struct rc_model *m, size_t frame, double *to, struct rc_err *err)
             break;
         case RC_SLIP_STATE:
             to[k] = d == NULL || d->g[k] == 0 ? 0 : d->face[k] == RC_FACE_STICK ? 1 : 2;
+            break;
+        case RC_SLIP_DISSIPATION:
+            to[k] = dissipation(f, k);
+            break;
+        case RC_SLIP_LENGTH:
+            to[k] = d == NULL || d->g[k] == 0 ? 0 : dissipation(f, k) / d->g[k];
             break;
         default: /* a node that sticks has none: what is left there is an error */
             to[k] = d == NULL || d->g[k] == 0 || d->face[k] == RC_FACE_STICK ? 0
@@ -751,11 +794,13 @@ state(struct rc_model *m, struct rc_state *s)
             return;
         }
     }
-    if (!rc_state_holds(s, (path ? 4 : 2) * l->d->n + 2))
+    if (!rc_state_holds(s, (path ? 6 : 2) * l->d->n + 2))
         return;
     rc_state_finite(s, 2, l->d->v);
-    for (int c = 0; c < 2 && path; c++)
+    for (int c = 0; c < 2 && path; c++) {
         rc_state_finite(s, l->d->n, l->d->old[c]);
+        rc_state_finite(s, l->d->n, l->d->last[c]);
+    }
     for (int c = 0; c < 2; c++)
         rc_state_finite(s, l->d->n, l->d->q[c]);
 }
@@ -790,7 +835,7 @@ plan(const struct rc_model *m, const struct rc_point *most, struct rc_expected *
                          : o->force ? RC_ROLLING_FORCE
                                     : RC_ROLLING_STEADY) *
                         (1 + below / 2);
-    const double maps = (o->path    ? 51
+    const double maps = (o->path    ? 53
                          : o->force ? 72
                                     : 67) +
                         (f->shear.beta != 0 && !o->slip.uncoupled ? 2 : 0);

@@ -72,7 +72,8 @@ enum {
     RC_SLIP_SLIP_X,
     RC_SLIP_SLIP_Y,
     RC_SLIP_STATE,
-    RC_SLIP_DISSIPATION /* of friction only */
+    RC_SLIP_DISSIPATION,
+    RC_SLIP_LENGTH /* of rolling only */
 };
 /* clang-format off */
 #define RC_SLIP_FRAME_KINDS(unit, per)                                                             \

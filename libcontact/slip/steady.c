@@ -437,6 +437,7 @@ rc_steady_set_out(struct rc_steady *d, size_t columns, struct rc_err *err)
 {
     for (int c = 0; c < 2 && d->asked.force; c++)
         d->v[c] = 0;
+    d->moved = columns;
     if (set_out(d, d->old, columns, d->asked.tol, err) != RC_OK)
         return RC_FAIL;
     d->discs->asked.most = d->asked.most;
@@ -457,9 +458,43 @@ rc_steady_follow(struct rc_steady *d)
 void
 rc_steady_arrive(struct rc_steady *d)
 {
-    for (int c = 0; c < 2; c++)
+    for (int c = 0; c < 2; c++) {
+        memcpy(d->last[c], d->q[c], d->n * sizeof(double));
         for (size_t k = 0; k < d->n; k++)
             d->old[c][k] = d->u[c][k] + d->way[c][k];
+    }
+}
+
+/* The traction, before the step, of the surface that is at node k now. */
+static double
+before_step(const struct rc_steady *d, int c, size_t k)
+{
+    const size_t nx = d->shape.nx, i = k % nx + d->moved;
+
+    if (!d->asked.path)
+        return d->q[c][k + 1];
+    return i < nx || d->t->boundary == RC_PERIODIC ? d->last[c][k - k % nx + i % nx] : 0;
+}
+
+/* The mean traction of the step times its slip. */
+static double
+spent(const struct rc_steady *d, size_t k)
+{
+    double sum = 0;
+
+    for (int c = 0; c < 2; c++)
+        sum -= (d->q[c][k] + before_step(d, c, k)) / 2 * d->s[c][k];
+    return sum;
+}
+
+double
+rc_steady_dissipated(const struct rc_steady *d, size_t k, bool all)
+{
+    const bool on = d->g[k] > 0, own = on ? all || d->face[k] != STICK : d->asked.path;
+    const bool leaves = on && !d->asked.path && k % d->shape.nx > 0 && !(d->g[k - 1] > 0);
+    const double sum = (own ? spent(d, k) : 0) + (leaves ? spent(d, k - 1) : 0);
+
+    return all ? sum : fmax(sum, 0);
 }
 
 void
@@ -586,7 +621,10 @@ allocate(struct rc_steady *d)
     double **const pairs[] = {d->q,   d->rigid, d->u,         d->s,
                               d->way, d->old,   d->way_of[0], d->way_of[1]};
     const bool path = d->asked.path;
-    const size_t count = d->asked.force && !path ? 8 : 6, vectors = path ? 1 : 3 + 4 * STEPS,
+    const size_t count = path             ? 7
+                         : d->asked.force ? 8
+                                          : 6,
+                 vectors = path ? 1 : 3 + 4 * STEPS,
                  grid = path
                             ? 0
                             : (d->shape.nx + 2 * d->t->frame.x) * (d->shape.ny + 2 * d->t->frame.y);
@@ -599,6 +637,10 @@ allocate(struct rc_steady *d)
     memset(d->face, OFF, 2 * d->n);
     for (size_t k = 0; k < 2 * count; k++)
         pairs[k / 2][k % 2] = d->g + (1 + k) * d->n;
+    if (path) {
+        memcpy(d->last, d->way_of[0], sizeof d->last);
+        d->way_of[0][0] = d->way_of[0][1] = NULL;
+    }
     d->curve = at;
     d->was = d->face + d->n;
     for (size_t c = 0; c < 2 && !path; c++) {

@@ -34,6 +34,8 @@ struct rc_steady {
     double *u[2], *s[2];  /* T q or T of a vector; slip     */
     double *way[2];       /* the correction; on a path, the displacement due to the pressure */
     double *old[2];       /* q before the correction; on a path, the earlier displacement */
+    double *last[2];      /* on a path, q at the last point kept; else NULL */
+    size_t moved;         /* on a path, columns that the map has moved since then */
     double *way_of[2][2]; /* if the force is given: corrections due to v, else NULL */
     float *curve;         /* D of nodes that slip           */
     float *basis[RC_STEADY_STEPS + 1][2], *z[RC_STEADY_STEPS][2], *frame[2];
@@ -79,5 +81,12 @@ enum rc_status rc_steady_roll(struct rc_steady *d, struct rc_err *err);
 enum rc_status rc_steady_set_out(struct rc_steady *d, size_t columns, struct rc_err *err);
 enum rc_status rc_steady_follow(struct rc_steady *d);
 void rc_steady_arrive(struct rc_steady *d);
+/* The friction energy at node k, as q s: the mean traction of a step times its slip. On a path nodes are points
+ * of the surface, and those that leave the contact in the step have a part too. In a steady state this part
+ * belongs to the node in front, where the surface was before. The sum is then that of q v exactly, without a
+ * loss by the grid: the mean traction times the change of T q, summed over the surface, is the change of the
+ * elastic energy. all: with the rest that an iteration has left at nodes that stick, and with negative values,
+ * which the sudden release of a node at a trailing edge can have. */
+double rc_steady_dissipated(const struct rc_steady *d, size_t k, bool all);
 
 #endif

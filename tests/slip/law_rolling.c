@@ -353,6 +353,37 @@ test_full_slide(void **state)
         }
 }
 
+/* Friction energy is above 0 at nodes that slip, or is that of the trailing edge, and its sum is force times
+ * creepage and moment times spin. Slip times the largest traction is the same energy. */
+static void
+test_dissipation(void **state)
+{
+    (void)state;
+    for (size_t c = 0; c < sizeof cases / sizeof *cases; c++) {
+        enum {
+            NODES = 48 * 48
+        };
+        double *p, load, spent[NODES], slip[NODES], is[NODES], sum = 0, by_slip = 0;
+        struct rc_model *m = ellipse(48, cases[c].ratio, 1e-3, false, &p, &load);
+        const struct rc_rolling_figures *f = rc_rolling_result(m);
+        assert_int_equal(roll(m, load, cases[c].x, cases[c].y, cases[c].spin, false, &err), RC_OK);
+        assert_true(rc_model_frame(m, "dissipation", spent, &err) == RC_OK &&
+                    rc_model_frame(m, "slip", slip, &err) == RC_OK &&
+                    rc_model_frame(m, "state", is, &err) == RC_OK);
+        for (size_t k = 0; k < NODES; k++) {
+            const bool edge = k % 48 > 0 && is[k - 1] == 0;
+            assert_true(spent[k] >= 0 && (spent[k] == 0 || is[k] == 2 || (is[k] == 1 && edge)));
+            sum += spent[k] * 2.2 * 2.2 * cases[c].ratio / NODES;
+            by_slip += 0.2 * p[k] * slip[k] * 2.2 * 2.2 * cases[c].ratio / NODES;
+        }
+        assert_true(fabs(sum / f->power_slip - 1) < 1e-12 && fabs(by_slip / sum - 1) < 1e-12);
+        assert_true(fabs(f->force[0] * cases[c].x + f->force[1] * cases[c].y +
+                         f->moment * cases[c].spin - sum) < 1e-12 * sum);
+        rc_model_free(m);
+        free(p);
+    }
+}
+
 /* The creepage that a force finds gives this force. */
 static void
 test_force_given(void **state)
@@ -630,6 +661,9 @@ test_path(void **state)
                worst, least, most, apart, f[0]->force[0] / f[0]->limit,
                rc_rolling_result(steady)->force[0] / rc_rolling_result(steady)->limit);
         assert_true(worst < 1e-2 && least > 1 && apart < 1e-6);
+        printf("friction energy %.5g, steady %.5g\n", f[0]->power_slip,
+               rc_rolling_result(steady)->power_slip);
+        assert_true(fabs(f[0]->power_slip / rc_rolling_result(steady)->power_slip - 1) < 1e-2);
         for (int c = 0; c < 2; c++)
             assert_true(fabs(f[0]->force[c] - rc_rolling_result(steady)->force[c]) <
                         5e-3 * f[0]->limit);
@@ -768,6 +802,7 @@ main(void)
         cmocka_unit_test(test_estimate_and_work),
         cmocka_unit_test(test_spacing_and_curve),
         cmocka_unit_test(test_full_slide),
+        cmocka_unit_test(test_dissipation),
         cmocka_unit_test(test_force_given),
         cmocka_unit_test(test_refusals),
         cmocka_unit_test(test_small_contacts),

@@ -145,7 +145,7 @@ static void
 test_dense_path(void **state)
 {
     uint64_t seed = 77;
-    double worst = 0, worst_sum = 0;
+    double worst = 0, worst_sum = 0, worst_energy = 0;
     size_t stick = 0, slipping = 0;
 
     (void)state;
@@ -154,6 +154,7 @@ test_dense_path(void **state)
         double p[DENSE_MOST], q[2 * DENSE_MOST], exact[2 * DENSE_MOST] = {0}, sum[3];
         static struct dense d;
         struct rc_model *m = model_of(&w, p);
+        double stored = 0;
 
         periodic_matrix(&d, &w.shape, w.nu / (1 - w.nu));
         press(&w, w.start, p);
@@ -161,7 +162,8 @@ test_dense_path(void **state)
         for (int step = 1; step <= STEPS; step++) {
             const double position = w.start + step * w.length;
             struct rc_rolling_figures f;
-            double off = 0, all = 0;
+            double off = 0, all = 0, before[2 * DENSE_MOST], supplied = 0, now = 0;
+            memcpy(before, exact, sizeof before);
             press(&w, position, p);
             f = roll_to(m, &w, position, q);
             dense_step(&d, &w, position, p, exact, sum);
@@ -170,6 +172,20 @@ test_dense_path(void **state)
                 all += hypot(exact[k], exact[d.n + k]);
             }
             worst = fmax(worst, off / all);
+            /* the bodies supply the mean tractions times their motion; a part is stored as elastic energy */
+            for (size_t i = 0; i < 2 * d.n; i++) {
+                double u = 0, at[2];
+                const int c = i < d.n ? 0 : 1;
+                for (size_t j = 0; j < 2 * d.n; j++)
+                    u += d.t[i][j] * exact[j];
+                nearest(&w.shape, i % d.n, position, w.length / 2, at);
+                now += exact[i] * u / 2;
+                supplied += (exact[i] + before[i]) / 2 *
+                            (w.creep[c] + w.creep[2] * (c == 0 ? -at[1] : at[0]));
+            }
+            supplied = (supplied - (now - stored) / w.length) * w.shape.dx * w.shape.dy;
+            stored = now;
+            worst_energy = fmax(worst_energy, fabs(f.power_slip - supplied) / (f.limit * w.mu));
             worst_sum = fmax(
                 worst_sum, fmax(hypot(f.force[0] - sum[0], f.force[1] - sum[1]) / f.limit,
                                 fabs(f.moment - sum[2]) / (f.limit * hypot(w.axes[0], w.axes[1]))));
@@ -178,10 +194,12 @@ test_dense_path(void **state)
         }
         rc_model_free(m);
     }
-    printf(
-        "tractions differ by %.1e at most, forces and moments by %.1e; %zu nodes stick, %zu slip\n",
-        worst, worst_sum, stick, slipping);
-    assert_true(worst < 1e-7 && worst_sum < 1e-7 && stick > 200 && slipping > 200);
+    printf("tractions differ by %.1e at most, forces and moments by %.1e, energies by %.1e; %zu "
+           "nodes stick, "
+           "%zu slip\n",
+           worst, worst_sum, worst_energy, stick, slipping);
+    assert_true(worst < 1e-7 && worst_sum < 1e-7 && worst_energy < 1e-7);
+    assert_true(stick > 200 && slipping > 200);
 }
 
 /* Some columns further on, all is the same. */

@@ -198,7 +198,7 @@ add_slip(struct slip_run *run, struct rc_model *m)
     free(now);
 }
 
-/* The tool holds the heights and the path of slip; NULL: a frame of the model. */
+/* The tool holds the heights and, without rolling, the path of slip; NULL: a frame of the model. */
 const double *
 slip_frame(struct drive *d, struct rc_model *m, struct rc_grid *frame, const char *word)
 {
@@ -208,7 +208,7 @@ slip_frame(struct drive *d, struct rc_model *m, struct rc_grid *frame, const cha
     (void)m;
     if (strcmp(word, slip_frames[SLIP_HEIGHT]) == 0)
         return run->height->v;
-    if (strcmp(word, slip_frames[SLIP_LENGTH]) != 0)
+    if (run->rolls || strcmp(word, slip_frames[SLIP_LENGTH]) != 0)
         return NULL;
     memcpy(frame->v, run->slipped + 2 * n, n * sizeof *frame->v);
     memset(run->slipped + 2 * n, 0, n * sizeof *frame->v);

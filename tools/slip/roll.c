@@ -38,10 +38,6 @@ slip_check_rolling(struct slip_run *run)
                "--coupling goodman, or none");
     if (run->coupling == RC_COUPLING_FULL)
         run->coupling = RC_COUPLING_GOODMAN;
-    for (size_t k = SLIP_LENGTH; k <= SLIP_DISSIPATION; k++)
-        if (a->output >> k & 1)
-            tool_usage(t, "--output %s needs --tangential, --displacement, --path or --history",
-                       slip_frames[k]);
 }
 
 /* ---- a point ---- */
