@@ -8,7 +8,7 @@
 static struct args {
     const char *conductivity, *moving, *partition, *report;
     struct numbers speed, diffusivity, capacity, bulk, depths;
-    double mu, time, tol, frequency;
+    double mu, time, tol, frequency, rolling;
     size_t time_steps, output;
     bool dry_run;
 } args = {
@@ -28,6 +28,8 @@ static const struct opt opts[] = {
      .arg = "COEFFICIENT", .help = "coefficient of friction: the heat is mu times pressure times speed"},
     {.name = "frequency", .type = OPT_NUMBER, .unit = UNIT_HZ, AT(frequency), ABOVE_0, .arg = "F",
      .help = "cycles per second: heat from the frames dissipation of rc-slip, summed over the cases"},
+    {.name = "rolling", .type = OPT_NUMBER, .unit = UNIT_SPEED, AT(rolling), ABOVE_0, .arg = "V",
+     .help = "speed of rolling towards +x: heat from the frame dissipation of rc-slip --creep"},
     {.name = "speed", .type = OPT_NUMBERS, .unit = UNIT_SPEED, AT(speed), .min = -INFINITY,
      .max = INFINITY, .result = true, .arg = "VX[,VY]", .help = "sliding speed along x and y"},
     {.name = "conductivity", .type = OPT_TEXT, AT(conductivity), .result = true, .arg = "K1,K2",
@@ -111,6 +113,12 @@ read_motion(struct run *run)
     struct numbers v = args.speed;
     struct rc_err err;
 
+    if (tool_given(t, "rolling") && (tool_given(t, "speed") || tool_given(t, "moving")))
+        tool_usage(
+            t,
+            "--rolling and the creepages of the stream give the motion of both bodies: leave "
+            "out --%s",
+            tool_given(t, "speed") ? "speed" : "moving");
     if (one < 0 && v.n > 0)
         tool_usage(t, "--moving %s has the speeds of both bodies: leave out --speed, or say 1 or 2",
                    args.moving);
@@ -134,9 +142,10 @@ read_source(struct run *run)
 {
     struct tool *t = &run->t;
     const bool friction = tool_given(t, "mu"), cycles = tool_given(t, "frequency");
+    const bool rolls = tool_given(t, "rolling");
 
-    if (friction && cycles)
-        tool_usage(t, "--mu and --frequency are two sources of heat: give one of them");
+    if (friction + cycles + rolls > 1)
+        tool_usage(t, "--mu, --frequency and --rolling are sources of heat: give one of them");
     if (friction && run->speed * args.mu == 0 &&
         run->problem.body[0].bulk == run->problem.body[1].bulk)
         tool_usage(t,
@@ -150,7 +159,7 @@ read_source(struct run *run)
                    "--partition %s shares the heat of friction, and there is none: leave it out, "
                    "for the heat between the bulk temperatures",
                    args.partition);
-    run->channel = friction ? "pressure" : cycles ? "dissipation" : "heat";
+    run->channel = friction ? "pressure" : cycles || rolls ? "dissipation" : "heat";
 }
 
 static void
@@ -208,15 +217,47 @@ read_options(struct run *run)
 
 /* ---- a case ---- */
 
-/* Checks the main frame. Its heat flux is the values times this factor: friction times speed, or frequency. */
+static bool
+any_heat(const struct rc_grid *g)
+{
+    size_t k = 0;
+
+    while (k < rc_grid_nodes(g) && g->v[k] == 0)
+        k++;
+    return k < rc_grid_nodes(g);
+}
+
+/* The motion of both bodies past a contact that rolls towards +x, from the creepages of the case. Without them
+ * it has not rolled yet. */
+static void
+find_rolling(struct run *run, const struct rc_grid *g)
+{
+    struct rc_heat_body *body = run->problem.body;
+    double creep[2] = {0, 0};
+
+    if ((!rc_grid_number(g, "creep_x", &creep[0]) || !rc_grid_number(g, "creep_y", &creep[1])) &&
+        any_heat(g))
+        tool_refuse(&run->t, g,
+                    "it has no keys creep_x and creep_y: --rolling takes the output of "
+                    "rc-slip --creep or --creep-force");
+    body[0].velocity[0] = -args.rolling;
+    body[1].velocity[0] = args.rolling * (creep[0] - 1);
+    body[1].velocity[1] = args.rolling * creep[1];
+    run->speed = args.rolling * hypot(creep[0], creep[1]);
+}
+
+/* Checks the main frame. Its heat flux is the values times this factor: friction times speed, frequency, or speed
+ * of rolling. */
 static double
 heat_factor(struct run *run, const struct rc_grid *g)
 {
-    const bool friction = tool_given(&run->t, "mu");
-    const char *unit = friction ? "Pa" : tool_given(&run->t, "frequency") ? "J/m2" : "W/m2";
-    const double factor = friction                           ? args.mu * run->speed
-                          : tool_given(&run->t, "frequency") ? args.frequency
-                                                             : 1;
+    const bool friction = tool_given(&run->t, "mu"), cycles = tool_given(&run->t, "frequency"),
+               rolls = tool_given(&run->t, "rolling");
+    const char *unit = friction ? "Pa" : cycles ? "J/m2" : rolls ? "J/m3" : "W/m2";
+    const double factor = friction ? args.mu * run->speed
+                          : cycles ? args.frequency
+                          : rolls  ? args.rolling
+                                   : 1;
 
     tool_demand_finite(&run->t, g, "recompute the map");
     if (rc_grid_get(g, "layers") != NULL)
@@ -225,8 +266,23 @@ heat_factor(struct run *run, const struct rc_grid *g)
             "its body 1 has layers, and rc-heat supports only bodies of one material: where "
             "the layers conduct as the substrate does, remove the key with rc-pick --set "
             "layers=");
+    if (cycles && strcmp(g->unit, "J/m3") == 0)
+        tool_refuse(&run->t, g,
+                    "it is the energy per length rolled, in J/m3: give the speed of rolling "
+                    "with --rolling instead of --frequency");
+    if (rolls && strcmp(g->unit, "J/m2") == 0)
+        tool_refuse(&run->t, g,
+                    "it is the energy of a part of a cycle, in J/m2: give the cycles per "
+                    "second with --frequency instead of --rolling");
     if (strcmp(g->unit, unit) != 0)
         tool_refuse(&run->t, g, "its unit is '%s': it must be %s", g->unit, unit);
+    if (friction)
+        tool_demand_full_sliding(
+            &run->t, g,
+            "take rc-slip --output pressure,dissipation, and --rolling for a contact "
+            "that rolls or --frequency for a cycle instead of --mu");
+    if (rolls)
+        find_rolling(run, g);
     for (size_t k = 0; k < rc_grid_nodes(g); k++) {
         if (friction && g->v[k] < 0)
             tool_refuse(
@@ -238,7 +294,7 @@ heat_factor(struct run *run, const struct rc_grid *g)
     return factor;
 }
 
-/* Adds the nodes in contact of a case, and those that slipped in a cycle. */
+/* Adds the nodes in contact of a case, and those that slipped in a cycle or left the contact in a step. */
 static void
 add_contact(struct run *run, const struct rc_grid *g)
 {
@@ -254,7 +310,8 @@ add_contact(struct run *run, const struct rc_grid *g)
         memset(run->touch, 0, n * sizeof *run->touch);
     }
     for (size_t k = 0; k < n; k++)
-        if (rc_in_contact(touch->v[k]) || (tool_given(&run->t, "frequency") && g->v[k] != 0))
+        if (rc_in_contact(touch->v[k]) ||
+            (strcmp(run->channel, "dissipation") == 0 && g->v[k] != 0))
             run->touch[k] = 1;
 }
 
@@ -347,7 +404,8 @@ judge(struct run *run, const struct rc_grid *g, const struct rc_heat_figures *f)
     const double m = (double)f->hot_nodes;
     const char *where = tool_where(t, g);
 
-    if (run->speed > 0 && strchr(args.moving, ',') == NULL && adds_surfaces(g))
+    if (run->speed > 0 && strchr(args.moving, ',') == NULL && !tool_given(t, "rolling") &&
+        adds_surfaces(g))
         tool_warn(t,
                   "%s: its height is the sum of two rough surfaces, whose spots last only for a "
                   "passage: with spots that stay on body %d the temperatures are too high",

@@ -321,6 +321,25 @@ tool_take_frames(void *ctx, struct tool *t, const struct rc_grid *kept, struct r
 }
 
 void
+tool_demand_full_sliding(struct tool *t, const struct rc_grid *g, const char *instead)
+{
+    static const char *const partial[] = {"traction-x", "traction-y", "slip-x",      "slip-y",
+                                          "slip",       "state",      "dissipation", NULL};
+    char names[sizeof t->current.names], *at = NULL;
+
+    memcpy(names, t->current.names, sizeof names);
+    for (char *name = strtok_r(names, " ", &at); name != NULL; name = strtok_r(NULL, " ", &at))
+        for (const char *const *p = partial; *p != NULL; p++)
+            if (strcmp(name, *p) == 0)
+                tool_refuse(
+                    t, g,
+                    "the case has friction of rc-slip, a frame %s, by which nodes may stick: "
+                    "%s; where all nodes slide, take the frames of the contact alone by "
+                    "rc-pick --channel",
+                    name, instead);
+}
+
+void
 tool_free_frames(const struct tool_frame *list)
 {
     for (const struct tool_frame *f = list; f->channel != NULL; f++) {

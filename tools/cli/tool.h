@@ -232,6 +232,8 @@ struct tool_frame {
 bool tool_take_frames(void *ctx, struct tool *tool, const struct rc_grid *kept, struct rc_grid *g);
 /* Frees the kept frames. */
 void tool_free_frames(const struct tool_frame *list);
+/* Refuses frames of friction in the case of g, by which some nodes stick. `instead` says what to give. */
+void tool_demand_full_sliding(struct tool *t, const struct rc_grid *g, const char *instead);
 /* The same with the frame of one other channel on its grid; *other is NULL if there is none. */
 struct rc_grid *tool_channel_beside(struct tool *tool, const char *channel, const char *beside,
                                     struct rc_grid **other);
