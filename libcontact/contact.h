@@ -1207,13 +1207,17 @@ struct rc_wear_problem {
      * of all alignments. The caller keeps h2 as long as the model. */
     bool sliding;
     const double *h2;
+    /* nx ny J/m2: a friction energy at each node per unit of the distance, which then is a number of cycles. A
+     * node loses k times this energy, whatever its pressure is; NULL: k p per sliding distance. The caller keeps
+     * it as long as the model. There is no part, track, sliding or condition beside it. */
+    const double *energy;
     /* A leg ends early when one of these is reached; 0: no such condition. */
     double until_area;   /* contact fraction                   */
     double until_depth;  /* m: largest worn depth              */
     double until_spread; /* spread of the pressure, from above */
 };
 struct rc_wear_figures {
-    double distance; /* m                                           */
+    double distance; /* m; NAN with an energy                       */
     double wear_volume, wear_volume_1,
         wear_volume_2;                      /* m3, of both bodies and of each              */
     double max_wear_depth, mean_wear_depth; /* m, of both bodies together                  */

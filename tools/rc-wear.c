@@ -29,13 +29,13 @@ static const struct opt opts[] = {
     {.name = "hardness", .type = OPT_NUMBER, .unit = UNIT_HARD, AT(hardness), ABOVE_0, .result = true,
      .arg = "PRESSURE", .help = "H of --archard; 600HV is 600 times 9.80665 MPa. The bound of the pressure is that of rc-solve"},
     {.name = "energy", .type = OPT_TEXT, AT(energy), .result = true, .arg = "K1[,K2]",
-     .help = "instead: volume per energy of friction, in mm3/J or m3/J; needs --mu"},
+     .help = "instead: volume per energy of friction, in mm3/J or m3/J: of --mu, or of the frame dissipation"},
     {.name = "mu", .type = OPT_NUMBER, AT(mu), ABOVE_0, .result = true, .arg = "COEFFICIENT",
      .help = "coefficient of friction of --energy"},
     {.name = "distance", .type = OPT_NUMBERS, .unit = UNIT_M, AT(distance), .min = 0, .max = INFINITY,
      .result = true, .arg = "LIST", .help = "sliding distances from the start, each a case"},
     {.name = "cycles", .type = OPT_NUMBERS, AT(cycles), .min = 0, .max = INFINITY, .result = true,
-     .arg = "LIST", .help = "instead: numbers of cycles, whose slip is the frame slip of rc-slip"},
+     .arg = "LIST", .help = "instead: numbers of cycles or passes, with a frame slip or dissipation of rc-slip"},
     {.name = "motion", .type = OPT_TEXT, AT(motion), .result = true, .arg = "same|track:LENGTH|sliding",
      .help = "the same points stay in contact (default), body 2 passes along x on a track of this length, "
              "or two rough bodies slide over each other"},
@@ -73,6 +73,8 @@ enum { /* frames beside the heights */
     COEFFICIENT,
     HARD,
     SLIP,
+    ENERGY,
+    PRESSURE,
     MAPS
 };
 
@@ -91,6 +93,7 @@ struct run {
     struct tool_frame beside[MAPS + 1]; /* their channels */
     struct tool_frame maps[MAPS + 2];   /* and body 2     */
     double *part;                       /* k of each node over the largest one; NULL: 1        */
+    double *energy;                     /* J/m2, of a cycle at each node; NULL: not given      */
     struct rc_grid *counter;            /* heights of body 2; NULL: smooth                     */
 };
 
@@ -126,8 +129,12 @@ read_law(struct run *run)
         tool_usage(t, "give one of --coefficient, --archard and --energy: how much wears");
     if (tool_given(t, "archard") != tool_given(t, "hardness"))
         tool_usage(t, "--archard and --hardness belong together: V = K P s/H");
-    if (tool_given(t, "energy") != tool_given(t, "mu"))
-        tool_usage(t, "--energy and --mu belong together: the energy is mu P s");
+    if (tool_given(t, "mu") && !tool_given(t, "energy"))
+        tool_usage(t, "--mu has no effect without --energy: the energy is mu P s");
+    if (tool_given(t, "energy") && !tool_given(t, "mu") && args.cycles.n == 0)
+        tool_usage(
+            t, "--energy needs --mu, for the energy mu P s, or --cycles and a frame dissipation, "
+               "as rc-slip --output height,dissipation writes it");
     if (args.coefficient != NULL)
         read_coefficients(t, "coefficient", args.coefficient, UNIT_WEAR,
                           "with its unit, as in 1e-6mm3/Nm, m2/N or 1/GPa: a number without a unit "
@@ -147,7 +154,7 @@ read_law(struct run *run)
     for (size_t b = 0; b < 2; b++) {
         if (b < args.archard.n)
             k[b] = args.archard.v[b] / args.hardness;
-        if (args.energy != NULL)
+        if (args.energy != NULL && !isnan(args.mu))
             k[b] *= args.mu;
     }
     if (!any_law(t))
@@ -249,6 +256,13 @@ refuse_others(struct tool *t, const struct rc_grid *g)
                     "implemented");
 }
 
+/* True if a frame slip or dissipation is per length rolled. */
+static bool
+rolls(const struct rc_grid *g)
+{
+    return g != NULL && strcmp(g->unit, g->channel[0] == 's' ? "1" : "J/m3") == 0;
+}
+
 /* The largest value of a map; ends the tool where values are not at least 0, or none is above. */
 static double
 largest(struct tool *t, const struct rc_grid *g, const char *unit)
@@ -283,10 +297,50 @@ multiply(struct run *run, const struct rc_grid *map, double scale)
             (run->map[COEFFICIENT] == NULL || map == run->map[COEFFICIENT] ? 1 : run->part[k]);
 }
 
+/* The energy of a cycle at each node: that of the frame dissipation, or pressure times slip, to which the
+ * coefficient of sliding belongs. In rolling all points of a row pass through the contact in each cycle. */
+static void
+find_energy(struct run *run, const struct rc_grid *g)
+{
+    struct tool *t = &run->d.t;
+    const struct rc_grid *from = run->map[ENERGY], *p = run->map[PRESSURE];
+    const size_t n = rc_grid_nodes(g), nx = g->nx;
+
+    if (run->law.until_area > 0 || run->law.until_depth > 0 || run->law.until_spread > 0)
+        tool_refuse(t, g,
+                    "--until with the energy of the stream is not implemented: give --cycles");
+    if (from == NULL && p == NULL)
+        tool_refuse(t, run->map[SLIP],
+                    "it is the slip per length rolled, and its wear needs the frame "
+                    "pressure too: take rc-slip --output height,pressure,slip");
+    if (from == NULL && run->map[COEFFICIENT] != NULL)
+        tool_refuse(t, run->map[COEFFICIENT],
+                    "a coefficient of each node is not implemented for bodies that roll: give "
+                    "--coefficient");
+    run->energy = tool_room(t, n, sizeof *run->energy, "the energy");
+    for (size_t k = 0; k < n; k++)
+        run->energy[k] = from != NULL ? from->v[k] : fmax(p->v[k], 0) * run->map[SLIP]->v[k];
+    for (size_t j = 0; j < g->ny && rolls(from != NULL ? from : run->map[SLIP]); j++) {
+        const double sum = rc_sum(run->energy + j * nx, nx) * g->dx;
+        for (size_t i = 0; i < nx; i++)
+            run->energy[j * nx + i] = sum;
+    }
+    run->law.energy = run->energy;
+}
+
+/* Forgets a map that the law does not use. */
+static void
+drop(struct run *run, size_t map)
+{
+    rc_grid_free(run->map[map]);
+    run->map[map] = NULL;
+}
+
 /* The law of the case, from the options and its maps. */
 static void
 find_law(struct run *run, const struct rc_grid *g)
 {
+    const bool by_energy = tool_given(&run->d.t, "energy") && !tool_given(&run->d.t, "mu");
     struct tool *t = &run->d.t;
     double most = 0, least = INFINITY;
 
@@ -299,19 +353,38 @@ find_law(struct run *run, const struct rc_grid *g)
                     : tool_given(t, "coefficient") ? "coefficient"
                     : tool_given(t, "archard")     ? "archard"
                                                    : "energy");
-    if ((run->map[SLIP] != NULL) != (args.cycles.n > 0))
+    if (by_energy && run->map[ENERGY] == NULL)
+        tool_die_at(t, g, EXIT_USAGE,
+                    "it has no frame dissipation: give --mu, or take rc-slip --output "
+                    "height,dissipation");
+    if (!by_energy && (run->map[SLIP] != NULL) != (args.cycles.n > 0))
         tool_die_at(t, g, EXIT_USAGE,
                     run->map[SLIP] != NULL
                         ? "it has a frame slip, the path of a cycle: give --cycles"
+                    : run->map[ENERGY] != NULL
+                        ? "it has a frame dissipation and no slip: give --energy without --mu"
                         : "--cycles needs a frame slip, the path of a cycle, as "
                           "rc-slip --output height,slip writes it");
+    if (args.cycles.n == 0)
+        tool_demand_full_sliding(t, g,
+                                 "take rc-slip --output height,slip, or height,dissipation for "
+                                 "--energy, and --cycles instead of --distance");
+    drop(run, by_energy ? SLIP : ENERGY);
     memcpy(run->law.k, run->k, sizeof run->k);
     if (run->map[COEFFICIENT] != NULL)
         multiply(run, run->map[COEFFICIENT],
                  run->law.k[0] = largest(t, run->map[COEFFICIENT], "1/Pa"));
     run->path = 1;
-    if (run->map[SLIP] != NULL)
+    if (by_energy)
+        (void)largest(t, run->map[ENERGY], rolls(run->map[ENERGY]) ? "J/m3" : "J/m2");
+    else if (run->map[SLIP] != NULL && rolls(run->map[SLIP]))
+        (void)largest(t, run->map[SLIP], "1");
+    else if (run->map[SLIP] != NULL)
         multiply(run, run->map[SLIP], run->path = largest(t, run->map[SLIP], "m"));
+    if (by_energy || rolls(run->map[SLIP]))
+        find_energy(run, g);
+    if (by_energy || run->energy == NULL)
+        drop(run, PRESSURE);
     for (size_t k = 0; k < rc_grid_nodes(g) && run->part != NULL; k++) {
         most = fmax(most, run->part[k]);
         least = fmin(least, run->part[k]);
@@ -499,7 +572,9 @@ set_keys(struct drive *d, struct rc_model *m, struct rc_grid *g)
     d->ended = d->status != RC_MORE && f->distance < d->point[d->at].at[RC_DISTANCE];
     tool_set_number(&d->t, g, "wear_1", run->law.k[0]);
     tool_set_number(&d->t, g, "wear_2", run->law.k[1]);
-    if (run->map[SLIP] != NULL)
+    if (run->energy != NULL)
+        tool_set_number(&d->t, g, "cycles", d->point[d->at].at[RC_DISTANCE]);
+    else if (run->map[SLIP] != NULL)
         tool_set_number(&d->t, g, "cycles", f->distance / run->path);
     judge_map(run, m, g);
     if (run->law.sliding && f->pressure_error > args.tol)
@@ -537,6 +612,8 @@ show_plan(struct run *run, const struct rc_grid *g)
     const double limit = 0.9 * g->dx / scale;
     const double last = run->d.point[run->d.points - 1].at[RC_DISTANCE];
 
+    if (run->energy != NULL)
+        return;
     if (run->law.track == 0 || run->law.k[1] == 0)
         fprintf(run->d.t.out, "  explicit steps: about %.3g, each at most 0.9 dx/(k E*) = %s\n",
                 ceil(last / limit), shown_in_unit(limit, "m"));
@@ -598,7 +675,8 @@ do_case(struct run *run, const struct rc_grid *g)
         add_counter(run, g);
     for (size_t k = 0; k < d->points; k++)
         rc_point_set(&d->point[k], RC_LOAD, load);
-    suspect_unit(run, g);
+    if (run->energy == NULL)
+        suspect_unit(run, g);
     suspect_track(run, g);
     drive_case(d, g,
                rc_wear_new(rc_elastic_new(&shape, g->v, &problem, NULL, &d->t.err), g->v, &run->law,
@@ -608,7 +686,9 @@ do_case(struct run *run, const struct rc_grid *g)
         show_plan(run, g);
     layers_free(&layers);
     free(run->part);
-    run->part = NULL;
+    free(run->energy);
+    run->part = run->energy = NULL;
+    run->law.energy = NULL;
 }
 
 /* The heights of the next case, with the maps beside them. */
@@ -627,13 +707,14 @@ next(struct run *run)
     return g;
 }
 
-/* A stream is one cycle: the last case has its heights and maps, and the slip is the sum over all cases. */
+/* A stream is one cycle: the last case has its heights and maps, and slip and dissipation are the sums over all
+ * cases. */
 static struct rc_grid *
 next_cycle(struct run *run)
 {
     struct rc_grid *g = next(run), *last = NULL, *map[MAPS];
 
-    while (g != NULL && run->map[SLIP] != NULL) {
+    while (g != NULL && (run->map[SLIP] != NULL || run->map[ENERGY] != NULL)) {
         rc_grid_free(last);
         last = g;
         memcpy(map, run->map, sizeof map);
@@ -641,8 +722,13 @@ next_cycle(struct run *run)
         if ((g = next(run)) == NULL)
             break;
         tool_demand_grid_of(&run->d.t, g, last);
-        for (size_t k = 0; k < rc_grid_nodes(g) && run->map[SLIP] != NULL; k++)
-            run->map[SLIP]->v[k] += map[SLIP]->v[k];
+        if (rolls(map[SLIP]) || rolls(map[ENERGY]))
+            tool_refuse(&run->d.t, g,
+                        "a second case: the wear of a contact that rolls follows from one "
+                        "steady state: give rc-slip --steady, or choose with rc-pick --case");
+        for (size_t m = SLIP; m <= ENERGY; m++)
+            for (size_t k = 0; k < rc_grid_nodes(g) && run->map[m] != NULL && map[m] != NULL; k++)
+                run->map[m]->v[k] += map[m]->v[k];
         for (size_t k = 0; k < MAPS; k++)
             rc_grid_free(map[k]);
     }
@@ -682,10 +768,14 @@ main(int argc, char **argv)
                                    .course.stepped = put_step},
                              .beside = {{"wear-coefficient", &run.map[COEFFICIENT]},
                                         {"hardness", &run.map[HARD]},
-                                        {"slip", &run.map[SLIP]}},
+                                        {"slip", &run.map[SLIP]},
+                                        {"dissipation", &run.map[ENERGY]},
+                                        {"pressure", &run.map[PRESSURE]}},
                              .maps = {{"wear-coefficient", &run.map[COEFFICIENT]},
                                       {"hardness", &run.map[HARD]},
                                       {"slip", &run.map[SLIP]},
+                                      {"dissipation", &run.map[ENERGY]},
+                                      {"pressure", &run.map[PRESSURE]},
                                       {"counter", &run.counter}}};
     struct rc_grid *g;
 
@@ -705,6 +795,8 @@ main(int argc, char **argv)
         if (!(run.list->v[k] > run.list->v[k - 1]))
             tool_usage(&run.d.t, "--%s: each number must be larger than the one before it",
                        args.cycles.n > 0 ? "cycles" : "distance");
+    if (args.cycles.n == 0) /* the energy is that of full sliding */
+        run.beside[ENERGY].channel = NULL;
     report_open(&run.steps, &run.d.t, args.steps);
     drive_open(&run.d, axes);
     while ((g = args.cycles.n > 0 ? next_cycle(&run) : next(&run)) != NULL) {

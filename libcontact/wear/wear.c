@@ -14,6 +14,9 @@
  * h - d t W p0, and p1 that of h - w t W (p0 + p_a), both with D = d t W. The heights lose t W (w p0 + w p_a
  * + d p1). The step leaves ripples in the pressure where nodes have just come into contact. Steps of backward
  * Euler in the last part of the distance damp them.
+ *
+ * A given friction energy wears the heights by k times this energy instead, without a step: only the contact
+ * of the worn heights is solved.
  */
 #include "wear.h"
 
@@ -281,7 +284,7 @@ find_figures(struct wear *v)
     struct rc_wear_figures *f = &v->f;
     double in = 0;
 
-    f->distance = v->s;
+    f->distance = v->law.energy == NULL ? v->s : NAN;
     f->wear_volume = rc_sum(v->worn, v->n) * cell;
     f->max_wear_depth = 0;
     for (size_t k = 0; k < v->n; k++) {
@@ -346,6 +349,13 @@ set_out(struct wear *v, struct rc_err *err)
         v->stage = REST;
         find_figures(v);
         return v->f.converged ? RC_OK : RC_SHORT;
+    }
+    if (v->law.energy != NULL) {
+        for (size_t k = 0; k < v->n; k++)
+            v->worn[k] += v->k * v->law.energy[k] * (v->end - v->s);
+        v->s = v->end;
+        v->tried = 0;
+        return contact(v, PRESS, err);
     }
     if (v->last == 0 && left > 1e-9 * v->end) {
         v->t = fmin(v->t, longest(v));
@@ -715,7 +725,9 @@ plan(const struct rc_model *m, const struct rc_point *most, struct rc_expected *
     const double nodes =
         most->at[RC_DISTANCE] * (v->k + v->row * m->shape.dx) * v->law.estar / m->shape.dx;
     const double steps = 4 * fmax(log10(nodes / first_step), 0) + 2;
-    const double contacts = most->at[RC_DISTANCE] > 0 ? 1 + 2 * steps + (double)last_steps(v) : 1;
+    const double contacts = !(most->at[RC_DISTANCE] > 0) ? 1
+                            : v->law.energy != NULL      ? 2
+                                                         : 1 + 2 * steps + (double)last_steps(v);
     const double work = contacts * (v->law.part != NULL ? RC_WEAR_BY_NODE : 1);
 
     if (rc_model_plan(m->inner, &inner, expected, err) != RC_OK)
@@ -763,6 +775,15 @@ rc_wear_check(struct rc_wear_problem *law, size_t n, struct rc_err *err)
     }
     if (law->part != NULL && largest != 1)
         return rc_err_set(err, "the largest coefficient is %g of itself: it must be 1", largest);
+    for (size_t k = 0; k < n && law->energy != NULL; k++)
+        if (!(law->energy[k] >= 0) || isinf(law->energy[k]))
+            return rc_err_set(err, "energy %g J/m2 of node %zu: it must be at least 0 and finite",
+                              law->energy[k], k);
+    if (law->energy != NULL &&
+        (law->part != NULL || law->track > 0 || law->sliding || law->until_area > 0 ||
+         law->until_depth > 0 || law->until_spread > 0))
+        return rc_err_set(err, "wear by a given energy has no coefficient of each node, track, "
+                               "sliding or condition beside it");
     if (!(law->track >= 0) || isinf(law->track))
         return rc_err_set(err, "track of %g m: it must be at least 0 and finite", law->track);
     if (law->track > 0 && law->k[1] > 0 && law->part != NULL)
@@ -804,7 +825,8 @@ make(struct wear *v, const double *h, const struct rc_wear_problem *law, struct 
     v->share[1] = law->track > 0 ? 0 : law->k[1] / v->k;
     v->t = rc_wear_first_step(&v->law, s);
     v->kept = true;
-    if (rc_model_set_compliance(inner, v->k * v->t, law->part, v->row * v->t, err) != RC_OK ||
+    if ((law->energy == NULL &&
+         rc_model_set_compliance(inner, v->k * v->t, law->part, v->row * v->t, err) != RC_OK) ||
         rc_model_set_compliance(inner, 0, NULL, 0, err) != RC_OK)
         return RC_FAIL;
     v->h = rc_store_copy(&v->base.own, v->n, sizeof *h, h);

@@ -265,7 +265,7 @@ refuses 2 'each at least 0' "one that is not a number" "rc-wear --coefficient na
 refuses 2 'no body wears' "two of 0" "rc-wear --coefficient 0,0 --distance 1m ball.rcg -o x.rcg"
 refuses 2 'give one of --coefficient' "none" "rc-wear --distance 1m ball.rcg -o x.rcg"
 refuses 2 'belong together' "Archard's number without a hardness" "rc-wear --archard 1e-4 --distance 1m ball.rcg -o x.rcg"
-refuses 2 'belong together' "an energy without a friction" "rc-wear --energy 1e-5mm3/J --distance 1m ball.rcg -o x.rcg"
+refuses 2 '--energy needs --mu' "an energy without a friction" "rc-wear --energy 1e-5mm3/J --distance 1m ball.rcg -o x.rcg"
 refuses 2 'larger than the one before' "a distance that falls" "$wear --distance 2m,1m ball.rcg -o x.rcg"
 refuses 2 'give the sliding distances' "no distance" "$wear ball.rcg -o x.rcg"
 refuses 2 'it must be area=FRACTION' "an end that is none" "$wear --distance 1m --until area=2 ball.rcg -o x.rcg"

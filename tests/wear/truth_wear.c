@@ -625,10 +625,74 @@ a_smooth_body_is_a_track(void **state)
     rc_model_free(m[1]);
 }
 
+/* A given energy wears each node by the coefficient times it, on any way to a number of cycles; the pressure is
+ * that of the worn heights. What has no meaning beside it is refused. */
+static void
+an_energy_wears_exactly(void **state)
+{
+    enum {
+        SIDE = 24,
+        N = SIDE * SIDE
+    };
+    const struct rc_shape s = {SIDE, SIDE, node, 1.3 * node};
+    const double load = 0.02 * estar * node * node;
+    const struct rc_problem contact = {.pair.estar = estar, .tol = 1e-8, .threads = 1};
+    static double h[N], energy[N], wear[N], p[N], worn[N];
+    struct rc_wear_problem law = {
+        .k = {2 * k_wear, k_wear}, .estar = estar, .tol = 1e-4, .energy = energy};
+    struct rc_err err = {""};
+    struct rc_model *m;
+    double sum = 0, off = 0, all = 0;
+    struct solved is;
+
+    (void)state;
+    for (size_t k = 0; k < N; k++) {
+        const double x = (double)(k % SIDE) - 11, y = 1.3 * ((double)(k / SIDE) - 12);
+        h[k] = -(x * x + y * y) * node / 400;
+        energy[k] = 1e-3 * node / (3 * k_wear) * (1 + sin(x) * cos(y));
+        sum += energy[k];
+    }
+    m = rc_wear_new(rc_elastic_new(&s, h, &contact, NULL, &err), h, &law, &err);
+    assert_non_null(m);
+    for (int cycles = 0; cycles <= 5; cycles += cycles + 1) { /* 0, 1, 3 */
+        struct rc_point to = {0};
+        rc_point_set(&to, RC_LOAD, load);
+        rc_point_set(&to, RC_DISTANCE, cycles);
+        assert_int_equal(rc_model_run(m, &to, &err), RC_OK);
+        assert_true(rc_model_look(m, NULL, &err) == RC_OK && rc_model_keep(m, &err) == RC_OK);
+        assert_int_equal(rc_model_frame(m, "wear", wear, &err), RC_OK);
+        for (size_t k = 0; k < N; k++)
+            assert_true(fabs(wear[k] - cycles * 3 * k_wear * energy[k]) <= 1e-14 * node);
+        assert_true(
+            fabs(rc_wear_result(m)->wear_volume - cycles * 3 * k_wear * sum * s.dx * s.dy) <=
+            1e-12 * rc_wear_result(m)->wear_volume);
+    }
+    for (size_t k = 0; k < N; k++)
+        worn[k] = h[k] - wear[k];
+    is = solve(s, worn,
+               (struct rc_problem){.pair.estar = estar, .load = load, .tol = 1e-9, .threads = 1});
+    assert_int_equal(rc_model_frame(m, "pressure", p, &err), RC_OK);
+    for (size_t k = 0; k < N; k++) {
+        off += fabs(p[k] - is.p[k]);
+        all += is.p[k];
+    }
+    assert_true(off < 1e-6 * all);
+    solved_free(&is);
+    rc_model_free(m);
+    law.track = node;
+    assert_null(rc_wear_new(rc_elastic_new(&s, h, &contact, NULL, &err), h, &law, &err));
+    assert_non_null(strstr(err.text, "wear by a given energy has no"));
+    law.track = 0;
+    energy[7] = -1;
+    assert_null(rc_wear_new(rc_elastic_new(&s, h, &contact, NULL, &err), h, &law, &err));
+    assert_non_null(strstr(err.text, "energy -1 J/m2 of node 7"));
+}
+
 int
 main(void)
 {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test(an_energy_wears_exactly),
         cmocka_unit_test(phases_share_the_load),
         cmocka_unit_test(a_disc_that_sticks_carries_all),
         cmocka_unit_test(waves_decay),
