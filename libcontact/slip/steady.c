@@ -502,7 +502,7 @@ rc_steady_guess(struct rc_steady *d)
 {
     for (size_t k = 0; k < d->n; k++) {
         const double x = d->v[0] - d->rigid[0][k], y = d->v[1] - d->rigid[1][k], r = hypot(x, y);
-        const double part = r > 0 && !d->asked.force ? d->g[k] / (2 * r) : 0;
+        const double part = r > 0 && !d->asked.force ? fmin(d->g[k] / (2 * r), 1) : 0;
 
         d->q[0][k] = part * x;
         d->q[1][k] = part * y;

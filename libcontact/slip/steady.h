@@ -67,7 +67,8 @@ struct rc_steady *rc_steady_new(const struct rc_shape *shape, enum rc_boundary b
                                 struct rc_err *err);
 void rc_steady_free(struct rc_steady *d); /* NULL is allowed */
 RC_OWNER(rc_steady)
-/* A first q: half of what friction can carry, along the motion; 0 where the force is given. */
+/* A first q, along the motion: half of what friction can carry, or E* times the creepage, about as much as there is
+ * where all nodes stick, if that is less; 0 where the force is given. */
 void rc_steady_guess(struct rc_steady *d);
 /* Starts from q, which is moved to the discs. */
 void rc_steady_begin(struct rc_steady *d);

@@ -353,6 +353,25 @@ test_full_slide(void **state)
         }
 }
 
+/* With little creepage all nodes stick, the force is in proportion to it, and the work does not grow. */
+static void
+test_little_creepage(void **state)
+{
+    double *p, load, part = 0;
+    struct rc_model *m = ellipse(48, 1, 1e-4, false, &p, &load);
+    const struct rc_rolling_figures *f = rc_rolling_result(m);
+
+    (void)state;
+    for (double creep = 1e-12; creep < 1e-6; creep *= 1e3) {
+        assert_int_equal(roll(m, load, creep, 0, 0, false, &err), RC_OK);
+        part = creep == 1e-12 ? f->force[0] / creep : part;
+        assert_true(f->slip_nodes == 0 && fabs(f->force[0] / (part * creep) - 1) < 1e-4);
+        assert_true(f->convolutions < 110);
+    }
+    rc_model_free(m);
+    free(p);
+}
+
 /* Friction energy is above 0 at nodes that slip, or is that of the trailing edge, and its sum is force times
  * creepage and moment times spin. Slip times the largest traction is the same energy. */
 static void
@@ -795,21 +814,14 @@ int
 main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_monotone),
-        cmocka_unit_test(test_unique),
-        cmocka_unit_test(test_rolling_in_time),
-        cmocka_unit_test(test_conditions_and_energy),
-        cmocka_unit_test(test_estimate_and_work),
-        cmocka_unit_test(test_spacing_and_curve),
-        cmocka_unit_test(test_full_slide),
-        cmocka_unit_test(test_dissipation),
-        cmocka_unit_test(test_force_given),
-        cmocka_unit_test(test_refusals),
-        cmocka_unit_test(test_small_contacts),
-        cmocka_unit_test(test_look_on_the_way),
-        cmocka_unit_test(test_path),
-        cmocka_unit_test(test_path_state),
-        cmocka_unit_test(test_path_refusals),
+        cmocka_unit_test(test_monotone),          cmocka_unit_test(test_unique),
+        cmocka_unit_test(test_rolling_in_time),   cmocka_unit_test(test_conditions_and_energy),
+        cmocka_unit_test(test_estimate_and_work), cmocka_unit_test(test_spacing_and_curve),
+        cmocka_unit_test(test_full_slide),        cmocka_unit_test(test_dissipation),
+        cmocka_unit_test(test_little_creepage),   cmocka_unit_test(test_force_given),
+        cmocka_unit_test(test_refusals),          cmocka_unit_test(test_small_contacts),
+        cmocka_unit_test(test_look_on_the_way),   cmocka_unit_test(test_path),
+        cmocka_unit_test(test_path_state),        cmocka_unit_test(test_path_refusals),
         cmocka_unit_test(test_increments),
     };
 
