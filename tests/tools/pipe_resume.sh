@@ -9,6 +9,6 @@ walk() { "$python" "$RC_SOURCE/tests/tools/resume.py" "$@" | tee walk.txt >&2; }
 if before_release; then
     claim "whatever changes is refused by its name or takes effect, in all modes" walk full "$scratch"
 else
-    claim "whatever changes is refused by its name or takes effect" walk quick "$scratch" history yield passes tangential path-file cycles
+    claim "whatever changes is refused by its name or takes effect" walk quick "$scratch" history yield passes tangential path-file wear
 fi
 tail -n 1 walk.txt

@@ -84,7 +84,7 @@ def size_of(name, of):
     return max((abs(float(v)) for v in values if v is not None), default=0)
 
 
-def differ(mine, right, rows, right_rows, within):
+def differ(mine, right, rows, right_rows, within, loose):
     """Where two results differ by more than this part, or ''."""
     if len(mine) != len(right):
         return '%d frames instead of %d' % (len(mine), len(right))
@@ -105,7 +105,7 @@ def differ(mine, right, rows, right_rows, within):
             return '%s off by %.2g' % (l['channel'], off)
     for a, b in zip(rows, right_rows):
         for name in b:
-            if COST.search(name) or a.get(name) == b[name]:
+            if COST.search(name) or loose and loose in name or a.get(name) == b[name]:
                 continue
             x, y = a.get(name), b[name]
             if x is None or y is None or isinstance(y, (str, dict, list)):
@@ -186,13 +186,13 @@ MODES = {
     'passes': ('rc-solve', STEEL + '--load 10mN --radius 20um --travel=-2um,0,2um --yield 2GPa --increments 2 --slabs 2 --passes 2'.split(), rough, ()),
     'tangential': ('rc-slip', '--mu .3 --tangential 1mN --increments 2 --tol 1e-6'.split(), solved('--load', '10mN', *STEEL), ()),
     'displacement': ('rc-slip', '--mu .3 --displacement 1nm,1nm --nu .3 --increments 2 --tol 1e-6'.split(), solved('--load', '10mN', '--estar', '110GPa'), ()),
-    'dissimilar': ('rc-slip', '--mu .3 --tau-max 1GPa --tangential 1mN --increments 2 --tol 1e-5'.split(), solved('--load', '10mN', *MIXED), ()),
+    'dissimilar': ('rc-slip', '--mu .3 --tau-max 1GPa --tangential 1mN --increments 2 --tol 1e-5'.split(), solved('--load', '10mN', '--radius', '10um', *MIXED), ()),
     'path': ('rc-slip', ['--mu', '.3', '--path', '10mN,0,0;10mN,2mN,0;10mN,-2mN,0', '--output', 'pressure,traction-x,slip,dissipation'],
              solved('--load', '10mN', *STEEL), ()),
     'path-file': ('rc-slip', '--mu .3 --history path.txt --increments 2'.split(), solved('--load', '10mN', *STEEL), (PATH,)),
-    'steady': ('rc-slip', '--mu .3 --creep 1e-2,0 --steady'.split(), solved('--load', '10mN', '--radius', '10um', *STEEL), ()),
-    'force': ('rc-slip', '--mu .3 --creep-force .5mN --steady'.split(), solved('--load', '10mN', '--radius', '10um', *MIXED), ()),
-    'positions': ('rc-slip', '--mu .3 --creep 1e-2,0'.split(),
+    'steady': ('rc-slip', '--mu .3 --creep 1e-2,0 --steady --tol 1e-5'.split(), solved('--load', '10mN', '--radius', '10um', *STEEL), ()),
+    'force': ('rc-slip', '--mu .3 --creep-force .5mN --steady --tol 1e-5'.split(), solved('--load', '10mN', '--radius', '10um', *MIXED), ()),
+    'positions': ('rc-slip', '--mu .3 --creep 1e-2,0 --tol 1e-5'.split(),
                   solved('--load', '10mN', '--radius', '20um', '--travel=0,1um,2um', *STEEL), ()),
     'wear': ('rc-wear', WEAR, solved('--load', '10mN', *STEEL), ()),
     'archard': ('rc-wear', '--archard 1e-4,1e-4 --hardness 1GPa --distance 1mm,2mm --motion track:60um'.split(),
@@ -205,6 +205,9 @@ MODES = {
     'sliding': ('rc-wear', '--coefficient 1e-6mm3/Nm,1e-6mm3/Nm --motion sliding --counter other.rcg --distance 1cm,2cm'.split(),
                 solved('--load', '10mN', '--periodic', *STEEL), ()),
 }
+
+# Not compared: the dissipated energy of dissimilar bodies jumps by some percent also from one --tol to another.
+LOOSE = {'dissimilar': 'dissipated'}
 
 # ---- changes ----
 
@@ -371,7 +374,7 @@ class Mode:
             return 'unnamed', 'exit %d, and not by its name: %s' % (status, words.strip()[-200:])
         if status != right[0]:
             return 'wrong', 'exit %d, a fresh run %d: %s' % (status, right[0], words.strip()[-160:])
-        why = differ(frames, right[1], rows, right[2], self.within(args))
+        why = differ(frames, right[1], rows, right[2], self.within(args), LOOSE.get(self.name))
         if names is None:
             self.known[len(cut)] = why
         elif why.split(' ')[:3] == self.known.get(len(cut), '').split(' ')[:3]:
