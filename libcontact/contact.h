@@ -1426,7 +1426,7 @@ struct rc_heat_problem {
 /* The Peclet number of a body is V a/(2 kap). a is the radius of a circle of the area of the largest
  * patch; for a cell it is the side of the cell along the motion. */
 struct rc_heat_figures {
-    double heat_power, heat_power_1;           /* W: of the contact, into body 1               */
+    double heat_power, heat_power_1; /* W: of the contact, into body 1               */
     /* Of body 1. NAN: no heat; share_1 also where bulk temperatures drive more heat from body to body than
      * the contact has. */
     double share_1, share_blok, share_charron;
