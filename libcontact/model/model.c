@@ -3,6 +3,7 @@
  */
 #include "row.h"
 
+#include <float.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -86,8 +87,9 @@ aim(const struct rc_model *m, const struct rc_point *to, struct rc_point *next, 
         if (!(taken(m) >> k & 1))
             return rc_err_set(err, "a point gives the %s, which the %s model does not have",
                               a->name, m->row->name);
-        if (isnan(v) || (isinf(v) && !(k == RC_APPROACH && v < 0)))
-            return rc_err_set(err, "%s %g: it must be a finite number", a->name, v);
+        if (!(fabs(v) <= (double)FLT_MAX) && !(k == RC_APPROACH && isinf(v) && v < 0))
+            return rc_err_set(err, "%s %g: it must be a finite number, also in single precision",
+                              a->name, v);
         if (a->rises && rc_point_has(&m->from, k) && v < m->from.at[k])
             return rc_err_set(err, "%s %g %s: it must be at least that of the previous point, %g",
                               a->name, v, a->unit, m->from.at[k]);
@@ -128,7 +130,9 @@ rc_model_step(struct rc_model *m, struct rc_err *err)
     if (m->status != RC_MORE)
         return m->status;
     m->looked = false;
-    return m->status = m->row->step(m, err);
+    m->status = m->row->step(m, err);
+    m->looked = m->looked && m->status != RC_FAIL;
+    return m->status;
 }
 
 enum rc_status
@@ -399,6 +403,8 @@ rc_model_make_outer(const struct rc_model_row *row, size_t size, struct rc_model
         rc_model_free(inner);
     else
         m->inner = inner;
+    if (m != NULL)
+        inner->inside = true;
     return m;
 }
 

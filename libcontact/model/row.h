@@ -41,6 +41,8 @@ bool rc_state_holds(struct rc_state *s, size_t n);
 bool rc_state_reads(const struct rc_state *s);
 /* True if the state was refused: the members that were to be read are then unknown. */
 bool rc_state_refused(const struct rc_state *s);
+/* True for a copy in memory at a kept point, which holds only what the history is made of. */
+bool rc_state_is_copy(const struct rc_state *s);
 /* Exchanges a further model that the row drives in addition to its inner one. */
 void rc_state_model(struct rc_state *s, struct rc_model *m);
 /* Refuses a state that is being read. `why` is copied: a part of a sentence. */
@@ -133,6 +135,7 @@ struct rc_model {
     const struct rc_model_row *row;
     struct rc_shape shape;
     struct rc_model *inner;    /* owned; NULL: none                      */
+    bool inside;               /* true: the inner model of another one   */
     struct rc_point from, to;  /* last point kept, with its found axes; next one */
     enum rc_status status;     /* RC_MORE: the point is not reached yet */
     bool moved;                /* true: steps were made since the last keep */

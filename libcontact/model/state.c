@@ -21,6 +21,7 @@ struct rc_state {
     size_t at, numbers;    /* place of the next number, and where they end     */
     size_t map_at, n;      /* place of the next map, and where they end        */
     size_t maps, all_maps; /* maps exchanged so far, and all maps of the state that is read */
+    bool copy;             /* see rc_state_is_copy */
     bool bad;              /* the numbers were refused, */
     char why[256];         /* because of this */
 };
@@ -29,6 +30,12 @@ bool
 rc_state_reads(const struct rc_state *s)
 {
     return s->mode == READS && !s->bad;
+}
+
+bool
+rc_state_is_copy(const struct rc_state *s)
+{
+    return s->copy;
 }
 
 bool
@@ -289,14 +296,14 @@ rc_state_model(struct rc_state *s, struct rc_model *m)
 enum rc_status
 rc_state_save(struct rc_state_copy *c, void (*part)(void *of, struct rc_state *s), void *of)
 {
-    struct rc_state s = {.mode = COUNTS};
+    struct rc_state s = {.mode = COUNTS, .copy = true};
     double *v;
 
     part(of, &s);
     if ((v = realloc(c->v, (s.at + s.map_at + 1) * sizeof *v)) == NULL)
         return RC_FAIL;
     *c = (struct rc_state_copy){v, s.at + s.map_at, s.at, s.maps};
-    s = (struct rc_state){.mode = WRITES, .to = v, .map_at = s.at};
+    s = (struct rc_state){.mode = WRITES, .copy = true, .to = v, .map_at = s.at};
     part(of, &s);
     return RC_OK;
 }
@@ -306,6 +313,7 @@ rc_state_load(const struct rc_state_copy *c, void (*part)(void *of, struct rc_st
               struct rc_err *err)
 {
     struct rc_state s = {.mode = READS,
+                         .copy = true,
                          .from = c->v,
                          .n = c->n,
                          .numbers = c->numbers,

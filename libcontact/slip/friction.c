@@ -436,7 +436,9 @@ step(struct rc_model *m, struct rc_err *err)
 
     if (f->again) {
         f->again = false;
-        return find_pressure(f, w, err);
+        if (f->alternates)
+            return find_pressure(f, w, err);
+        return finds_pressure(f, w) ? pose(f, w, err) : step_contact(f, w, err);
     }
     status = w->stage == PRESSING ? step_contact(f, w, err) : slide(f, w, err);
     if (status == RC_MORE)
@@ -640,7 +642,8 @@ exchange_increment(struct friction *f, struct rc_state *s)
         rc_state_finite(s, f->n, c < 2 ? w->before[c] : w->p);
     for (int c = 0; c < 2 && f->problem.fewer > 0; c++)
         rc_state_finite(s, f->n, f->lag[c]);
-    rc_slip_increment(w->slip, s);
+    if (f->alternates) /* else the increment begins again */
+        rc_slip_increment(w->slip, s);
     if (!rc_state_reads(s))
         return;
     f->leg = rc_friction_leg(&f->problem, &f->before, &f->base.from, &f->base.to);

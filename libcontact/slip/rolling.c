@@ -34,10 +34,11 @@ enum {
     RUN = 16 /* nodes of a contact along x that a coarser grid pays for */
 };
 static const double usual_tol[] = {1e-3, 1e-2}; /* of a steady state, of a path */
-static const double forgets = 1.5;     /* at least exp(-forgets) is forgotten over a length */
-static const double coarse_tol = 3e-2; /* most, of grids that give a start                      */
-static const double told_tol = 1e-3;   /* least, of the grid that tells the error of the spacing */
-static const double caution = 1.5;     /* of the difference between the two finest grids         */
+static const double forgets = 1.5;      /* at least exp(-forgets) is forgotten over a length */
+static const double coarse_tol = 3e-2;  /* most, of grids that give a start                      */
+static const double told_tol = 1e-3;    /* least, of the grid that tells the error of the spacing */
+static const double most_columns = 1e9; /* of the contact from the map */
+static const double caution = 1.5;      /* of the difference between the two finest grids         */
 
 /* A grid, the finest first. */
 struct level {
@@ -213,6 +214,11 @@ make_level(struct rolling *f, size_t l, struct rc_err *err)
 
     at->x = middle_of(f) - f->base.to.at[RC_POSITION] - (double)(shape.nx - 1) / 2 * shape.dx;
     at->y = -(double)(shape.ny - 1) / 2 * shape.dy;
+    if (!(fabs(at->x) <= most_columns * shape.dx))
+        return rc_err_set(err,
+                          "position %g m: the map is %g m away from it, so that rounding moves its "
+                          "nodes: count positions from the map",
+                          f->base.to.at[RC_POSITION], at->x);
     for (size_t k = 0; k < l; k++) {
         at->x += (double)first_of(shape.nx) * shape.dx;
         at->y += (double)first_of(shape.ny) * shape.dy;
@@ -350,7 +356,12 @@ pose_step(struct rolling *f, size_t columns, struct rc_err *err)
                  "map jumps: take a map with a longer period, or the free boundary");
     f->levels = 1;
     l->d->asked.tol *= f->rolls ? 1 - f->kept : 1;
+    if (f->resumes && f->stage == THERE) {
+        rc_steady_reach(l->d, columns);
+        return RC_OK;
+    }
     for (int c = 0; c < 2; c++) {
+        memcpy(l->d->q[c], l->d->last[c], f->n * sizeof *f->p); /* also after a try */
         if (!f->rolls) /* the bodies are pressed without friction */
             memcpy(l->d->old[c], l->d->way[c], f->n * sizeof *f->p);
         l->d->v[c] = f->problem.force ? 0 : f->base.to.at[RC_CREEP_X + c] * step_of(l);
@@ -427,8 +438,10 @@ begin(struct rolling *f)
     struct level *l = &f->at[f->level];
 
     f->stage = ROLLING;
-    if (f->problem.path)
+    if (f->problem.path) {
+        f->resumes = false;
         return;
+    }
     for (int c = 0; c < 2 && !f->problem.force; c++)
         l->d->v[c] = f->base.to.at[RC_CREEP_X + c] * step_of(l);
     if (!f->resumes && f->level + 1 == f->levels) {
@@ -438,8 +451,8 @@ begin(struct rolling *f)
     } else if (!f->resumes) {
         refine(l + 1, l);
     }
+    (f->resumes ? rc_steady_begin_again : rc_steady_begin)(l->d);
     f->resumes = false;
-    rc_steady_begin(l->d);
 }
 
 /* ---- figures ---- */
@@ -590,10 +603,7 @@ press(struct rolling *f, struct rc_err *err)
     f->stage = PRESSING;
     f->good = true;
     f->pressure_error = 0;
-    if (o->known == NULL)
-        return rc_model_go(f->base.inner, &to, err);
-    memcpy(f->p, o->known->p, f->n * sizeof *f->p);
-    return RC_MORE;
+    return o->known == NULL ? rc_model_go(f->base.inner, &to, err) : RC_MORE;
 }
 
 static enum rc_status
@@ -620,6 +630,15 @@ go(struct rc_model *m, struct rc_err *err)
 }
 
 static enum rc_status
+there(struct rolling *f)
+{
+    f->stage = THERE;
+    f->resumes = false;
+    find_figures(f);
+    return f->f.converged ? RC_OK : RC_SHORT;
+}
+
+static enum rc_status
 step_contact(struct rolling *f, struct rc_err *err)
 {
     struct rc_model *inner = f->base.inner;
@@ -633,15 +652,19 @@ step_contact(struct rolling *f, struct rc_err *err)
         if (rc_model_look(inner, NULL, err) != RC_OK ||
             rc_model_frame(inner, "pressure", f->p, err) != RC_OK)
             return RC_FAIL;
-        f->inner_convolutions += rc_model_number(inner, "convolutions");
+        f->inner_convolutions += f->resumes ? 0 : rc_model_number(inner, "convolutions");
         f->pressure_error = rc_model_number(inner, "pressure_error_estimate");
     }
+    if (f->problem.known != NULL)
+        memcpy(f->p, f->problem.known->p, f->n * sizeof *f->p);
     if (pose(f, err) != RC_OK)
         return RC_FAIL;
     if (f->resumes && level >= f->levels)
         return rc_err_set(err, "the state has %zu coarser grids, and this contact has %zu", level,
                           f->levels - 1);
     f->level = f->resumes ? level : f->levels - 1;
+    if (f->resumes && f->problem.path && f->stage == THERE)
+        return there(f);
     begin(f);
     return RC_MORE;
 }
@@ -654,8 +677,9 @@ step(struct rc_model *m, struct rc_err *err)
 
     if (f->again) {
         f->again = false;
-        f->resumes = f->stage != PRESSING;
-        return press(f, err);
+        f->resumes = true;
+        f->pressure_error = 0;
+        return step_contact(f, err);
     }
     if (f->stage == PRESSING)
         return step_contact(f, err);
@@ -669,9 +693,7 @@ step(struct rc_model *m, struct rc_err *err)
         begin(f);
         return RC_MORE;
     }
-    f->stage = THERE;
-    find_figures(f);
-    return f->f.converged ? RC_OK : RC_SHORT;
+    return there(f);
 }
 
 static enum rc_status
@@ -764,11 +786,23 @@ set_heights(struct rc_model *m, const double *h, struct rc_err *err)
 /* ---- states ---- */
 
 static void
+exchange_faces(struct rc_steady *d, struct rc_state *s)
+{
+    RC_STATE_COUNTS(s, &d->found.stick, &d->found.slipping);
+    for (size_t k = 0; k < d->n; k++) {
+        size_t face = d->face[k];
+        rc_state_count(s, &face, RC_FACE_SLIP);
+        d->face[k] = (unsigned char)face;
+    }
+}
+
+static void
 state(struct rc_model *m, struct rc_state *s)
 {
     struct rolling *f = (struct rolling *)m;
     const bool path = f->problem.path;
     struct level *l;
+    bool there;
 
     rc_state_count(s, &f->stage, THERE);
     rc_state_count(s, &f->level, LEVELS - 1);
@@ -794,15 +828,25 @@ state(struct rc_model *m, struct rc_state *s)
             return;
         }
     }
-    if (!rc_state_holds(s, (path ? 6 : 2) * l->d->n + 2))
+    there = path && f->stage == THERE;
+    if (!rc_state_holds(s, (there ? 9 : path ? 4 : 2) * l->d->n + 8))
         return;
     rc_state_finite(s, 2, l->d->v);
-    for (int c = 0; c < 2 && path; c++) {
-        rc_state_finite(s, l->d->n, l->d->old[c]);
-        rc_state_finite(s, l->d->n, l->d->last[c]);
+    RC_STATE_OPEN(s, &l->d->found.estimate);
+    RC_STATE_SIZES(s, &l->d->found.change);
+    RC_STATE_COUNTS(s, &l->d->found.steps, &l->d->found.fallbacks);
+    for (int c = 0; c < 2; c++) {
+        if (path) { /* a step that has not ended begins again */
+            rc_state_finite(s, l->d->n, l->d->last[c]);
+            rc_state_finite(s, l->d->n, l->d->old[c]);
+        }
+        if (!path || there)
+            rc_state_finite(s, l->d->n, l->d->q[c]);
+        if (there)
+            rc_state_finite(s, l->d->n, l->d->u[c]);
     }
-    for (int c = 0; c < 2; c++)
-        rc_state_finite(s, l->d->n, l->d->q[c]);
+    if (there)
+        exchange_faces(l->d, s);
 }
 
 static void

@@ -364,14 +364,22 @@ take(struct rc_steady *d, double part)
     look(d);
 }
 
-/* Poses a step in time: `before` is the displacement of the surfaces until now, in the map that then moves by
- * some columns. Surface that comes in is free, so that its displacement does not matter. */
+/* The displacement that a node keeps if it sticks. `before` is that of the surfaces until now, in the map that
+ * then moves by some columns. Surface that comes in is free, so that its displacement does not matter. */
+static inline double
+held(const struct rc_steady *d, double *const before[2], size_t columns, int c, size_t k)
+{
+    const size_t nx = d->shape.nx, i = k % nx + columns;
+    const bool round = d->t->boundary == RC_PERIODIC;
+
+    return (i < nx || round ? before[c][k - k % nx + i % nx] : 0) - d->rigid[c][k];
+}
+
+/* Poses a step in time. */
 static enum rc_status
 set_out(struct rc_steady *d, double *const before[2], size_t columns, double tol,
         struct rc_err *err)
 {
-    const size_t nx = d->shape.nx;
-    const bool round = d->t->boundary == RC_PERIODIC;
     struct rc_discs *discs = d->discs;
 
     if (discs == NULL && (discs = d->discs = rc_discs_new(d->t, err)) == NULL)
@@ -379,10 +387,8 @@ set_out(struct rc_steady *d, double *const before[2], size_t columns, double tol
     memcpy(discs->g, d->g, d->n * sizeof *d->g);
     for (int c = 0; c < 2; c++)
         for (size_t k = 0; k < d->n; k++) {
-            const size_t i = k % nx + columns;
             discs->q[c][k] = d->q[c][k];
-            discs->w[c][k] =
-                (i < nx || round ? before[c][k - k % nx + i % nx] : 0) - d->rigid[c][k] + d->v[c];
+            discs->w[c][k] = held(d, before, columns, c, k) + d->v[c];
         }
     discs->asked.given = !d->asked.force;
     memcpy(discs->asked.sum, d->asked.sum, sizeof d->asked.sum);
@@ -444,6 +450,24 @@ rc_steady_set_out(struct rc_steady *d, size_t columns, struct rc_err *err)
     take_step(d);
     d->found.estimate = INFINITY;
     return RC_OK;
+}
+
+void
+rc_steady_reach(struct rc_steady *d, size_t columns)
+{
+    const size_t stick = d->found.stick, slipping = d->found.slipping;
+
+    d->moved = columns;
+    memcpy(d->was, d->face, d->n);
+    for (int c = 0; c < 2; c++) {
+        const double v = d->asked.force ? 0 : d->v[c], delta = d->v[c] - v;
+        for (size_t k = 0; k < d->n; k++)
+            d->s[c][k] = d->u[c][k] - (held(d, d->old, columns, c, k) + v) - delta;
+    }
+    look(d);
+    memcpy(d->face, d->was, d->n);
+    d->found.stick = stick;
+    d->found.slipping = slipping;
 }
 
 enum rc_status
@@ -509,8 +533,8 @@ rc_steady_guess(struct rc_steady *d)
     }
 }
 
-void
-rc_steady_begin(struct rc_steady *d)
+static void
+prepare(struct rc_steady *d, bool again)
 {
     size_t loaded = 0, runs = 0;
 
@@ -526,14 +550,27 @@ rc_steady_begin(struct rc_steady *d)
             for (size_t m = 0; m < STEPS; m++)
                 d->z[m][c][k] = 0;
         }
-        rc_onto_disc(d->g[k], false, &d->q[0][k], &d->q[1][k]);
+        if (!again)
+            rc_onto_disc(d->g[k], false, &d->q[0][k], &d->q[1][k]);
     }
     d->run = runs > 0 ? (double)loaded / (double)runs : 0;
+    find_slip(d);
+    look(d);
+}
+
+void
+rc_steady_begin(struct rc_steady *d)
+{
     d->found.steps = d->found.fallbacks = 0;
     d->found.estimate = INFINITY;
     d->found.change = 0;
-    find_slip(d);
-    look(d);
+    prepare(d, false);
+}
+
+void
+rc_steady_begin_again(struct rc_steady *d)
+{
+    prepare(d, true);
 }
 
 enum rc_status

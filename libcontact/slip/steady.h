@@ -72,6 +72,8 @@ RC_OWNER(rc_steady)
 void rc_steady_guess(struct rc_steady *d);
 /* Starts from q, which is moved to the discs. */
 void rc_steady_begin(struct rc_steady *d);
+/* The same with the q and the estimate, change, steps and fallbacks of an interrupted iteration. */
+void rc_steady_begin_again(struct rc_steady *d);
 /* One step of Newton's method: RC_MORE; RC_OK when the estimate is below tol; RC_SHORT after the most steps;
  * RC_FAIL when memory is short. */
 enum rc_status rc_steady_step(struct rc_steady *d, struct rc_err *err);
@@ -82,6 +84,8 @@ enum rc_status rc_steady_roll(struct rc_steady *d, struct rc_err *err);
 enum rc_status rc_steady_set_out(struct rc_steady *d, size_t columns, struct rc_err *err);
 enum rc_status rc_steady_follow(struct rc_steady *d);
 void rc_steady_arrive(struct rc_steady *d);
+/* In place of the first two: the end of this step is known, its q, u, v, face, estimate and counts. */
+void rc_steady_reach(struct rc_steady *d, size_t columns);
 /* The friction energy at node k, as q s: the mean traction of a step times its slip. On a path nodes are points
  * of the surface, and those that leave the contact in the step have a part too. In a steady state this part
  * belongs to the node in front, where the surface was before. The sum is then that of q v exactly, without a

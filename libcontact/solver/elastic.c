@@ -30,7 +30,13 @@ struct elastic {
     double first_top, top;    /* m: highest node of the first shape, and of the present one   */
     struct rc_solver *solver; /* NULL: no load so far                                         */
     bool apart;               /* no load at this point */
-    bool deformed;            /* the dents of this point are in the shape */
+    /* Inside another model a contact is short, so that a state on the way has its start: the pressure, or
+     * `fresh`, the load (a guess if the approach is given) and the number of the method. */
+    double *start, start_load, start_number;
+    bool fresh;
+    bool again;            /* a state was read whose contact is solved: the next step returns */
+    enum rc_status solved; /* this */
+    bool deformed;         /* the dents of this point are in the shape */
     struct rc_elastic_figures figures;
 };
 
@@ -129,6 +135,25 @@ set_shape(struct elastic *e, const double *h, struct rc_err *err)
     return RC_OK;
 }
 
+/* Keeps the start of the contact. */
+static enum rc_status
+keep_start(struct elastic *e, struct rc_err *err)
+{
+    double none = 0;
+
+    if (!e->base.inside || e->apart)
+        return RC_OK;
+    e->fresh = rc_nested_untouched(e->solver);
+    e->start_load = rc_solver_load(e->solver);
+    e->start_number = *rc_solver_lasting(e->solver, &none);
+    if (e->fresh)
+        return RC_OK;
+    if (!rc_store_need(&e->base.own, e->n, &e->start))
+        return rc_err_set(err, "out of memory for the start of a contact");
+    memcpy(e->start, rc_solver_pressure(e->solver), e->n * sizeof *e->start);
+    return RC_OK;
+}
+
 /* ---- verbs ---- */
 
 static enum rc_status
@@ -143,7 +168,7 @@ go(struct rc_model *m, struct rc_err *err)
         return rc_err_set(
             err, "%s %g %s: it must not be negative, because the bodies do not attract each other",
             by_approach ? "approach" : "load", v, by_approach ? "m" : "N");
-    e->deformed = false;
+    e->deformed = e->again = false;
     e->apart = v == 0;
     if (!e->apart)
         status = press(e, by_approach ? 0 : v, by_approach ? v : 0, err);
@@ -153,7 +178,7 @@ go(struct rc_model *m, struct rc_err *err)
         e->top = highest(e); /* known to a solver */
     if (m->from.given == 0)
         e->first_top = e->top;
-    return status;
+    return status == RC_OK ? keep_start(e, err) : status;
 }
 
 static enum rc_status
@@ -162,6 +187,10 @@ step(struct rc_model *m, struct rc_err *err)
     struct elastic *e = (struct elastic *)m;
 
     (void)err;
+    if (e->again) {
+        e->again = false;
+        return e->solved;
+    }
     return e->apart ? RC_OK : rc_solver_step(e->solver);
 }
 
@@ -170,7 +199,9 @@ start(struct rc_model *m, double load, const double *p, struct rc_err *err)
 {
     struct elastic *e = (struct elastic *)m;
 
-    return e->apart ? RC_OK : rc_solver_warm_start(e->solver, load, p, err);
+    if (e->apart)
+        return RC_OK;
+    return rc_solver_warm_start(e->solver, load, p, err) == RC_OK ? keep_start(e, err) : RC_FAIL;
 }
 
 /* Finds the stiffness. If no node is at the hardness, the conductance already contains it. */
@@ -401,33 +432,101 @@ read_pressure(struct elastic *e, struct rc_state *s, double load)
     e->base.status = RC_MORE; /* the next step decides whether it is the solution */
 }
 
-/* A state holds the dents of earlier points and, for a point that is not kept, its pressure. */
+/* The numbers of an iteration in a state. */
+struct iteration {
+    double load, number, error, convolutions, top; /* top: of the heights of the solver */
+    size_t iterations;
+    bool pressed, fresh;
+};
+
+/* Inside another model the contact begins again from its start, or is solved. */
+static void
+read_inside(struct elastic *e, struct rc_state *s, const struct iteration *it, bool dented)
+{
+    const struct rc_point *to = &e->base.to;
+    const bool by_approach = rc_point_has(to, RC_APPROACH) && !e->apart;
+    const double *p = it->fresh ? NULL : rc_state_read_map(s, e->n);
+    const double *h = dented ? rc_state_read_map(s, e->n) : NULL;
+    const enum rc_status status = e->base.status;
+    struct rc_err err;
+    double none;
+
+    if (!rc_state_reads(s))
+        return;
+    if (press(e, by_approach ? 0 : it->load, by_approach ? to->at[RC_APPROACH] : 0, &err) !=
+            RC_OK ||
+        (by_approach && rc_load_set(e->solver, it->load, &err) != RC_OK) ||
+        rc_solver_warm_start(e->solver, it->load, p, &err) != RC_OK) {
+        rc_state_refuse(s, "its load or its pressure is not finite or negative");
+        return;
+    }
+    *rc_solver_lasting(e->solver, &none) = it->number;
+    if (h != NULL) { /* the heights and the dents give them only within rounding */
+        memcpy(e->solver->posed.h, h, e->n * sizeof *h);
+        e->solver->posed.top = it->top;
+    }
+    if (status == RC_SHORT ||
+        (status == RC_OK && (e->apart || !e->base.moved || it->error <= e->solver->posed.tol))) {
+        if (!e->apart)
+            rc_solver_found(e->solver, it->error, it->iterations, it->convolutions);
+        e->solved = status;
+        e->again = e->base.moved;
+        if (e->base.moved)
+            e->base.status = RC_MORE; /* an outer model takes one step */
+        return;
+    }
+    e->base.status = RC_MORE; /* on the way, or solved with a larger tolerance */
+    if (keep_start(e, &err) != RC_OK)
+        rc_state_refuse(s, "memory is short");
+}
+
+/* A state holds the dents of earlier points and the pressure. The pressure of a kept point is the start of the
+ * next contact: it is left out unless this is an inner model. */
 static void
 state(struct rc_model *m, struct rc_state *s)
 {
     struct elastic *e = (struct elastic *)m;
-    bool dented = e->dent != NULL, pressed = m->moved && !e->apart && e->solver != NULL;
-    double load = e->solver != NULL ? rc_solver_load(e->solver) : 0;
+    struct rc_solver *v = e->solver;
+    const bool inside = m->inside && !rc_state_is_copy(s),
+               way = inside && m->status == RC_MORE && !e->apart && !e->again;
+    bool dented = e->dent != NULL;
+    struct iteration it = {.pressed = v != NULL && (inside || (m->moved && !e->apart))};
     struct rc_err err;
 
-    RC_STATE_FLAGS(s, &dented, &e->apart, &pressed);
-    RC_STATE_NUMBERS(s, &e->first_top, &e->top, &e->height_error, &e->off, &load);
+    if (v != NULL) {
+        it.number = way ? e->start_number : *rc_solver_lasting(v, &it.number);
+        it.load = way ? e->start_load : rc_solver_load(v);
+        it.fresh = way ? e->fresh : rc_nested_untouched(v);
+        it.error = v->it.error;
+        it.top = v->posed.top;
+        it.iterations = v->it.iterations;
+        it.convolutions = v->it.convolutions;
+    }
+    RC_STATE_FLAGS(s, &dented, &e->apart, &it.pressed, &it.fresh);
+    RC_STATE_NUMBERS(s, &e->first_top, &e->top, &e->height_error, &e->off, &it.load, &it.number,
+                     &it.top, &it.convolutions);
+    RC_STATE_OPEN(s, &it.error);
+    RC_STATE_COUNTS(s, &it.iterations);
     if (rc_state_refused(s))
         return;
     if (!rc_state_reads(s)) { /* writing: the solver's pressure is not changed */
         if (dented)
             rc_state_map(s, e->n, e->dent);
-        if (pressed)
-            rc_state_map(s, e->n, e->solver->it.p);
+        if (it.pressed && !(inside && it.fresh))
+            rc_state_map(s, e->n, way ? e->start : v->it.p);
+        if (it.pressed && inside && dented)
+            rc_state_map(s, e->n, v->posed.h);
         return;
     }
-    e->deformed = false;
+    e->deformed = e->again = false;
     if (dented || e->dent != NULL)
         read_dent(e, s, dented);
-    if (m->moved && !e->apart && !pressed)
+    if (m->moved && !e->apart && !it.pressed)
         rc_state_refuse(s, "the pressure of its point is missing");
-    if (pressed && rc_state_reads(s))
-        read_pressure(e, s, load);
+    if (it.pressed && rc_state_reads(s) && inside)
+        read_inside(e, s, &it, dented);
+    else if (it.pressed && rc_state_reads(s))
+        read_pressure(e, s, it.load);
     if (e->solver == NULL && own_heights(e, e->given, &err) != RC_OK)
         rc_state_refuse(s, "memory is short");
 }

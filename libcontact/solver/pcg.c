@@ -98,6 +98,12 @@ forget(void *at)
     s->rate = 1;
 }
 
+static double *
+lasting(void *at)
+{
+    return &((struct pcg *)at)->alpha;
+}
+
 static void *
 state_new(struct rc_solver *solver)
 {
@@ -736,4 +742,5 @@ const struct rc_method rc_method_pcg = {
     .new = state_new,
     .step = step,
     .forget = forget,
+    .lasting = lasting,
 };

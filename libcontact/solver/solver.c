@@ -508,6 +508,25 @@ rc_solver_warm_start(struct rc_solver *s, double load, const double *p, struct r
     return RC_OK;
 }
 
+double *
+rc_solver_lasting(const struct rc_solver *s, double *none)
+{
+    return s->method->lasting != NULL ? s->method->lasting(s->state) : none;
+}
+
+void
+rc_solver_found(struct rc_solver *s, double error, size_t iterations, double convolutions)
+{
+    s->load.tol = s->posed.tol; /* that of the end of a search */
+    rc_iterate_displace(s);
+    rc_iterate_shift(s);
+    rc_working_set_find(s, false);
+    s->it.iterations = iterations;
+    s->it.convolutions = convolutions;
+    rc_iterate_checked(s, error, 1);
+    s->stage = RC_STAGE_STEPPED;
+}
+
 /* ---- figures and fields ---- */
 
 void

@@ -41,6 +41,8 @@ struct rc_method {
     struct rc_found (*step)(struct rc_solver *solver, void *state);
     /* For a new load: the method drops the data of earlier steps. NULL: the method has none. */
     void (*forget)(void *state);
+    /* A number that it keeps for later loads; NULL: none. */
+    double *(*lasting)(void *state);
 };
 
 /* -DRC_METHODS_LIST=... replaces the list (tests/toys does). */
@@ -281,6 +283,11 @@ void rc_working_set_forget(struct rc_solver *solver);
 
 /* The caller changed p or the load: drops all derived fields. */
 void rc_solver_restart(struct rc_solver *solver);
+/* The number that the method keeps for later loads, or `none`. */
+double *rc_solver_lasting(const struct rc_solver *solver, double *none);
+/* After a start from a pressure: it is the solution, with this error, of an iteration that took so much. */
+void rc_solver_found(struct rc_solver *solver, double error, size_t iterations,
+                     double convolutions);
 /* True if the caller cannot wait. */
 bool rc_solver_hurried(const struct rc_solver *solver);
 /* Adds a diagonal to the operator, as rc_operator_set_diagonal, from the next load or heights on. It does not

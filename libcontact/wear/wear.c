@@ -192,7 +192,18 @@ accuracy(const struct wear *v)
     return v->stage == LAST ? fmin(accurate, nodes_in_part / (double)v->n) : 1;
 }
 
-/* Gives the inner model the heights and the compliance of this stage. */
+/* Gives the inner model these heights, and the compliance of this stage. */
+static enum rc_status
+pose_at(struct wear *v, const double *heights, struct rc_err *err)
+{
+    if (rc_model_set_compliance(v->base.inner, v->k * v->over, v->law.part, v->row * v->over,
+                                err) != RC_OK)
+        return RC_FAIL;
+    v->base.inner->row->accuracy(v->base.inner, accuracy(v));
+    return rc_model_set_heights(v->base.inner, heights, err);
+}
+
+/* The heights and the compliance of this stage. The heights of the last contact of a leg stay in pa, for a state. */
 static enum rc_status
 pose(struct wear *v, struct rc_err *err)
 {
@@ -205,11 +216,9 @@ pose(struct wear *v, struct rc_err *err)
         lose(v, -(v->stage == FIRST ? d : w) * v->tried, v->p0, v->room, NULL);
     if (v->stage == SECOND)
         lose(v, -w * v->tried, v->pa, v->room, NULL);
-    if (rc_model_set_compliance(v->base.inner, v->k * v->over, v->law.part, v->row * v->over,
-                                err) != RC_OK)
-        return RC_FAIL;
-    v->base.inner->row->accuracy(v->base.inner, accuracy(v));
-    return rc_model_set_heights(v->base.inner, v->room, err);
+    if (!halves)
+        memcpy(v->pa, v->room, v->n * sizeof *v->pa);
+    return pose_at(v, v->room, err);
 }
 
 /* Starts the contact of a stage. Plastic dents of the last step stay. */
@@ -683,25 +692,27 @@ state(struct rc_model *m, struct rc_state *s)
 {
     struct wear *v = (struct wear *)m;
     struct rc_err err;
+    bool there;
 
     rc_state_count(s, &v->stage, LAST);
     rc_state_count(s, &v->last, last_steps(v));
-    RC_STATE_FLAGS(s, &v->kept, &v->good, &v->met);
+    there = v->stage == REST && m->moved && !rc_state_is_copy(s);
+    RC_STATE_FLAGS(s, &v->kept, &v->good, &v->met, &v->fitted);
     RC_STATE_COUNTS(s, &v->f.steps, &v->f.rejected, &v->f.contacts);
     RC_STATE_NUMBERS(s, &v->s, &v->end, &v->t, &v->tried, &v->f.convolutions);
+    RC_STATE_SIZES(s, &v->over);
     rc_state_finite(s, ERRORS, v->error);
     rc_state_map(s, v->n, v->worn);
     if (v->row > 0)
         rc_state_finite(s, m->shape.ny, v->deep);
     rc_state_map(s, v->n, v->p0);
     rc_state_map(s, v->n, v->e);
-    if (v->stage == SECOND)
+    if (v->stage == SECOND || there)
         rc_state_map(s, v->n, v->pa);
     if (!rc_state_reads(s))
         return;
-    v->again = v->stage == REST && m->moved;
-    v->fitted = false;
-    if (pose(v, &err) != RC_OK)
+    v->again = there;
+    if ((there ? pose_at(v, v->pa, &err) : pose(v, &err)) != RC_OK)
         rc_state_refuse(s, "its heights are not finite");
 }
 

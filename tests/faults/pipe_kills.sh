@@ -1,7 +1,7 @@
 # rc-solve is killed at random moments and restarted with --checkpoint and --resume. The final pressure is the
 # same, and every file with a final name is complete. The test also checks files beside that of -o (maps,
 # pictures, checkpoints) under signals and on a full disk. RC_KILLS in the environment is the number of kills
-# (3), RC_SEED the seed of their moments.
+# (3), RC_CHAINS that of the chains of each other model (1), RC_SEED the seed of their moments.
 . "$RC_SOURCE/tests/pipe.sh"
 
 kills=${RC_KILLS:-3}
@@ -88,6 +88,48 @@ two() {
         $solve --quiet --checkpoint two.rcg --resume -o other.rcg rough.rcg
 }
 claim "two runs cannot write to one checkpoint; after the first is killed the other can" two
+
+# ---- chains: other models end with the same bits ----
+
+# chain NAME COMMAND...: kills the command at random moments until it has finished; its frames are those of a run
+# without kills, to the bit. RC_CHAINS in the environment is the number of chains of each command (1).
+chain() {
+    local name=$1 k began ms status runs wrong=0
+    shift
+    began=$(date +%s%N)
+    "$@" --quiet -o chain_right.rcg 2>chain.err || [ $? = 3 ] || { cat chain.err; return 1; }
+    ms=$((($(date +%s%N) - began) / 1000000))
+    for ((k = 0; k < ${RC_CHAINS:-1}; k++)); do
+        rm -f chain.rcg chain_kept.rcg
+        status=1
+        for ((runs = 0; runs < 60 && status != 0 && status != 3; runs++)); do
+            "$@" --quiet --checkpoint chain_kept.rcg --resume --interval 0.003 -o chain.rcg 2>chain.err &
+            pid=$!
+            sleep "$(awk -v ms=$ms -v r=$RANDOM -v n=$runs 'BEGIN { print ms / 1000 * r / 32768 * (0.6 + n / 10) }')"
+            kill -KILL $pid 2>/dev/null
+            wait $pid 2>/dev/null
+            status=$?
+            case $status in 0 | 3 | 137) ;; *) break ;; esac
+        done
+        if [ ! -e chain.rcg ] || [ "$(distance chain.rcg chain_right.rcg)" != 0 ]; then
+            wrong=$((wrong + 1))
+            [ $wrong -gt 3 ] || echo "    chain $k of $name: status $status, $(cat chain.err)" >&2
+        fi
+    done
+    echo "    $name: $wrong of ${RC_CHAINS:-1} chains differ"
+    [ $wrong = 0 ]
+}
+rc-synth sphere --nx 64 --dx 1um --radius 0.5mm -o ball.rcg
+rc-synth selfaffine --nx 48 --dx 1um --hurst 0.8 --rms-slope 0.05 --seed 5 -o small.rcg
+rc-solve --quiet --estar 1GPa --load 2mN -o pressed.rcg ball.rcg
+rc-solve --quiet --periodic --estar 1GPa --load 2mN -o worn.rcg small.rcg
+claim "rc-slip --steady" \
+    chain "rc-slip --steady" rc-slip --nu 0.3 --mu 0.3 --creep 1e-3,5e-4 --steady --tol 1e-6 pressed.rcg
+claim "rc-slip --path" \
+    chain "rc-slip --path" rc-slip --nu 0.3 --mu 0.3 --path '2mN,0.1mN,0; 2mN,0.3mN,0; 2mN,-0.2mN,0' pressed.rcg
+claim "rc-wear" chain rc-wear rc-wear --coefficient 1e-12m2/N --distance 1mm,10mm worn.rcg
+claim "rc-solve --time" chain "rc-solve --time" rc-solve --relaxation 100MPa,900MPa:1s --nu1 0.3 --E2 rigid \
+    --periodic --load 2mN,2mN --time 0s,3s small.rcg
 
 # ---- beside -o ----
 
