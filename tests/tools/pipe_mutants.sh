@@ -1,0 +1,14 @@
+# Checkpoints with right checksums and false contents, and tables with false contents, are read or refused:
+# no tool crashes, hangs, or refuses without a message. tests/fuzz/mutants.py makes the files: here a few, with
+# RC_LONG 4000 of each kind.
+. "$(dirname "$0")/../pipe.sh"
+. "$RC_SOURCE/tests/python.sh"
+python=$(python_with zlib resource) || exit 77
+
+mutants() { "$python" "$RC_SOURCE/tests/fuzz/mutants.py" --bin "$RC_BIN" "$@"; }
+count=40
+before_release && count=4000
+for subject in $(mutants --list); do
+    claim "mutants for $subject" mutants --count "$count" "$subject"
+    cat claim.out
+done
