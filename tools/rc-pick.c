@@ -43,6 +43,7 @@ static const struct tool_info info = {
                 "  rc-pick --channel pressure --set load= result.rcg | rc-info\n",
     .opts = opts,
     .reads = READS_STREAM,
+    .mends = true,
     .writes = WRITES_STREAM,
     .settle = settle,
 };
@@ -93,6 +94,8 @@ settle_set(struct tool *t, struct step *step)
             tool_usage(t, "--set %s: %s cannot be set: %s", step->text, text, kept[k].why);
     if (*value == '\0' && is_field(text))
         tool_usage(t, "--set %s: every frame has a %s: give it a value", step->text, text);
+    if (*value != '\0' && rc_key_check(text, value, &t->err) != RC_OK)
+        tool_usage(t, "--set %s", t->err.text);
     if (!rc_utf8_valid(value))
         tool_usage(t, "--set %s...: the value is not UTF-8", text);
     if (is_spacing(text)) {
@@ -197,6 +200,8 @@ change(struct tool *t, struct rc_grid *g)
             pick_geometry_do(t, g, &args.steps.step[k]);
         else
             set(t, g, &args.steps.step[k]);
+    if (rc_keys_check(g, &t->err) != RC_OK)
+        tool_refuse(t, g, "%s: correct it with --set", t->err.text);
     tool_sign(t, g);
 }
 

@@ -86,6 +86,12 @@ enum rc_status rc_writer_end(struct rc_writer *writer, struct rc_err *err);
 void rc_writer_free(struct rc_writer *writer);
 RC_OWNER(rc_writer)
 
+/* RC_FAIL, with a message that names the key and the values that it can have, if this is none of them. Keys
+ * without a fixed meaning have any value. */
+enum rc_status rc_key_check(const char *name, const char *value, struct rc_err *err);
+/* The same for all keys of a frame. */
+enum rc_status rc_keys_check(const struct rc_grid *grid, struct rc_err *err);
+
 /* Ends a stream, whether begun or not, with RCGFAIL, the message and the exit status of this program, 1 or 2.
  * The reader of the stream then fails too. Silent when even that cannot be written. */
 void rc_stream_fail(FILE *file, const char *message, int exit_status);

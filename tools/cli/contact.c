@@ -126,8 +126,6 @@ contact_boundary(struct tool *tool, const struct rc_grid *p, bool periodic)
         return periodic ? RC_PERIODIC : RC_FREE;
     if (map_says(p, "boundary", "periodic"))
         return RC_PERIODIC;
-    if (!map_says(p, "boundary", "free"))
-        tool_refuse(tool, p, "its boundary is '%s': it must be free or periodic", own);
     if (periodic)
         tool_refuse(tool, p,
                     "its boundary is %s, which contradicts --periodic: leave out --periodic", own);

@@ -116,6 +116,14 @@ check_convergence(struct tool *t, const struct rc_grid *g)
     tool_fails_with(t, EXIT_SHORT);
 }
 
+/* Ends the tool at a key whose value no tool would understand. */
+static void
+check_keys(struct tool *t, const struct rc_grid *g)
+{
+    if (!t->info->mends && rc_keys_check(g, &t->err) != RC_OK)
+        tool_refuse(t, g, "%s: correct it with rc-pick --set", t->err.text);
+}
+
 /* An error that a program before this one in the pipe has reported is not reported again. */
 static _Noreturn void
 cannot_read(struct tool *t, const struct rc_err *err)
@@ -203,6 +211,7 @@ take_ahead(struct tool *t)
     if (rc_reader_values(t->input.reader, g, &err) != RC_OK)
         cannot_read(t, &err);
     t->frame++;
+    check_keys(t, g);
     check_convergence(t, g);
     note_not_finite(t, g);
     return g;
@@ -419,6 +428,8 @@ tool_frame_of_file(struct tool *t, const char *option, const char *name, const c
     if (g == NULL)
         tool_die(t, "--%s %s: no %s%sframe is in it", option, name, channel == NULL ? "" : channel,
                  channel == NULL ? "" : " ");
+    if (rc_keys_check(g, &t->err) != RC_OK)
+        tool_die(t, "--%s %s: %s: correct it with rc-pick --set", option, name, t->err.text);
     if (strcmp(rc_grid_dunit(g), "m") != 0)
         tool_die(t, "--%s %s: its dx and dy are in %s (key dunit), not in m", option, name,
                  rc_grid_dunit(g));

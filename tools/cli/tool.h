@@ -124,6 +124,7 @@ struct tool_info {
     void (*settle)(struct tool *tool);
     /* NULL, or changes a frame that tool_channel passes on. */
     void (*passing)(struct tool *tool, struct rc_grid *grid);
+    bool mends;  /* takes keys with values that they cannot have, to correct them */
     bool shares; /* true: under mpirun its processes share the maps */
 };
 

@@ -227,6 +227,8 @@ fatigue_residual_read(struct tool *t, const char *name, char pass, struct fatigu
     if ((reader = rc_reader_new(file, 0, t->memory, &t->err)) == NULL)
         tool_die(t, "--residual %s: %s", name, t->err.text);
     while ((status = rc_reader_next(reader, &g, &t->err)) == RC_MORE) {
+        if (rc_keys_check(g, &t->err) != RC_OK)
+            tool_die(t, "--residual %s: %s: correct it with rc-pick --set", name, t->err.text);
         keep_residual(t, r, g, pass, largest);
         rc_grid_free(g);
     }
