@@ -77,7 +77,6 @@ static const struct tool_info info = {
     .opts = opts,
     .reads = READS_STREAM,
     .writes = WRITES_STREAM,
-    .shares = true, /* to refuse it once */
 };
 
 /* A case of the stream. */
@@ -117,8 +116,6 @@ check_arguments(struct run *run)
 {
     struct tool *t = &run->t;
 
-    if (ranks_count(t) > 1)
-        tool_usage(t, "fatigue is not shared among processes: take one process, with --threads");
     if (!tool_given(t, "depths"))
         tool_usage(t, "give the depths with --depths, as in --depths 1um,5um or --depths "
                       "1um:50um:log:20, or leave their choice to --depths auto");

@@ -85,7 +85,6 @@ static const struct tool_info info = {
     .opts = opts,
     .reads = READS_STREAM,
     .writes = WRITES_STREAM,
-    .shares = true, /* to print its refusal once, not from each process */
 };
 
 /* ---- the command line ---- */
@@ -97,9 +96,6 @@ check_arguments(struct slip_run *run)
     const struct numbers *along = args.tangential.n > 0 ? &args.tangential : &args.displacement;
 
     run->args = &args;
-    if (ranks_count(t) > 1)
-        tool_usage(
-            t, "rc-slip cannot share its maps among processes: take one process, with --threads");
     if (isnan(args.mu))
         tool_usage(t, "give the coefficient of friction with --mu, as in --mu 0.3");
     if (tool_given(t, "tangential") + tool_given(t, "displacement") + tool_given(t, "path") +

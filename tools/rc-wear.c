@@ -66,7 +66,6 @@ static const struct tool_info info = {
     .opts = opts,
     .reads = READS_STREAM,
     .writes = WRITES_STREAM,
-    .shares = true, /* to refuse it once */
 };
 
 enum { /* frames beside the heights */
@@ -780,9 +779,6 @@ main(int argc, char **argv)
     struct rc_grid *g;
 
     tool_start(&run.d.t, &info, argc, argv, &args);
-    if (ranks_count(&run.d.t) > 1)
-        tool_usage(&run.d.t,
-                   "wear is not shared among processes: take one process, with --threads");
     read_law(&run);
     read_motion(&run);
     read_until(&run);

@@ -144,8 +144,20 @@ refuses 2 'give -o FILE' "a pipe for output" "$MPIRUN -n 2 rc-solve --estar 1GPa
 refuses 2 'name one instead of a pipe' "a pipe for input" "$MPIRUN -n 2 rc-solve --estar 1GPa --load 0.1N -o no.rcg"
 refuses 1 "needs the map in one process" "an engine that is not shared" \
     "$MPIRUN -n 2 rc-solve --estar 1GPa --load 0.1N --kernel mlms -o no.rcg rough.rcg"
-refuses 2 "cannot share its maps among processes" "friction" \
-    "$MPIRUN -n 2 rc-slip --mu 0.3 --nu 0.3 --tangential 1uN -o no.rcg rough.rcg"
+# Every other tool refuses, once, and writes nothing; one process works.
+alone() {
+    local tool name
+    for tool in "$RC_BIN"/rc-*[a-z]; do
+        name=${tool##*/}
+        case $name in rc-solve | rc-deflect | rc-stress) continue ;; esac
+        $MPIRUN -n 2 "$name" "$@" >alone.out 2>alone.err
+        [ $? = 2 ] && [ "$(grep -c "^$name: $name cannot share its maps among processes: start one process" alone.err)" = 1 ] &&
+            [ ! -s alone.out ] && [ ! -e no.rcg ] || { echo "$name" && cat alone.err alone.out && return 1; }
+    done
+}
+claim "the other tools refuse several processes, once" alone
+claim "  with a command that one process runs" alone -o no.rcg rough.rcg
+claim "  one process works" says 'height' $MPIRUN -n 1 rc-info rough.rcg
 rc-synth selfaffine --nx 700 --ny 700 --dx 1um --hurst 0.8 --rms-slope 0.1 --seed 3 |
     rc-pick --set channel=pressure --set unit=Pa -o rough-pressed.rcg
 refuses 1 "cut a part out" "nor is it advised where memory is short" \

@@ -12,8 +12,7 @@
 #include "libcontact/contact.h"
 #include "tool.h"
 
-/* Connects the processes that a launcher of MPI has started; called at the start of a tool that can share
- * maps. */
+/* Connects the processes that a launcher of MPI has started; called at the start of a tool. */
 void ranks_start(struct tool *tool);
 #ifdef RC_MPI
 

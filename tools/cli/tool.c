@@ -61,9 +61,11 @@ tool_start(struct tool *t, const struct tool_info *info, int argc, char **argv, 
     *t = (struct tool){.info = info, .args = args, .writes = info->writes};
     hold_standard_files();
     memory_keep_maps_apart();
-    if (info->shares)
-        ranks_start(t);
+    ranks_start(t);
     options_read(t, argc, argv);
+    if (ranks_count(t) > 1 && !info->shares)
+        tool_usage(t, "%s cannot share its maps among processes: start one process, with --threads",
+                   info->name);
     if (t->threads == 0)
         t->threads = threads_wanted(t);
     tool_budget(t);

@@ -125,7 +125,7 @@ struct tool_info {
     /* NULL, or changes a frame that tool_channel passes on. */
     void (*passing)(struct tool *tool, struct rc_grid *grid);
     bool mends;  /* takes keys with values that they cannot have, to correct them */
-    bool shares; /* true: under mpirun its processes share the maps */
+    bool shares; /* true: under mpirun its processes share the maps; else they are refused */
 };
 
 struct tool {
