@@ -50,6 +50,8 @@ pair_of(struct tool *t, const struct rc_grid *p, struct layers *layers)
 {
     struct rc_pair pair = {.estar = args.estar};
 
+    if (isnan(args.estar))
+        bodies_demand_elastic(t, p, "take the displacement that rc-solve writes, or give --estar");
     tool_must(t, p, layers_read(p, layers, &t->err));
     if (layers->text != NULL && !isnan(args.estar))
         tool_refuse(t, p, "the stream already defines the layers; remove --estar");

@@ -244,12 +244,12 @@ refuse_others(struct tool *t, const struct rc_grid *g)
 {
     static const char *const keys[][2] = {{"adhesion", "attract each other"},
                                           {"yield", "yield in their volume"}};
-    const char *history = rc_grid_get(g, "history");
 
     for (size_t k = 0; k < 2; k++)
         if (rc_grid_get(g, keys[k][0]) != NULL)
             tool_refuse(t, g, "its bodies %s: their wear is not implemented", keys[k][1]);
-    if (history != NULL && strstr(history, "--tilt free") != NULL)
+    bodies_demand_elastic(t, g, "wear of viscoelastic bodies is not implemented");
+    if (tool_history_has(g, "rc-solve ", "--tilt free"))
         tool_refuse(t, g,
                     "its counter body was free to tilt: the wear of a body that tilts is not "
                     "implemented");
@@ -630,7 +630,6 @@ do_case(struct run *run, const struct rc_grid *g)
     static const struct drive_advice periodic[] = {{"edge_load_fraction", NULL}, {NULL, NULL}};
     struct drive *d = &run->d;
     const struct rc_shape shape = rc_grid_shape(g);
-    const char *boundary = rc_grid_get(g, "boundary");
     struct rc_problem problem = {.tol = args.tol / 100,
                                  .history_part = 0.05,
                                  .threads = d->t.threads,
@@ -640,12 +639,10 @@ do_case(struct run *run, const struct rc_grid *g)
     const double load = key(&d->t, g, "load", "the load");
 
     refuse_others(&d->t, g);
-    if (boundary == NULL || (strcmp(boundary, "free") != 0 && strcmp(boundary, "periodic") != 0))
-        tool_refuse(&d->t, g,
-                    "its boundary is '%s': it must be free or periodic, as rc-solve writes it",
-                    boundary == NULL ? "" : boundary);
-    problem.boundary = boundary[0] == 'p' ? RC_PERIODIC : RC_FREE;
-    d->advice = boundary[0] == 'p' ? periodic : free_map;
+    if (rc_grid_get(g, "boundary") == NULL)
+        tool_refuse(&d->t, g, "it has no key boundary, which rc-solve writes: solve the contact");
+    problem.boundary = map_boundary(g);
+    d->advice = problem.boundary == RC_PERIODIC ? periodic : free_map;
     tool_must(&d->t, g, layers_read(g, &layers, &d->t.err));
     tool_must(&d->t, g, bodies_read(g, &layers, &problem.pair, &d->t.err));
     if (rc_grid_get(g, "hardness") != NULL)

@@ -89,6 +89,7 @@ static const struct rule keys[] = {
     {"cycles", FROM(0)},
     {"wear_1", FROM(0), .unit = "1/Pa"},
     {"wear_2", FROM(0), .unit = "1/Pa"},
+    {"coat_left", FROM(0), .unit = "m"},
     {"bending_limit", ABOVE(0), .unit = "Pa"},
     {"torsion_limit", ABOVE(0), .unit = "Pa"},
     {"max_temperature", NUMBER, .unit = "K"},

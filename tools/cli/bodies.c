@@ -194,6 +194,20 @@ bodies_read(const struct rc_grid *g, const struct layers *l, struct rc_pair *p, 
     return RC_OK;
 }
 
+void
+bodies_demand_elastic(struct tool *t, const struct rc_grid *g, const char *remedy)
+{
+    static const char *const marks[] = {"time", "speed"};
+
+    for (size_t k = 0; k < sizeof marks / sizeof *marks; k++)
+        if (rc_grid_get(g, marks[k]) != NULL)
+            tool_refuse(
+                t, g,
+                "its body 1 is viscoelastic (%s=%s), and its moduli in the stream are those of "
+                "fast loads: %s",
+                marks[k], rc_grid_get(g, marks[k]), remedy);
+}
+
 /* Writes the key `layers` of a layered body. */
 static void
 set_layers(struct tool *t, struct rc_grid *g, const struct rc_body *b)

@@ -31,6 +31,9 @@ void layers_free(struct layers *layers);
 enum rc_status layer_read(const char *text, struct rc_layer *layer, double *residual,
                           double relaxes, bool *is, struct rc_err *err);
 
+/* Ends the tool for a viscoelastic body, whose moduli in the stream are those of fast loads. */
+void bodies_demand_elastic(struct tool *tool, const struct rc_grid *grid, const char *remedy);
+
 /* (1 - nu^2)/E of a half-space; 0 for a rigid one, whose E is infinite, or 0 in struct rc_body. */
 double bodies_compliance(double e, double nu);
 /* Reads both bodies from the keys of the frame: from its `layers`, if it has any, or from E*. RC_FAIL if the

@@ -176,3 +176,14 @@ tool_result_words(struct tool *t, const char *word[], size_t most)
             word[n++] = line.text + at;
     return n;
 }
+
+bool
+tool_history_has(const struct rc_grid *g, const char *name, const char *text)
+{
+    const char *last = NULL, *found;
+
+    for (const char *s = rc_grid_get(g, "history"); s != NULL && (s = strstr(s, name)) != NULL; s++)
+        last = s;
+    found = last == NULL ? NULL : strstr(last, text);
+    return found != NULL && memchr(last, '|', (size_t)(found - last)) == NULL;
+}

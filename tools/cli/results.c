@@ -7,14 +7,44 @@
 
 #include "libcontact/contact.h"
 
-/* True if frames of this channel are results of rc-solve, rc-deflect or rc-stress, computed from a height. */
+/* True if frames of this channel are results, computed from a height. */
 static bool
 computed(const char *channel)
 {
-    static const char *const solved[] = {"pressure",   "gap",        "displacement",   "plastic",
-                                         "traction-x", "traction-y", "fluid-pressure", "flux",
-                                         "channel",    "slip-x",     "slip-y",         "state",
-                                         "contact",    "adhesion"};
+    static const char *const solved[] = {"pressure",
+                                         "gap",
+                                         "displacement",
+                                         "plastic",
+                                         "traction-x",
+                                         "traction-y",
+                                         "fluid-pressure",
+                                         "flux",
+                                         "channel",
+                                         "slip-x",
+                                         "slip-y",
+                                         "state",
+                                         "contact",
+                                         "adhesion",
+                                         "residual",
+                                         "exx",
+                                         "eyy",
+                                         "exy",
+                                         "exz",
+                                         "eyz",
+                                         "peeq",
+                                         "slip",
+                                         "dissipation",
+                                         "wear",
+                                         "temperature-1",
+                                         "temperature-2",
+                                         "heat-1",
+                                         "heat-2",
+                                         "crossland",
+                                         "dangvan",
+                                         "papadopoulos",
+                                         "findley",
+                                         "shakedown",
+                                         "amplitude"};
 
     for (size_t k = 0; k < sizeof solved / sizeof *solved; k++)
         if (strcmp(channel, solved[k]) == 0)

@@ -281,6 +281,8 @@ void tool_set(struct tool *tool, struct rc_grid *grid, const char *name, const c
 void tool_set_number(struct tool *tool, struct rc_grid *grid, const char *name, double value);
 void tool_set_numbers(struct tool *tool, struct rc_grid *grid, const char *name, const double *v,
                       size_t n);
+/* True if the last step of this tool in the history of a frame has this text, as in "--tilt free". */
+bool tool_history_has(const struct rc_grid *grid, const char *name, const char *text);
 /* Adds this command to the history of a frame. */
 void tool_sign(struct tool *tool, struct rc_grid *grid);
 /* An array of n elements of this size, all 0, which the caller frees. Ends the tool when memory is short,

@@ -109,6 +109,7 @@ void
 slip_find_bodies(struct slip_run *run)
 {
     run->bodies = (struct slip_pair){.nu = 0};
+    bodies_demand_elastic(&run->d.t, run->p, "friction of viscoelastic bodies is not implemented");
     if (rc_grid_get(run->p, "layers") != NULL)
         tool_refuse(&run->d.t, run->p,
                     "its body 1 has layers, and rc-slip supports only bodies without layers: solve "

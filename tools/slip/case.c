@@ -70,6 +70,12 @@ check_solvable(struct slip_run *run)
                     "the path has loads other than that of the stream, %g N, and these contacts "
                     "need a height in the same case: keep all frames of rc-solve",
                     run->load);
+    if (tool_history_has(run->p, "rc-solve ", "--tilt free"))
+        tool_refuse(
+            &run->d.t, run->p,
+            "its counter body was free to tilt, and rc-slip solves other loads without tilt: use "
+            "the load of the stream alone%s",
+            run->alternates ? ", with --coupling goodman" : "");
     for (size_t k = 0; k < sizeof more / sizeof *more; k++)
         if (rc_grid_get(run->p, more[k]) != NULL)
             tool_refuse(&run->d.t, run->p,

@@ -59,6 +59,8 @@ set_material(struct tool *t, const struct stress_asked *asked, const struct rc_g
         tool_refuse(t, p,
                     "its body is coated and each material has its own Poisson's ratio: --nu "
                     "contradicts its layers, leave it out");
+    if (in->layers.text != NULL)
+        bodies_demand_elastic(t, p, "stresses in a coat that relaxes are not implemented");
     o->body = in->layers.body;
     o->residual = in->layers.residual;
     if (in->layers.text == NULL)

@@ -60,8 +60,13 @@ stress_strain_take(struct tool *t, const struct rc_grid *p, struct rc_grid *g,
 
     while (part < PARTS && strcmp(g->channel, names[part]) != 0)
         part++;
-    if (part == PARTS || !begin(t, p, s))
+    if (part == PARTS)
         return false;
+    if (!begin(t, p, s))
+        tool_refuse(
+            t, g,
+            "plastic strain, but the pressure has no key slabs: it is not that of this body: "
+            "take the stream as rc-solve has written it");
     tool_demand_grid_of(t, g, p);
     keep(t, s, g, part);
     return true;
