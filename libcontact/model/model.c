@@ -3,7 +3,6 @@
  */
 #include "row.h"
 
-#include <float.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -87,9 +86,8 @@ aim(const struct rc_model *m, const struct rc_point *to, struct rc_point *next, 
         if (!(taken(m) >> k & 1))
             return rc_err_set(err, "a point gives the %s, which the %s model does not have",
                               a->name, m->row->name);
-        if (!(fabs(v) <= (double)FLT_MAX) && !(k == RC_APPROACH && isinf(v) && v < 0))
-            return rc_err_set(err, "%s %g: it must be a finite number, also in single precision",
-                              a->name, v);
+        if (isnan(v) || (isinf(v) && !(k == RC_APPROACH && v < 0)))
+            return rc_err_set(err, "%s %g: it must be a finite number", a->name, v);
         if (a->rises && rc_point_has(&m->from, k) && v < m->from.at[k])
             return rc_err_set(err, "%s %g %s: it must be at least that of the previous point, %g",
                               a->name, v, a->unit, m->from.at[k]);

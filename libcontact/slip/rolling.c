@@ -38,7 +38,9 @@ static const double forgets = 1.5;      /* at least exp(-forgets) is forgotten o
 static const double coarse_tol = 3e-2;  /* most, of grids that give a start                      */
 static const double told_tol = 1e-3;    /* least, of the grid that tells the error of the spacing */
 static const double most_columns = 1e9; /* of the contact from the map */
-static const double caution = 1.5;      /* of the difference between the two finest grids         */
+static const double most_motion =
+    1e30; /* of a creepage or spin, far below overflow in single precision */
+static const double caution = 1.5; /* of the difference between the two finest grids         */
 
 /* A grid, the finest first. */
 struct level {
@@ -618,6 +620,10 @@ go(struct rc_model *m, struct rc_err *err)
         (force ? 1u << RC_CREEP_X | 1u << RC_CREEP_Y : 1u << RC_FORCE_X | 1u << RC_FORCE_Y))
         return rc_err_set(err, "this model of rolling finds the %s: give the %s only",
                           force ? "creepage" : "force", force ? "force" : "creepage");
+    for (enum rc_axis k = RC_CREEP_X; k <= RC_SPIN; k++)
+        if (rc_point_has(&m->to, k) && !(fabs(m->to.at[k]) <= most_motion))
+            return rc_err_set(err, "%s %g: it must be at most %g", rc_axis_info(k)->name,
+                              m->to.at[k], most_motion);
     if (f->problem.path && !rc_point_has(&m->to, RC_POSITION))
         return rc_err_set(err, "rolling along a path needs the position");
     f->length = f->rolls ? m->to.at[RC_POSITION] - m->from.at[RC_POSITION] : 0;

@@ -158,8 +158,8 @@ summary(const char *what)
     }
 }
 
-static const double bad[] = {NAN,    -NAN, INFINITY, -INFINITY, 1e300,
-                             -1e300, 1e37, -1e37,    1e20,      1e-300};
+static const double bad[] = {NAN,   -NAN, INFINITY, -INFINITY, 1e300, -1e300,
+                             1e160, 1e37, -1e37,    1e20,      1e-300};
 
 static void
 in_points(void **state)
