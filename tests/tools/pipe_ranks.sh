@@ -264,10 +264,10 @@ claim "two runs cannot write to one checkpoint" adding
 # On busy cores an iteration of a smaller map still ends soon enough to react.
 rc-synth selfaffine --nx 800 --ny 800 --dx 1um --hurst 0.8 --rms-slope 0.1 --short-cut 8um --seed 3 -o shorter.rcg
 shorter=${lasting/long.rcg/shorter.rcg}
-# signalled SIGNAL N: sends the signal to mpirun, after N lines of progress. mpirun ends its processes, and kills
+# signalled SIGNAL N: sends the signal to mpirun, after N lines of progress. mpirun waits for the time below, ends its processes, and kills
 # them some time later.
 signalled() {
-    begin 1 $shorter --load 3N || return
+    begin 1 $shorter --load 3N:12N:10 || return
     iterates "$2"
     kill -"$1" "$launcher"
     wait "$launcher" && return 1
