@@ -250,6 +250,9 @@ KEYS = {
     'tangential_y': ['1'], 'displacement_x': ['1'], 'displacement_y': ['1'], 'mu': ['.3'], 'depth': ['1e-6'],
     'layers': ['1e-6,1e11,0.3;inf,2e11,0.3', '1e-6,5e10,0.3;inf,2e11,0.3'], 'layers.residual': ['1e8'], 'height.error': ['1e-7'],
     'material': ['1'], 'frames': ['2'], 'section': ['x'], 'at': ['0'], 'depths': ['0'], 'adhesion': ['0.05,jkr,1e-9'],
+    'time': ['2'], 'speed': ['.1'], 'distance': ['.1'], 'thickness': ['1e-6'], 'window': ['hann'], 'max_temperature': ['10'],
+    'direction': ['x'], 'flow_conductance': ['1e-18'], 'flow_rate': ['1e-9'], 'pressure_drop': ['1e6'], 'viscosity': ['1e-3'],
+    'throat_x': ['0'], 'throat_y': ['0'],
 }
 FRAMES = {'height': 'm', 'pressure': 'Pa', 'gap': 'm', 'displacement': 'm', 'contact': '1', 'hardness': 'Pa', 'wear-coefficient': '1/Pa', 'slip': 'm'}
 
