@@ -50,6 +50,8 @@ enum {
     SLOW = 2,        /* successive steps that lower the eigenvalue by less than 2 % */
     BELOW = 2,       /* successive states with an error below tol */
     LEAVES = 20,     /* most saddles of a state */
+    PARTS = 40,      /* of a way, at most */
+    TURNS = 16,      /* with frozen attraction, at most */
     COARSEST = 32,   /* nodes along a map; a smaller coarse grid does not pay */
     EIGEN_STEPS = 40 /* at most */
 };
@@ -67,6 +69,14 @@ static const double least_ratio = 1.25; /* of error to e */
 static const double yielding_part = 0.05;
 static const double coarse_tol = 1e-3; /* correction of the state on a coarser grid, relative */
 static const double single = 4e-6;     /* error of an eigenvalue in single precision */
+static const double energy_rounding = 1e-6; /* relative */
+static const double unclear = 0.4;  /* part of the loss that a way without jumps cannot exceed */
+static const double most_way = 0.4; /* over the range: a part where the load reverses */
+static const double force_noise = 0.003; /* variation of the load from node to node, relative */
+static const double finest =
+    0.1; /* shortest part that is divided because of its loss, over the way */
+static const double near = 0.1;   /* an error from which the iteration ends at the nearest state */
+static const double turned = 0.1; /* part of the error at the begin of a turn */
 
 enum stage {
     STAGE_NEW,
@@ -74,6 +84,21 @@ enum stage {
     STAGE_DOWN,
     STAGE_EIGEN,
     STAGE_DONE
+};
+
+/* The way from the last state to the next one. Long ways are divided. */
+struct way {
+    bool steady;                /* the present gap and pressure are a state */
+    bool known;                 /* the way begins at such a state */
+    struct rc_gap_energy start; /* of that state, under the present control */
+    double to;                  /* this part ends here, on the way to `given` */
+    double whole;               /* length of the way */
+    size_t parts;
+    bool reverses; /* with a given mean gap: the load has fallen while the bodies approached */
+    size_t turns;  /* with frozen attraction */
+    double turn;   /* the error at the begin of a turn; 0: not yet known */
+    size_t iterations, eigen_steps;
+    double convolutions; /* those of the parts before */
 };
 
 struct retraction {
@@ -105,9 +130,9 @@ struct rc_adhesion {
     double given;
     size_t below; /* successive steps with an error below tol */
     size_t leaves, jumps;
-    bool unstable; /* the stiffness was negative at the start of the last step */
-    double mu[3];  /* eigenvalue of the last state of each control; 0: none */
-    double way;    /* the lowest stiffness along a descent, close to its end */
+    double mu[3];    /* eigenvalue of the last state of each control; 0: none */
+    double softness; /* the lowest stiffness along a descent, close to its end */
+    struct way way;
     struct rc_adhesion_past past;
     double judged; /* the error when the eigenvalue was found; 0: not found yet */
     double hidden; /* then the error along the softest mode, times mu */
@@ -415,10 +440,8 @@ set(struct rc_adhesion *a, enum rc_gap_control control, double given)
 {
     a->control = control;
     a->given = given;
-    a->below = a->leaves = a->jumps = 0;
-    a->unstable = false;
-    a->judged = 0;
-    a->way = INFINITY;
+    a->jumps = 0;
+    a->way = (struct way){.steady = a->way.steady};
     a->converged = a->separated = a->fresh = false;
     a->stage = STAGE_NEW;
     a->held = true;
@@ -489,7 +512,7 @@ rc_adhesion_set_approach(struct rc_adhesion *a, double approach, struct rc_err *
 static double
 softest(const struct rc_adhesion *a)
 {
-    return fmin(a->gap.mode.mu, a->way);
+    return fmin(a->gap.mode.mu, a->softness);
 }
 
 static double
@@ -527,18 +550,6 @@ ends(const struct rc_adhesion *a)
     return a->gap.told.vanishes || own_error(a) <= (a->gap.yields ? yielding_part : 1) * a->tol;
 }
 
-static enum rc_status
-finish(struct rc_adhesion *a, bool converged)
-{
-    a->stage = STAGE_DONE;
-    a->converged = converged;
-    if (a->past.begun && a->jumps == 0 && !a->separated)
-        a->jumps = rc_gap_jumped(&a->gap);
-    a->past.begun = true;
-    a->mu[a->control] = a->judged > 0 ? fmax(softest(a), single) : 0;
-    return converged ? RC_OK : RC_SHORT;
-}
-
 /* Poses the first state on the coarser grid. */
 static void
 begin_coarse(struct rc_adhesion *a)
@@ -558,11 +569,136 @@ begin_coarse(struct rc_adhesion *a)
     a->stage = STAGE_COARSE;
 }
 
+/* Under a load the iteration moves the bodies as a whole, past barriers of the energy. With a frozen attraction
+ * Phi has one minimum, and its gap lies between the start and the nearest state, if A has no positive entries
+ * outside its diagonal. */
+static bool
+freezes(const struct rc_adhesion *a)
+{
+    return a->way.known && !a->pull.on && a->control == RC_GAP_LOAD &&
+           a->way.to != a->way.start.given;
+}
+
+/* Starts a part of the way, which ends at way.to. */
+static void
+begin_part(struct rc_adhesion *a)
+{
+    a->below = a->leaves = 0;
+    a->judged = 0;
+    a->softness = INFINITY;
+    a->way.turns = 0;
+    a->way.turn = 0;
+    rc_gap_begin(&a->gap, a->control, a->way.to);
+    if (freezes(a))
+        rc_gap_freeze(&a->gap, true);
+    a->gap.convolutions += a->way.convolutions;
+    a->stage = STAGE_DOWN;
+}
+
+/* Notes the state at which the next part begins. */
+static void
+begin_at(struct rc_adhesion *a, double to)
+{
+    a->way.to = to;
+    a->way.known = a->way.steady;
+    if (a->way.known) {
+        a->way.start = rc_gap_energy(&a->gap, a->control);
+        rc_gap_keep(&a->gap);
+        if (a->way.parts == 0)
+            a->way.whole = fabs(a->given - a->way.start.given);
+    }
+    begin_part(a);
+}
+
 static void
 begin(struct rc_adhesion *a)
 {
-    rc_gap_begin(&a->gap, a->control, a->given);
-    a->stage = STAGE_DOWN;
+    begin_at(a, a->given);
+}
+
+/* ---- a way ---- */
+
+/* The energy that this part of the way has lost. On a path without jumps, Phi changes by the integral of its
+ * `force`; the trapezoid rule gives it. *most: the loss that this rule cannot exclude there. Under a load the
+ * force falls as the load rises, and the bound is strict. With a given approach the load may have a minimum
+ * on the way, with the stiffness of a flat punch on one side, and varies from node to node. */
+static double
+loss(struct rc_adhesion *a, double *most)
+{
+    const struct rc_gap_energy *from = &a->way.start, to = rc_gap_energy(&a->gap, a->control);
+    const double part = a->way.to - from->given, change = to.force - from->force;
+    const double forces = fabs(part) * fmax(from->force_scale, to.force_scale);
+
+    a->way.reverses = a->control == RC_GAP_MEAN && change * part < 0;
+    *most = fabs(part * change) / 2;
+    if (a->control != RC_GAP_LOAD)
+        *most += sqrt(fmax(from->contact, to.contact) / RC_PI) * part * part + force_noise * forces;
+    return from->phi - to.phi + part * (from->force + to.force) / 2 - a->tol * forces -
+           (energy_rounding + a->tol * a->tol) * fmax(from->phi_scale, to.phi_scale);
+}
+
+static void
+spend(struct rc_adhesion *a)
+{
+    a->way.iterations += a->gap.iterations;
+    a->way.eigen_steps += a->gap.mode.steps;
+    a->way.convolutions = a->gap.convolutions;
+    a->way.parts++;
+}
+
+/* Repeats half of this part, from its start, or less if half is longer than `longest`. */
+static enum rc_status
+divide(struct rc_adhesion *a, double longest)
+{
+    double part = (a->way.to - a->way.start.given) / 2;
+
+    while (fabs(part) > longest)
+        part /= 2;
+    spend(a);
+    rc_gap_return(&a->gap, a->control, a->way.start.given);
+    a->way.to = a->way.start.given + part;
+    begin_part(a);
+    return RC_MORE;
+}
+
+/* The next part, twice as long as this one if the way is so long. */
+static enum rc_status
+go_further(struct rc_adhesion *a)
+{
+    double part = a->way.to - a->way.start.given, left = a->given - a->way.to;
+
+    part *= a->way.reverses && a->way.parts < PARTS ? 1 : 2;
+    spend(a);
+    begin_at(a, a->converged && fabs(part) < fabs(left) ? a->way.to + part : a->given);
+    return RC_MORE;
+}
+
+/* Ends a part of the way. It has a jump if it has lost more energy than a path without jumps can lose; if it
+ * has lost less, but not much less, halves of it decide. */
+static enum rc_status
+finish(struct rc_adhesion *a, bool converged)
+{
+    const double part = fabs(a->way.to - a->way.start.given), longest = most_way * a->gap.law.range;
+
+    a->stage = STAGE_DONE;
+    a->gap.frozen.on = false;
+    a->converged = a->way.steady = converged;
+    if (a->separated) {
+        a->jumps += a->past.begun;
+    } else if (a->way.known && converged) {
+        double most, lost = loss(a, &most);
+        bool divides = a->way.parts < PARTS && !a->pull.on;
+        if (divides && a->way.reverses && part > longest)
+            return divide(a, longest);
+        if (divides && part > finest * a->way.whole && lost > unclear * most && lost <= most)
+            return divide(a, INFINITY);
+        a->jumps += lost > most;
+    }
+    a->past.begun = true;
+    a->mu[a->control] = a->judged > 0 ? fmax(softest(a), single) : 0;
+    if (a->way.known && a->way.to != a->given && !a->separated)
+        return go_further(a);
+    return converged ? RC_OK : RC_SHORT;
 }
 
 /* Convolutions for the state, in equivalents on this grid. */
@@ -594,17 +730,54 @@ end_coarse(struct rc_adhesion *a)
     a->gap.convolutions += sum;
 }
 
-/* Takes a step, and counts a jump if the stiffness at its start was negative. On a path of stable states this
- * happens only where the path has ended. */
 static void
 move(struct rc_adhesion *a)
 {
-    bool before = a->unstable;
+    struct rc_gap *g = &a->gap;
 
-    rc_gap_move(&a->gap);
-    a->way = a->gap.told.error <= loosest ? fmin(a->way, a->gap.way.stiffness) : INFINITY;
-    a->unstable = a->gap.negative;
-    a->jumps += a->past.begun && a->unstable && !before;
+    rc_gap_move(g);
+    if (!g->frozen.on)
+        a->softness = g->told.error <= loosest ? fmin(a->softness, g->way.stiffness) : INFINITY;
+}
+
+static enum rc_status
+descend(struct rc_adhesion *a)
+{
+    move(a);
+    if (!a->gap.parting)
+        return RC_MORE;
+    a->separated = true;
+    return finish(a, false);
+}
+
+/* After a look: the attraction is no longer frozen if this gap is near its state. */
+static bool
+thaws(struct rc_adhesion *a)
+{
+    struct rc_gap *g = &a->gap;
+    const struct way *w = &a->way;
+
+    if (g->frozen.on && w->turns > 0 && w->turn == 0)
+        g->frozen.on = !(g->told.error <= near || g->stuck || w->turns == TURNS);
+    return !g->frozen.on;
+}
+
+/* A step with frozen attraction. When the error has fallen, the attraction becomes that of the present gap. */
+static enum rc_status
+turn(struct rc_adhesion *a)
+{
+    struct rc_gap *g = &a->gap;
+    struct way *w = &a->way;
+
+    if (w->turn == 0)
+        w->turn = g->told.error;
+    else if (g->stuck || g->told.error <= turned * w->turn) {
+        rc_gap_freeze(g, false);
+        w->turns++;
+        w->turn = 0;
+        return RC_MORE;
+    }
+    return g->iterations < a->max_iterations ? descend(a) : finish(a, false);
 }
 
 static enum rc_status
@@ -613,18 +786,20 @@ down(struct rc_adhesion *a)
     struct rc_gap *g = &a->gap;
 
     rc_gap_look(g);
+    if (!thaws(a))
+        return turn(a);
     a->hidden = a->judged > 0 ? rc_gap_soft_error(g) : 0;
     if (a->rough && (g->told.error <= coarse_tol || g->stuck))
         return finish(a, true);
     if (ends(a)) {
         rc_gap_look_along(g);
-        a->way = fmin(a->way, g->way.stiffness);
+        a->softness = fmin(a->softness, g->way.stiffness);
     }
     a->below = ends(a) ? a->below + 1 : 0;
     /* the iteration leaves this stationary point, or a node without a place in the mode is free */
     if (a->judged > 0 && (g->told.error > 10 * a->judged || g->mode.grown)) {
         a->judged = 0;
-        a->way = INFINITY;
+        a->softness = INFINITY;
     }
     if (a->below >= BELOW || g->stuck) {
         if (a->judged > 0)
@@ -635,12 +810,7 @@ down(struct rc_adhesion *a)
     }
     if (g->iterations >= a->max_iterations)
         return finish(a, false);
-    move(a);
-    if (g->parting) {
-        a->separated = true;
-        return finish(a, false);
-    }
-    return RC_MORE;
+    return descend(a);
 }
 
 static enum rc_status
@@ -660,9 +830,8 @@ eigen(struct rc_adhesion *a)
     if (negative && a->leaves < LEAVES) {
         rc_gap_leave(g);
         a->leaves++;
-        a->jumps++;
         a->judged = 0;
-        a->way = INFINITY;
+        a->softness = INFINITY;
         a->below = 0;
         a->stage = STAGE_DOWN;
         return RC_MORE;
@@ -725,6 +894,7 @@ put_back(struct rc_adhesion *a, const double *gap, double c)
 {
     copy_gap(a, a->gap.x, gap);
     a->gap.mode.known = false; /* its softest mode belongs to another gap */
+    a->way.steady = false;
     set_shift(a, c);
     a->gap.control = a->control;
     a->gap.given = a->given;
@@ -785,7 +955,7 @@ end_retraction(struct rc_adhesion *a)
         rc_gap_look(&a->gap);
     a->stage = STAGE_DONE;
     a->fresh = true;
-    a->converged = converged;
+    a->converged = a->way.steady = converged;
     p->on = false;
     *f = p->found;
     f->pull_off_load = r->load * unit;
@@ -947,8 +1117,8 @@ find_figures(struct rc_adhesion *a)
     f->stable = a->judged > 0 && softest(a) > 0;
     f->separated = a->separated;
     f->jumps = a->jumps;
-    f->iterations = g->iterations;
-    f->eigen_steps = g->mode.steps;
+    f->iterations = a->way.iterations + g->iterations;
+    f->eigen_steps = a->way.eigen_steps + g->mode.steps;
     f->convolutions = g->convolutions;
     f->pressure_error = isinf(g->told.error) ? NAN : estimate(a);
     f->inherited_error = inherited_error(a);
@@ -1027,7 +1197,7 @@ rc_adhesion_progress(const struct rc_adhesion *a, struct rc_adhesion_progress *p
         .state = a->pull.on ? a->pull.search.states + 1 : 1,
         .coarser = at != a,
         .convolutions = convolutions(a),
-        .iterations = at->stage == STAGE_NEW ? 0 : g->iterations,
+        .iterations = at->stage == STAGE_NEW ? 0 : at->way.iterations + g->iterations,
         .eigenvalue = a->stage == STAGE_EIGEN,
         .load = a->control == RC_GAP_LOAD && a->held
                     ? a->given * (double)a->gap.n * a->shape.dx * a->shape.dy * a->whole->modulus
@@ -1095,7 +1265,7 @@ rc_adhesion_start(struct rc_adhesion *a, const double *pressure, double approach
         }
     memcpy(g->au, g->d, g->n * sizeof *g->au);
     hold(a, c);
-    a->past.begun = true;
+    a->past.begun = a->way.steady = true;
     return RC_OK;
 }
 
@@ -1125,7 +1295,7 @@ rc_adhesion_set_heights(struct rc_adhesion *a, const double *h, const double *de
     for (size_t k = 0; k < g->n; k++)
         g->au[k] = rc_gap_pressure_at(g, k);
     hold(a, c);
-    g->mode.known = false;
+    g->mode.known = a->way.steady = false;
     return RC_OK;
 }
 

@@ -58,12 +58,31 @@ struct by {
     double a;
 };
 
+/* The tangent of V at the frozen gaps. */
+static void
+frozen_law(const struct rc_gap *g, const float *frozen, size_t n, const double *gap, double *v,
+           double *s, double *d)
+{
+    double at[LINE] = {0};
+
+    for (size_t k = 0; k < n; k++)
+        at[k] = (double)frozen[k];
+    g->law.law->at(&g->law, n, at, v, s, d);
+    for (size_t k = 0; k < n; k++) {
+        v[k] += s[k] * (gap[k] - at[k]);
+        d[k] = 0;
+    }
+}
+
 /* sigma, V and D at n <= LINE gaps of row j from node i on, with the hardness. */
 void
 rc_gap_law(const struct rc_gap *g, size_t j, size_t i, size_t n, const double *gap, double *v,
            double *s, double *d)
 {
-    g->law.law->at(&g->law, n, gap, v, s, d);
+    if (g->frozen.on)
+        frozen_law(g, g->frozen.x + j * g->px + i, n, gap, v, s, d);
+    else
+        g->law.law->at(&g->law, n, gap, v, s, d);
     if (!g->yields)
         return;
     for (size_t k = 0; k < n; k++)
@@ -129,15 +148,13 @@ find_au(struct rc_gap *g)
 
 /* ---- residual ---- */
 
-/* Computes r = A u + S + sigma and its sum over open nodes. Also computes the stiffness that the traction
- * subtracts from the softest mode of the last state. */
+/* Computes r = A u + S + sigma and its sum over open nodes. */
 static void
 residual_row(void *ctx, size_t j, double *sums)
 {
     struct rc_gap *g = ctx;
     const double *x = g->x + j * g->px, *au = g->au + j * g->px;
     const double load = g->control == RC_GAP_LOAD ? g->given : 0;
-    const float *soft = g->mode.e[0] + j * g->px;
     double *r = g->r + j * g->px;
     size_t m = rc_gap_on_map(g, j);
 
@@ -150,8 +167,6 @@ residual_row(void *ctx, size_t j, double *sums)
             r[i + k] = au[i + k] + load + s[k];
             sums[0] += apart ? r[i + k] : 0;
             sums[1] += apart;
-            if (g->mode.watched && x[i + k] > 0)
-                sums[2] += d[k] * (double)soft[i + k] * (double)soft[i + k];
         }
     }
     for (size_t i = m; i < g->px; i++) {
@@ -196,7 +211,6 @@ find_residual(struct rc_gap *g)
 
     rows(g, residual_row, g, sums);
     g->level = g->control == RC_GAP_MEAN && sums[1] > 0 ? sums[0] / sums[1] : 0;
-    g->negative = g->mode.watched && sums[2] > g->mode.stiffness;
     rows(g, hold_row, g, sums);
     g->free = (size_t)sums[1];
     g->way.same = sums[2] == 0;
@@ -657,7 +671,6 @@ line_minimum(struct rc_gap *g, struct line *l, double most)
     double a = 0, low = 0, high = INFINITY;
 
     look(g, l, 0);
-    g->negative |= l->bend < 0;
     g->way.stiffness = way_of(g, l);
     for (int k = 0; k < NEWTON; k++) {
         double bend = fmax(l->bend, curvature * l->q);
@@ -670,7 +683,6 @@ line_minimum(struct rc_gap *g, struct line *l, double most)
             next = isinf(high) ? 2 * fmax(low, 1) : (low + high) / 2;
         a = fmin(next, most);
         look(g, l, a);
-        g->negative |= l->bend < 0 && l->slope < 0;
         if (fabs(l->slope) <= exact * l->rd || (a == most && l->slope < 0))
             break;
     }
@@ -693,7 +705,6 @@ go(struct rc_gap *g, struct line *l, double a)
         if (sums[0] == 0) {
             if (k > 0)
                 look(g, l, by.a);
-            g->from.fall -= l->phi;
             g->told.drift += float_rounding * by.a * g->told.moves;
             rows(g, take_row, &(struct taken){g, by.a, g->d, g->ad}, sums);
             return;
@@ -704,7 +715,6 @@ go(struct rc_gap *g, struct line *l, double a)
             keep_mean(g, sums[1], sums[2]);
         up = rise(g, near, &least);
         if (up <= least) {
-            g->from.fall -= up;
             g->told.drift += float_rounding * g->told.moves + g->told.cut;
             g->told.cuts += g->told.cut;
             rows(g, take_row, &(struct taken){g, 1, g->step, g->a_step}, sums);
@@ -841,7 +851,7 @@ rc_gap_look(struct rc_gap *g)
     if (g->way.rd > 0) {
         g->way.dad = find_ad(g);
         measure_ratio(g);
-        if (!g->mode.known && g->told.error < linear)
+        if (!g->mode.known && !g->frozen.on && g->told.error < linear)
             rc_gap_track(g, g->control == RC_GAP_MEAN ? sum_z / (double)g->free : 0);
         return;
     }
@@ -954,28 +964,49 @@ shift(struct rc_gap *g, double a)
     }
 }
 
-/* Keeps the start of a state and the slope of Phi there, also at held nodes. */
 static void
-keep_row(void *ctx, size_t j, double *sums)
+keep(const struct rc_gap *g, float *to)
 {
-    struct rc_gap *g = ctx;
-    (void)sums;
-    for (size_t k = j * g->px; k < (j + 1) * g->px; k++) {
-        g->from.x[k] = (float)g->x[k];
-        g->from.slope[k] = (float)g->r[k];
-    }
+#pragma omp parallel for num_threads(g->sums.threads) schedule(static)
+    for (size_t k = 0; k < g->n; k++)
+        to[k] = (float)g->x[k];
+}
+
+void
+rc_gap_keep(struct rc_gap *g)
+{
+    keep(g, g->start);
+}
+
+void
+rc_gap_return(struct rc_gap *g, enum rc_gap_control control, double given)
+{
+#pragma omp parallel for num_threads(g->sums.threads) schedule(static)
+    for (size_t k = 0; k < g->n; k++)
+        g->x[k] = (double)g->start[k];
+    g->control = control;
+    g->given = given;
+    g->mode.known = false; /* its softest mode belongs to another gap */
+}
+
+void
+rc_gap_freeze(struct rc_gap *g, bool at_start)
+{
+    if (at_start)
+        memcpy(g->frozen.x, g->start, g->n * sizeof *g->start);
+    else
+        keep(g, g->frozen.x);
+    g->way.restart = g->frozen.on = true;
+    g->way.rz = 0;
+    g->stuck = false;
+    forget_error(g);
 }
 
 void
 rc_gap_begin(struct rc_gap *g, enum rc_gap_control control, double given)
 {
-    double c = rc_gap_shift(g), sums[RC_GAP_SUMS];
+    double c = rc_gap_shift(g);
 
-    g->mode.watched = g->mode.known && g->mode.mu > 0 && control == g->control;
-    if (g->mode.watched) { /* stiffness of the softest mode, without that of the traction */
-        rows(g, residual_row, g, sums);
-        g->mode.stiffness = g->mode.mu + sums[2];
-    }
     g->control = control;
     g->given = given;
     if (control == RC_GAP_SHIFT && given != c)
@@ -989,7 +1020,7 @@ rc_gap_begin(struct rc_gap *g, enum rc_gap_control control, double given)
     g->way.rz = 0;
     forget_error(g);
     g->told.fresh = 1;
-    g->stuck = g->parting = g->negative = false;
+    g->stuck = g->parting = g->frozen.on = false;
     g->iterations = g->mode.steps = 0;
     g->convolutions = 0;
     g->near.known = false;
@@ -998,29 +1029,65 @@ rc_gap_begin(struct rc_gap *g, enum rc_gap_control control, double given)
     memset(g->ad, 0, g->n * sizeof *g->ad);
     g->mode.tracked = false;
     find_au(g);
-    g->from.fall = 0;
-    rows(g, residual_row, g, sums);
-    rows(g, keep_row, g, sums);
 }
 
+/* ---- energy ---- */
+
+/* Sums over x, u = x + h, p, u p, V; over |p|, |u p|, |V|; nodes in contact. */
 static void
-way_row(void *ctx, size_t j, double *sums)
+energy_row(void *ctx, size_t j, double *sums)
 {
     const struct rc_gap *g = ctx;
-    for (size_t k = j * g->px; k < (j + 1) * g->px; k++) {
-        double way = g->x[k] - (double)g->from.x[k];
-        sums[0] += (double)g->from.slope[k] * way;
-        sums[1] += fabs((double)g->from.slope[k] * way);
+    const double *x = g->x + j * g->px;
+    size_t m = rc_gap_on_map(g, j);
+
+    for (size_t i = 0; i < g->px; i++) {
+        double u = i < m ? x[i] + g->h[j * g->nx + i] : x[i];
+        double p = rc_gap_pressure_at(g, j * g->px + i);
+        sums[0] += x[i];
+        sums[1] += u;
+        sums[2] += p;
+        sums[3] += u * p;
+        sums[5] += fabs(p);
+        sums[6] += fabs(u * p);
+    }
+    for (size_t i = 0; i < m; i += LINE) {
+        size_t n = m - i < LINE ? m - i : LINE;
+        double v[LINE], s[LINE], d[LINE];
+        rc_gap_law(g, j, i, n, x + i, v, s, d);
+        for (size_t k = 0; k < n; k++) {
+            sums[4] += v[k];
+            sums[7] += fabs(v[k]);
+            sums[8] += x[i + k] <= 0;
+        }
     }
 }
 
-bool
-rc_gap_jumped(struct rc_gap *g)
+/* If c is not given, A ignores the mean; of a given mean Phi then has a part that does not depend on the
+ * state. */
+struct rc_gap_energy
+rc_gap_energy(struct rc_gap *g, enum rc_gap_control control)
 {
-    double sums[RC_GAP_SUMS];
+    double sums[RC_GAP_SUMS], n = (double)g->n, c = rc_gap_shift(g);
+    struct rc_gap_energy e;
 
-    rows(g, way_row, g, sums);
-    return g->from.fall > -sums[0] + single * sums[1];
+    rows(g, energy_row, g, sums);
+    e.phi_scale = sums[6] + sums[7] + fabs(c) * sums[5];
+    e.pressure = sums[5];
+    e.contact = sums[8];
+    e.force_scale = control == RC_GAP_LOAD ? sums[0] : sums[5];
+    if (control == RC_GAP_SHIFT) {
+        e.given = c;
+        e.force = sums[2];
+        e.phi = (sums[3] + c * sums[2]) / 2 + sums[4];
+        return e;
+    }
+    e.given = (control == RC_GAP_LOAD ? sums[2] : sums[0]) / n;
+    e.force = control == RC_GAP_LOAD ? sums[0] : -sums[2];
+    e.phi = (sums[3] - sums[1] * sums[2] / n) / 2 + sums[4];
+    if (control == RC_GAP_LOAD)
+        e.phi += e.given * sums[0];
+    return e;
 }
 
 enum {
@@ -1055,8 +1122,8 @@ rc_gap_new(struct rc_gap *g, struct rc_whole *whole, const struct rc_attraction 
             g->mode.e[k] = rc_store_take(&g->own, n, sizeof(float));
     g->told.at_mark = rc_store_take(&g->own, n, sizeof(float));
     g->near.ah = rc_store_take(&g->own, n, sizeof(float));
-    g->from.x = rc_store_take(&g->own, n, sizeof(float));
-    g->from.slope = rc_store_take(&g->own, n, sizeof(float));
+    g->frozen.x = rc_store_take(&g->own, n, sizeof(float));
+    g->start = rc_store_take(&g->own, n, sizeof(float));
     g->off = rc_store_zeros(&g->own, n, 1);
     g->a_step = g->r;
     if (rc_sums_new(&g->sums, g->py, RC_GAP_MOST, RC_GAP_SUMS - RC_GAP_MOST, whole->threads) ==

@@ -66,19 +66,26 @@ struct rc_gap_mode {
     float *e[RC_GAP_FLOATS]; /* x, K^-1 x, (A - D) x; the same for its residual and for its last
                                 step */
     double mu, error;        /* smallest eigenvalue, and bound of its error */
-    double stiffness;        /* stiffness of the mode of the previous state without attraction */
-    bool known, watched;     /* e[1] holds the mode; e[0] the mode of the previous state with this
-                                control */
+    bool known;              /* e[1] holds the mode */
     bool tracked;            /* e[1] holds a first vector, from the corrections of the descent */
     double bare;             /* stiffness of the mode without attraction; 0: not yet found */
     bool grown;              /* a node that was held when the mode was found is free */
     size_t steps, slow;      /* slow: successive steps with nearly the same mu */
 };
 
-/* The start of a state. */
-struct rc_gap_from {
-    float *x, *slope; /* x, and the slope of Phi there */
-    double fall;      /* decrease of Phi since the start */
+/* The attraction may be that of another gap: V is then its tangent there, and Phi is convex. */
+struct rc_gap_frozen {
+    bool on;
+    float *x;
+};
+
+/* The minimum of Phi as a function of the given c, mean of x or S; dPhi is `force` times its change. The
+ * scales are sums of absolute values. */
+struct rc_gap_energy {
+    double given, phi, force;
+    double phi_scale, force_scale;
+    double pressure; /* sum of |p| */
+    double contact;  /* nodes */
 };
 
 /* Coefficients of A near a node, by near.c. */
@@ -111,12 +118,11 @@ struct rc_gap {
     struct rc_gap_way way;
     struct rc_gap_told told;
     struct rc_gap_mode mode;
-    struct rc_gap_from from;
+    struct rc_gap_frozen frozen;
+    float *start; /* x of the last state */
     struct rc_gap_near near;
-    bool negative; /* the stiffness at the start was negative, along the direction or in the
-                      softest mode */
-    bool stuck;    /* no step lowers Phi any more */
-    bool parting;  /* the bodies separate without remaining attraction */
+    bool stuck;   /* no step lowers Phi any more */
+    bool parting; /* the bodies separate without remaining attraction */
     double convolutions;
     size_t iterations;
     struct rc_store own;
@@ -138,9 +144,13 @@ void rc_gap_look(struct rc_gap *g);
 void rc_gap_move(struct rc_gap *g);
 /* Finds way.stiffness without a step. */
 void rc_gap_look_along(struct rc_gap *g);
-/* True if the straight line from the start of the state crosses a region where Phi is not convex. Phi has
- * then fallen by more than its slope at the start allows. */
-bool rc_gap_jumped(struct rc_gap *g);
+/* Freezes the attraction at the present gap, or at the kept one. */
+void rc_gap_freeze(struct rc_gap *g, bool at_start);
+/* Phi and its derivative by the given quantity of this control, at a state of any control. */
+struct rc_gap_energy rc_gap_energy(struct rc_gap *g, enum rc_gap_control control);
+/* Keeps the present gap in single precision, and returns to it. */
+void rc_gap_keep(struct rc_gap *g);
+void rc_gap_return(struct rc_gap *g, enum rc_gap_control control, double given);
 /* c of the state: the mean of u minus the means of x and h. */
 double rc_gap_shift(const struct rc_gap *g);
 /* p of node k of the grid. */

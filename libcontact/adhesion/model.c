@@ -250,15 +250,23 @@ read_start(struct adhesive *a, struct rc_state *s)
     a->returns = false;
 }
 
-/* A state holds the dents, the approach and the net pressure. During a retraction, and if the bodies have
- * separated, it holds the state at the last kept point. */
+/* True on the way to a later point: the iteration may be beyond barriers of the energy. */
+static bool
+goes_on(struct adhesive *a)
+{
+    return a->base.status == RC_MORE && rc_adhesion_past(a->path)->begun;
+}
+
+/* A state holds the dents, the approach and the net pressure. On the way to a later point, and if the bodies
+ * have separated, it holds the state at the last kept point. */
 static void
 state(struct rc_model *m, struct rc_state *s)
 {
     struct adhesive *a = (struct adhesive *)m;
     struct rc_adhesion_past past = {{0, 0}, false};
     bool started = a->started, dented = a->dent != NULL,
-         anew = m->moved && started && (a->pulls || rc_adhesion_result(a->path)->separated);
+         anew = m->moved && started &&
+                (a->pulls || goes_on(a) || rc_adhesion_result(a->path)->separated);
     double approach = started ? rc_adhesion_approach(a->path) : 0, *to;
 
     if (started)

@@ -385,6 +385,71 @@ paths_are_stable(void **state)
     assert_true(jumps > 0);
 }
 
+/* One step and many small steps lead to the same state. The maps are waves in x and y under a load, and rough
+ * maps of a given approach, whose spots open and close each other because the mean gap is given. */
+static void
+steps_may_be_large(void **state)
+{
+    enum {
+        SIDE = 64,
+        STEPS = 16
+    };
+    static const struct {
+        bool load, sum;
+        uint64_t seed;
+        double from, to;
+    } ways[] = {{true, false, 1, 0.05, 0.6},
+                {true, true, 1, 0.2, 0.6},
+                {true, true, 1, 0.6, 0.05},
+                {false, false, 2, 0.2, 0.7},
+                {false, false, 1, 0.8, 0.2}};
+    const double height = 0.005 * SIDE, peak = exact_pi * height / SIDE;
+
+    (void)state;
+    for (size_t k = 0; k < sizeof ways / sizeof *ways; k++) {
+        const bool load = ways[k].load;
+        const struct rc_shape shape = rough(SIDE, ways[k].seed, false);
+        const size_t n = shape.nx * shape.ny;
+        struct rc_adhesion_problem problem = law_of(RC_PERIODIC, 0.1, 4, 1e-4);
+        const double unit = load ? peak * (double)n : depth(SIDE), first = load ? 0 : -0.5;
+        double jumps[2] = {0, 0}, counts[2] = {0, 0};
+
+        if (load) {
+            problem.work = 0.01 * peak * peak * SIDE / 2;
+            problem.law = "jkr";
+            problem.range = 0;
+        }
+        for (size_t i = 0; i < n && load; i++) {
+            double x = cos(2 * exact_pi * ((double)(i % SIDE) + 0.5) / SIDE);
+            double y = cos(2 * exact_pi * ((double)(i / SIDE) + 0.5) / SIDE);
+            h[i] = ways[k].sum ? height * (x + y) / 2 : height * x * y;
+        }
+        for (int small = 0; small < 2; small++) {
+            struct rc_adhesion *a = adhesion_new(shape, h, problem);
+            for (int s = 0; s <= 2 * STEPS; s++) {
+                double at = s <= STEPS
+                                ? first + (ways[k].from - first) * s / STEPS
+                                : ways[k].from + (ways[k].to - ways[k].from) * (s - STEPS) / STEPS;
+                const struct rc_adhesion_figures *f;
+                if (!small && s > STEPS && s < 2 * STEPS)
+                    continue;
+                f = load ? adhesion_to_load(a, unit * at) : adhesion_to_approach(a, unit * at);
+                assert_true(f->converged && f->stable);
+                jumps[small] += s > STEPS ? (double)f->jumps : 0;
+                counts[small] += s > STEPS ? f->convolutions : 0;
+            }
+            rc_adhesion_pressure(a, small ? exact : p);
+            rc_adhesion_free(a);
+        }
+        print_message("%s %g to %g: %.1e from small steps, %g and %g jumps, %.0f and %.0f "
+                      "convolutions\n",
+                      load ? "load" : "approach", ways[k].from, ways[k].to,
+                      adhesion_distance(n, p, exact), jumps[0], jumps[1], counts[0], counts[1]);
+        assert_true(adhesion_distance(n, p, exact) <= 1e-3);
+        assert_true(jumps[0] <= jumps[1] && counts[0] <= counts[1]);
+    }
+}
+
 /* The eigenvalue compared with that of the dense matrix (A - D) K_FF, by inverse iteration on small maps.
  * Unit pressures on one node after another give the matrices. */
 static void
@@ -839,6 +904,7 @@ main(void)
         cmocka_unit_test(laws_are_whole),
         cmocka_unit_test(errors_are_known),
         cmocka_unit_test(paths_are_stable),
+        cmocka_unit_test(steps_may_be_large),
         cmocka_unit_test(eigenvalues_are_right),
         cmocka_unit_test(costs_are_known),
         cmocka_unit_test(large_maps_start_coarse),

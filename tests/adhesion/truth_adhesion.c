@@ -262,6 +262,59 @@ wave_of_johnson(void **state)
     rc_conv_free(conv);
 }
 
+/* The half-width over the length on the stable branch. */
+static double
+johnson_width(double alpha, double load)
+{
+    double low = 0.05, high = 0.45;
+
+    for (int k = 0; k < 50; k++) {
+        double middle = (low + high) / 2;
+        if (johnson_wave(alpha, middle) < load)
+            low = middle;
+        else
+            high = middle;
+    }
+    return low;
+}
+
+/* A wave also has states of complete contact, which are stable at all these loads. A path of large steps up
+ * and down must not jump there. */
+static void
+waves_in_large_steps(void **state)
+{
+    enum {
+        SIDE = 128
+    };
+    static const double loads[] = {0.05, 0.5, 0.05, 0.7, 0.4, 0.6, 0, 0.3, 0.7, 0.2, 0.6, 0.05};
+    const double length = 1e-3, height = 5e-6, soft = 1e6, alpha = 0.1;
+    const double peak = exact_pi * soft * height / length;
+    const struct rc_shape shape = {SIDE, 1, length / SIDE, length / SIDE};
+    const struct rc_adhesion_problem problem = {
+        .contact = {.boundary = RC_PERIODIC, .pair.estar = soft},
+        .work = alpha * alpha * peak * peak * length / (2 * soft),
+        .law = "jkr"};
+    double h[SIDE], worst = 0, convolutions = 0;
+    struct rc_adhesion *path;
+
+    (void)state;
+    rc_synth_wave(&shape, height, length, INFINITY, h);
+    path = adhesion_new(shape, h, problem);
+    for (size_t k = 0; k < sizeof loads / sizeof *loads; k++) {
+        const struct rc_adhesion_figures *f =
+            adhesion_to_load(path, loads[k] * peak * length * shape.dy);
+        double off = f->contact_fraction - 2 * johnson_width(alpha, loads[k]);
+        assert_true(f->converged && f->stable);
+        assert_int_equal(f->jumps, 0);
+        worst = fmax(worst, fabs(off));
+        convolutions += f->convolutions;
+    }
+    print_message("large steps: contact within %.4f of Johnson's, %.0f convolutions\n", worst,
+                  convolutions);
+    assert_true(worst <= 0.02); /* 2.5 nodes; two of them are the range */
+    rc_adhesion_free(path);
+}
+
 /* ---- another formulation ---- */
 
 /* Solves min(g, p + sigma) = 0, g = K p - h - c, for the pressures by Newton's method. A node with the
@@ -432,9 +485,10 @@ int
 main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(sphere_of_maugis), cmocka_unit_test(spread_holds_the_saw),
-        cmocka_unit_test(sphere_of_jkr),    cmocka_unit_test(sphere_of_bradley),
-        cmocka_unit_test(wave_of_johnson),  cmocka_unit_test(pressures_by_newton),
+        cmocka_unit_test(sphere_of_maugis),    cmocka_unit_test(spread_holds_the_saw),
+        cmocka_unit_test(sphere_of_jkr),       cmocka_unit_test(sphere_of_bradley),
+        cmocka_unit_test(wave_of_johnson),     cmocka_unit_test(waves_in_large_steps),
+        cmocka_unit_test(pressures_by_newton),
     };
 
     return cmocka_run_group_tests(tests, NULL, NULL);

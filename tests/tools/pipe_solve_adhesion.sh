@@ -54,6 +54,14 @@ status=$?
 claim "a load below pull-off separates the bodies, with exit status 3" test "$status $(column separated 2 s.tsv)" = "3 yes"
 claim "  a message says so" bash -c "rc-solve --estar 2MPa --adhesion 50mJ/m2,jkr --load 0.2mN,-0.5mN ball.rcg -o s.rcg 2>said; grep -q 'the bodies have separated, because no state carries this load' said"
 
+# ---- a list with a large step ----
+
+rc-synth wave --nx 128 --ny 1 --dx 7.8125um --amplitude 5um --wavelength 1mm -o wave.rcg
+wave="rc-solve --quiet --periodic --estar 1MPa --adhesion 1.2337mJ/m2,jkr"
+$wave --mean-pressure 785.4,7854 --report large.tsv wave.rcg -o large.rcg
+near "$(column contact_fraction 2 large.tsv)" 0.572 0.03 "a path of one large step follows its branch (Johnson 1995: 0.572)"
+claim "  without a jump" test "$(column jumps 2 large.tsv) $(column stable 2 large.tsv)" = "0 yes"
+
 # ---- an interrupted run ----
 
 path="--adhesion 50mJ/m2,jkr --approach=-1um,2um,1um,0"
