@@ -565,6 +565,8 @@ plan(const struct rc_model *m, const struct rc_point *most, struct rc_expected *
         expected->memory +=
             e->n * (e->asks.conductivity[0] > 0 ? RC_CONDUCTANCE_BYTES : RC_STIFFNESS_BYTES);
     }
+    if (m->inside)
+        expected->memory += e->n * sizeof *e->start;
     return RC_OK;
 }
 

@@ -3,7 +3,7 @@
 # RC_LONG 4000 of each kind.
 . "$(dirname "$0")/../pipe.sh"
 . "$RC_SOURCE/tests/python.sh"
-python=$(python_with zlib resource) || exit 77
+python=$(python_with zlib resource) || skip "Python with zlib and resource, which is not here"
 
 mutants() { "$python" "$RC_SOURCE/tests/fuzz/mutants.py" --bin "$RC_BIN" "$@"; }
 count=40
