@@ -432,6 +432,11 @@ suspect_track(struct run *run, const struct rc_grid *g)
     const double period = g->dx * (double)g->nx, track = run->law.track;
     const char *where = tool_where(&run->d.t, g);
 
+    if (track > 0 && track < (1 - 1e-6) * period)
+        tool_refuse(&run->d.t, g,
+                    "--motion track: the map is longer, %s, so that it would pass over points that "
+                    "it is on: cut the contact out with rc-pick --crop, or give a longer track",
+                    shown_in_unit(period, "m"));
     if (track > 0 && run->law.k[1] > 0 && fabs(track - period) > 1e-6 * period &&
         map_says(g, "boundary", "periodic"))
         tool_warn(&run->d.t,
@@ -467,6 +472,7 @@ suspect_unit(struct run *run, const struct rc_grid *g)
 {
     struct tool *t = &run->d.t;
     const struct rc_point *point = run->d.point;
+    static const double most_sides = 1e12; /* the surface is flat to rounding far earlier */
     const double side = fmax(g->dx * (double)g->nx, g->dy * (double)g->ny);
     const double scale = rate(run, g) * run->law.estar;
     const char *where = tool_where(t, g);
@@ -477,6 +483,11 @@ suspect_unit(struct run *run, const struct rc_grid *g)
         first = s > 0 ? fmin(first, s) : first;
         last = fmax(last, s);
     }
+    if (last > 0 && !(scale * last <= most_sides * side))
+        tool_refuse(t, g,
+                    "the last distance, %s, is above %g times that after which the pressure is "
+                    "even, %s: the wear coefficient or the distance is not in its unit",
+                    shown_in_unit(last, "m"), most_sides, shown_in_unit(side / scale, "m"));
     if (last > 0 && scale * last < 0.01 * g->dx)
         tool_warn(
             t,

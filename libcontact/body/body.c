@@ -61,6 +61,8 @@ enum rc_status
 rc_pair_check(const struct rc_pair *p, struct rc_err *err)
 {
     if (p->estar != 0 || unsaid(&p->one)) {
+        if (p->estar == 0 && !unsaid(&p->two))
+            return rc_err_set(err, "body 2 is given and body 1 is not: give both, or E*");
         if (!unsaid(&p->one) || !unsaid(&p->two))
             return rc_err_set(err, "E* = %g Pa and the bodies are given: give one or the other",
                               p->estar);

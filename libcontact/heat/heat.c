@@ -89,6 +89,10 @@ is_cooled(const struct rc_shape *shape, const double velocity[2])
     return (!row && !column) || (!column && velocity[0] != 0) || (!row && velocity[1] != 0);
 }
 
+/* of a cell; the quadrature of the coefficients grows with it, and they tend to those of a body without
+ * conduction along the motion */
+static const double most_peclet = 1e9;
+
 enum rc_status
 rc_heat_check(const struct rc_shape *shape, const struct rc_heat_problem *p, struct rc_err *err)
 {
@@ -105,6 +109,13 @@ rc_heat_check(const struct rc_shape *shape, const struct rc_heat_problem *p, str
         if (!isfinite(body->velocity[0]) || !isfinite(body->velocity[1]) || !isfinite(body->bulk))
             return rc_err_set(err, "velocity or bulk temperature of body %d is not a number",
                               b + 1);
+        if (fmax(fabs(body->velocity[0]) * shape->dx, fabs(body->velocity[1]) * shape->dy) >
+            most_peclet * 2 * body->diffusivity)
+            return rc_err_set(err,
+                              "velocity of body %d, %g and %g m/s: the Peclet number of a cell is "
+                              "above %g, so that no heat reaches the next one: are velocity, "
+                              "diffusivity and spacing in their units?",
+                              b + 1, body->velocity[0], body->velocity[1], most_peclet);
         if (p->boundary == RC_FREE && !(p->time > 0) && !is_cooled(shape, body->velocity))
             return rc_err_set(err,
                               "body %d does not move along the profile, which has no end across: "

@@ -68,6 +68,7 @@ requests(void **state)
     REFUSED(contact.hardness = -1, "hardness")
     REFUSED(contact.tol = -1, "tolerance")
     REFUSED(contact.pair.estar = -1, "E*")
+    REFUSED(contact.pair = ((struct rc_pair){.two = {.e = 1e9}}), "body 1 is not")
     bad = good;
     bad.law = "dugdale";
     bad.range = 1e-8;
