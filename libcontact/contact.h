@@ -1133,10 +1133,10 @@ struct rc_rolling_contact {
 };
 /* The contact rolls towards +x. Body 2 moves over body 1 by (creep_x - spin y, creep_y + spin x) per
  * length rolled, with x and y from the middle of the contact. The middle is at RC_POSITION (0 if it is
- * never given), in the middle row; on a periodic map that of the nearest period. This is minus the creepage of railway textbooks, where body 1 moves over body 2. In a
- * steady state, tractions and slip at each place of the contact do not change with time. On a path, the
- * bodies are pressed together at the first point, and each further point is a step of rolling from the
- * last point kept. */
+ * never given), in the middle row; on a periodic map that of the nearest period. This is minus the creepage of
+ * railway textbooks, where body 1 moves over body 2. In a steady state, tractions and slip at each place of
+ * the contact do not change with time. On a path, the bodies are pressed together at the first point, and each
+ * further point is a step of rolling from the last point kept. */
 struct rc_rolling_problem {
     /* Friction and bodies. A steady state needs the free boundary. Pressure moves dissimilar bodies along
      * each other, unless `uncoupled`; tractions do not change the pressure. tol 0 is 1e-3, on a path
@@ -1179,8 +1179,9 @@ struct rc_rolling_figures {
  * traction-x, traction-y (Pa), slip-x, slip-y (per length rolled), state (as for friction), dissipation (J/m3:
  * energy per area and length rolled), slip (per length rolled: dissipation over the largest traction). RC_FAIL
  * during a path if no node is in contact, friction cannot carry the force, or a contact with spin reaches
- * half a period from its middle. RC_FAIL too if the contact reaches the last column (the leading edge), or a column that comes in. Sources: Kalker 1990, Three-
- * dimensional elastic bodies in rolling contact; Newton's method as in libcontact/slip/steady.c. */
+ * half a period from its middle. RC_FAIL too if the contact reaches the last column (the leading edge), or a
+ * column that comes in. Sources: Kalker 1990, Three-dimensional elastic bodies in rolling contact; Newton's
+ * method as in libcontact/slip/steady.c. */
 RC_API struct rc_model *rc_rolling_new(struct rc_model *inner,
                                        const struct rc_rolling_problem *problem,
                                        struct rc_err *err);
@@ -1208,8 +1209,8 @@ struct rc_wear_problem {
     bool sliding;
     const double *h2;
     /* nx ny J/m2: a friction energy at each node per unit of the distance, which then is a number of cycles. A
-     * node loses k times this energy, whatever its pressure is; NULL: k p per sliding distance. The caller keeps
-     * it as long as the model. There is no part, track, sliding or condition beside it. */
+     * node loses k times this energy, whatever its pressure is; NULL: k p per sliding distance. The caller
+     * keeps it as long as the model. There is no part, track, sliding or condition beside it. */
     const double *energy;
     /* A leg ends early when one of these is reached; 0: no such condition. */
     double until_area;   /* contact fraction                   */
@@ -1266,10 +1267,10 @@ struct rc_travel_figures {
  * which must allow other heights. NULL if the inner model is NULL. In addition to the load it takes the
  * position. The inner model has the map of body 1, or a window with fewer columns or rows, which moves
  * with the contact by whole nodes. The numbers of rows of both maps and of the window are all even or all
- * odd, so that their middle rows agree. In a window each position is a first contact; on the whole map the inner
- * model keeps its history. The frame `height` holds the heights of both bodies at the position. The
- * heights of body 2 between nodes are interpolated by cubic polynomials. RC_FAIL when the window leaves
- * the map of a body. */
+ * odd, so that their middle rows agree. In a window each position is a first contact; on the whole map the
+ * inner model keeps its history. The frame `height` holds the heights of both bodies at the position. The
+ * heights of body 2 between nodes are interpolated by cubic polynomials. RC_FAIL when the window leaves the
+ * map of a body. */
 RC_API struct rc_model *rc_travel_new(struct rc_model *inner,
                                       const struct rc_travel_problem *problem, struct rc_err *err);
 /* The figures of this model, after rc_model_look; NULL: it does not travel. */
