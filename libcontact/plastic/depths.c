@@ -15,19 +15,18 @@ enum {
 static const double growth = 1.25;
 
 /* Finds the largest Mises stress at the middle of each slab, and the number of nodes with more than
- * `yield`. */
+ * `yield`. RC_MORE: the caller cannot wait. */
 static enum rc_status
-look(const struct rc_shape *shape, enum rc_boundary boundary, const double *p,
-     const struct rc_body *body, double yield, size_t threads, size_t n, const double *middle,
-     double *mises, size_t *beyond, struct rc_err *err)
+look(const struct rc_shape *shape, const struct rc_problem *contact, const double *p, double yield,
+     size_t n, const double *middle, double *mises, size_t *beyond, struct rc_err *err)
 {
-    const struct rc_stress_options options = {.boundary = boundary,
-                                              .body = *body,
+    const struct rc_stress_options options = {.boundary = contact->boundary,
+                                              .body = contact->pair.one,
                                               .wanted = 1U << RC_MISES,
                                               .tol = 1e-3,
                                               .depth = middle,
                                               .depths = n,
-                                              .threads = threads};
+                                              .threads = contact->threads};
     RC_OWNED double *map = rc_alloc(shape->nx * shape->ny, sizeof *map);
     double *const to[RC_STRESSES] = {[RC_MISES] = map};
     enum rc_status status = RC_OK;
@@ -41,6 +40,10 @@ look(const struct rc_shape *shape, enum rc_boundary boundary, const double *p,
         status = RC_FAIL;
     for (size_t k = 0; k < n && status == RC_OK; k++) {
         size_t least, largest;
+        if (contact->hurry != NULL && *contact->hurry != 0) {
+            status = RC_MORE;
+            break;
+        }
         status = rc_stress_slice(stress, middle[k], to, err);
         if (status == RC_OK) {
             rc_extremes(shape->nx * shape->ny, map, &least, &largest);
@@ -55,10 +58,10 @@ look(const struct rc_shape *shape, enum rc_boundary boundary, const double *p,
 }
 
 enum rc_status
-rc_plastic_depths(const struct rc_shape *shape, enum rc_boundary boundary, const double *p,
-                  const struct rc_body *body, double yield, size_t threads,
-                  struct rc_plastic_depths *d, struct rc_err *err)
+rc_plastic_depths(const struct rc_shape *shape, const struct rc_problem *contact, const double *p,
+                  double yield, struct rc_plastic_depths *d, struct rc_err *err)
 {
+    enum rc_status status;
     double thickness[MOST], middle[MOST], mises[MOST], z = 0;
     double side = fmax((double)shape->nx * shape->dx, (double)shape->ny * shape->dy);
     double step = shape->nx == 1   ? shape->dy
@@ -72,8 +75,9 @@ rc_plastic_depths(const struct rc_shape *shape, enum rc_boundary boundary, const
         middle[n++] = z + dz / 2;
         z += dz;
     }
-    if (look(shape, boundary, p, body, yield, threads, n, middle, mises, beyond, err) != RC_OK)
-        return RC_FAIL;
+    status = look(shape, contact, p, yield, n, middle, mises, beyond, err);
+    if (status != RC_OK)
+        return status;
     for (size_t k = 0; k < n; k++) {
         if (mises[k] > d->most) {
             d->most = mises[k];

@@ -138,11 +138,11 @@ find_slabs(struct yielding *y, struct rc_err *err)
     const struct rc_plastic_problem *asked = &y->problem;
     const double yield = rc_yield_stress(&asked->yield, 0);
     struct rc_plastic_depths d;
+    const enum rc_status status = rc_plastic_depths(&y->base.shape, &asked->contact,
+                                                    rc_solver_pressure(y->elastic), yield, &d, err);
 
-    if (rc_plastic_depths(&y->base.shape, asked->contact.boundary, rc_solver_pressure(y->elastic),
-                          &asked->contact.pair.one, yield, asked->contact.threads, &d,
-                          err) != RC_OK)
-        return RC_FAIL;
+    if (status != RC_OK)
+        return status;
     y->most = d.most / yield;
     y->deepest = d.deepest;
     y->part = d.part;
@@ -436,8 +436,10 @@ go(struct rc_model *m, struct rc_err *err)
 static enum rc_status
 look_inside(struct yielding *y, struct rc_err *err)
 {
-    if (find_slabs(y, err) != RC_OK)
-        return RC_FAIL;
+    const enum rc_status status = find_slabs(y, err);
+
+    if (status != RC_OK) /* RC_MORE: the caller cannot wait */
+        return status;
     if (y->slabs == 0)
         return y->reached;
     y->stage = y->largest > y->load ? LARGEST : MAKE;
@@ -449,11 +451,14 @@ static enum rc_status
 press_elastic(struct yielding *y, struct rc_err *err)
 {
     const enum rc_status status = rc_solver_step(y->elastic);
+    enum rc_status looked = RC_OK;
 
     if (status == RC_MORE)
         return RC_MORE;
-    if (y->stage == LARGEST && find_slabs(y, err) != RC_OK)
-        return RC_FAIL;
+    if (y->stage == LARGEST)
+        looked = find_slabs(y, err);
+    if (looked != RC_OK)
+        return looked;
     y->reached = status;
     y->stage = y->stage == LARGEST ? MAKE : DEPTHS;
     return RC_MORE;

@@ -94,10 +94,10 @@ struct rc_plastic_depths {
     double part;          /* part of the nodes of these slabs whose Mises stress exceeds `yield` */
     double most, deepest; /* Pa, the largest Mises stress; m, its depth */
 };
-/* RC_FAIL as rc_stress_new, and if memory is short. */
-enum rc_status rc_plastic_depths(const struct rc_shape *shape, enum rc_boundary boundary,
-                                 const double *p, const struct rc_body *body, double yield,
-                                 size_t threads, struct rc_plastic_depths *depths,
+/* Takes boundary, body 1, threads and `hurry` of the contact. RC_FAIL as rc_stress_new, and if memory is short;
+ * RC_MORE: the caller cannot wait, and nothing is known. */
+enum rc_status rc_plastic_depths(const struct rc_shape *shape, const struct rc_problem *contact,
+                                 const double *p, double yield, struct rc_plastic_depths *depths,
                                  struct rc_err *err);
 /* n thicknesses that reach the depth found by rc_plastic_depths. */
 void rc_plastic_stack(const struct rc_plastic_depths *found, size_t n, double *thickness);
