@@ -1133,10 +1133,10 @@ struct rc_rolling_contact {
 };
 /* The contact rolls towards +x. Body 2 moves over body 1 by (creep_x - spin y, creep_y + spin x) per
  * length rolled, with x and y from the middle of the contact. The middle is at RC_POSITION (0 if it is
- * never given), in the middle row; on a periodic map that of the nearest period. This is minus the creepage of
- * railway textbooks, where body 1 moves over body 2. In a steady state, tractions and slip at each place of
- * the contact do not change with time. On a path, the bodies are pressed together at the first point, and each
- * further point is a step of rolling from the last point kept. */
+ * never given), in the middle row; on a periodic map that of the nearest period. This is minus the
+ * creepage of railway textbooks, where body 1 moves over body 2. In a steady state, tractions and slip
+ * at each place of the contact do not change with time. On a path, the bodies are pressed together at
+ * the first point, and each further point is a step of rolling from the last point kept. */
 struct rc_rolling_problem {
     /* Friction and bodies. A steady state needs the free boundary. Pressure moves dissimilar bodies along
      * each other, unless `uncoupled`; tractions do not change the pressure. tol 0 is 1e-3, on a path
@@ -1176,12 +1176,12 @@ struct rc_rolling_figures {
 /* A model (model.h) of rolling over an inner model of the same bodies, which it owns from here on. NULL
  * if the inner model is NULL. Beside the axes of the inner model it takes RC_CREEP_X and RC_CREEP_Y, or
  * two forces, and RC_SPIN and RC_POSITION. The position may not fall on a path. Frames: pressure,
- * traction-x, traction-y (Pa), slip-x, slip-y (per length rolled), state (as for friction), dissipation (J/m3:
- * energy per area and length rolled), slip (per length rolled: dissipation over the largest traction). RC_FAIL
- * during a path if no node is in contact, friction cannot carry the force, or a contact with spin reaches
- * half a period from its middle. RC_FAIL too if the contact reaches the last column (the leading edge), or a
- * column that comes in. Sources: Kalker 1990, Three-dimensional elastic bodies in rolling contact; Newton's
- * method as in libcontact/slip/steady.c. */
+ * traction-x, traction-y (Pa), slip-x, slip-y (per length rolled), state (as for friction), dissipation
+ * (J/m3: energy per area and length rolled), slip (per length rolled: dissipation over the largest
+ * traction). RC_FAIL during a path if no node is in contact, friction cannot carry the force, or a
+ * contact with spin reaches half a period from its middle. RC_FAIL too if the contact reaches the last
+ * column (the leading edge), or a column that comes in. Sources: Kalker 1990, Three-dimensional elastic
+ * bodies in rolling contact; Newton's method as in libcontact/slip/steady.c. */
 RC_API struct rc_model *rc_rolling_new(struct rc_model *inner,
                                        const struct rc_rolling_problem *problem,
                                        struct rc_err *err);
@@ -1208,9 +1208,10 @@ struct rc_wear_problem {
      * of all alignments. The caller keeps h2 as long as the model. */
     bool sliding;
     const double *h2;
-    /* nx ny J/m2: a friction energy at each node per unit of the distance, which then is a number of cycles. A
-     * node loses k times this energy, whatever its pressure is; NULL: k p per sliding distance. The caller
-     * keeps it as long as the model. There is no part, track, sliding or condition beside it. */
+    /* nx ny J/m2: a friction energy at each node per unit of the distance, which then is a number of
+     * cycles. A node loses k times this energy, whatever its pressure is; NULL: k p per sliding
+     * distance. The caller keeps it as long as the model. There is no part, track, sliding or condition
+     * beside it. */
     const double *energy;
     /* A leg ends early when one of these is reached; 0: no such condition. */
     double until_area;   /* contact fraction                   */
@@ -1459,7 +1460,8 @@ RC_API enum rc_status rc_heat_expect(const struct rc_shape *shape,
  * column, continues across without end. rc_in_contact finds the contact from `contact`, a pressure or a map
  * of 1 and 0; with NULL, contact is where q is not 0. Heat can flow from body to body only in contact. NULL
  * when q is not finite, or is not 0 out of contact; when no node is in contact; when there is no steady state
- * (periodic maps, profiles along which a body does not move); or when memory is short. The maps are copied. */
+ * (periodic maps, profiles along which a body does not move); or when memory is short. The maps are
+ * copied. */
 RC_API struct rc_heat *rc_heat_new(const struct rc_shape *shape,
                                    const struct rc_heat_problem *problem, const double *q,
                                    const double *contact, struct rc_err *err);

@@ -227,8 +227,8 @@ any_heat(const struct rc_grid *g)
     return k < rc_grid_nodes(g);
 }
 
-/* The motion of both bodies past a contact that rolls towards +x, from the creepages of the case. Without them
- * it has not rolled yet. */
+/* The motion of both bodies past a contact that rolls towards +x, from the creepages of the case.
+ * Without them it has not rolled yet. */
 static void
 find_rolling(struct run *run, const struct rc_grid *g)
 {
@@ -246,8 +246,8 @@ find_rolling(struct run *run, const struct rc_grid *g)
     run->speed = args.rolling * hypot(creep[0], creep[1]);
 }
 
-/* Checks the main frame. Its heat flux is the values times this factor: friction times speed, frequency, or speed
- * of rolling. */
+/* Checks the main frame. Its heat flux is the values times this factor: friction times speed,
+ * frequency, or speed of rolling. */
 static double
 heat_factor(struct run *run, const struct rc_grid *g)
 {

@@ -433,10 +433,11 @@ suspect_track(struct run *run, const struct rc_grid *g)
     const char *where = tool_where(&run->d.t, g);
 
     if (track > 0 && track < (1 - 1e-6) * period)
-        tool_refuse(&run->d.t, g,
-                    "--motion track: the map is longer, %s, so that it would pass over points that "
-                    "it is on: cut the contact out with rc-pick --crop, or give a longer track",
-                    shown_in_unit(period, "m"));
+        tool_refuse(
+            &run->d.t, g,
+            "--motion track: the track, %s, is shorter than the map, %s: cut the contact out "
+            "with rc-pick --crop, or give a longer track",
+            shown_in_unit(track, "m"), shown_in_unit(period, "m"));
     if (track > 0 && run->law.k[1] > 0 && fabs(track - period) > 1e-6 * period &&
         map_says(g, "boundary", "periodic"))
         tool_warn(&run->d.t,
@@ -485,8 +486,8 @@ suspect_unit(struct run *run, const struct rc_grid *g)
     }
     if (last > 0 && !(scale * last <= most_sides * side))
         tool_refuse(t, g,
-                    "the last distance, %s, is above %g times that after which the pressure is "
-                    "even, %s: the wear coefficient or the distance is not in its unit",
+                    "the last distance, %s, is more than %g times the distance that makes the "
+                    "pressure even, %s: check the units of the wear coefficient and the distance",
                     shown_in_unit(last, "m"), most_sides, shown_in_unit(side / scale, "m"));
     if (last > 0 && scale * last < 0.01 * g->dx)
         tool_warn(
@@ -714,8 +715,8 @@ next(struct run *run)
     return g;
 }
 
-/* A stream is one cycle: the last case has its heights and maps, and slip and dissipation are the sums over all
- * cases. */
+/* A stream is one cycle: the last case has its heights and maps, and slip and dissipation are the sums
+ * over all cases. */
 static struct rc_grid *
 next_cycle(struct run *run)
 {

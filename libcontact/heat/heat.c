@@ -113,8 +113,7 @@ rc_heat_check(const struct rc_shape *shape, const struct rc_heat_problem *p, str
             most_peclet * 2 * body->diffusivity)
             return rc_err_set(err,
                               "velocity of body %d, %g and %g m/s: the Peclet number of a cell is "
-                              "above %g, so that no heat reaches the next one: are velocity, "
-                              "diffusivity and spacing in their units?",
+                              "above %g: check the units of velocity, diffusivity and spacing",
                               b + 1, body->velocity[0], body->velocity[1], most_peclet);
         if (p->boundary == RC_FREE && !(p->time > 0) && !is_cooled(shape, body->velocity))
             return rc_err_set(err,

@@ -37,7 +37,7 @@ static const double usual_tol[] = {1e-3, 1e-2}; /* of a steady state, of a path 
 static const double forgets = 1.5;      /* at least exp(-forgets) is forgotten over a length */
 static const double coarse_tol = 3e-2;  /* most, of grids that give a start                      */
 static const double told_tol = 1e-3;    /* least, of the grid that tells the error of the spacing */
-static const double most_columns = 1e9; /* of the contact from the map */
+static const double most_columns = 1e9; /* from the contact to the map */
 static const double most_motion =
     1e30; /* of a creepage or spin, far below overflow in single precision */
 static const double caution = 1.5; /* of the difference between the two finest grids         */
@@ -218,9 +218,9 @@ make_level(struct rolling *f, size_t l, struct rc_err *err)
     at->y = -(double)(shape.ny - 1) / 2 * shape.dy;
     if (!(fabs(at->x) <= most_columns * shape.dx))
         return rc_err_set(err,
-                          "position %g m: the map is %g m away from it, so that rounding moves its "
-                          "nodes: count positions from the map",
-                          f->base.to.at[RC_POSITION], at->x);
+                          "position %g m is %g m from the map, more than %g columns: measure "
+                          "positions from the middle of the map",
+                          f->base.to.at[RC_POSITION], fabs(at->x), most_columns);
     for (size_t k = 0; k < l; k++) {
         at->x += (double)first_of(shape.nx) * shape.dx;
         at->y += (double)first_of(shape.ny) * shape.dy;

@@ -67,8 +67,8 @@ struct rc_steady *rc_steady_new(const struct rc_shape *shape, enum rc_boundary b
                                 struct rc_err *err);
 void rc_steady_free(struct rc_steady *d); /* NULL is allowed */
 RC_OWNER(rc_steady)
-/* A first q, along the motion: half of what friction can carry, or E* times the creepage, about as much as there is
- * where all nodes stick, if that is less; 0 where the force is given. */
+/* A first q, along the motion: half of what friction can carry, or E* times the creepage, about as much
+ * as there is where all nodes stick, if that is less; 0 where the force is given. */
 void rc_steady_guess(struct rc_steady *d);
 /* Starts from q, which is moved to the discs. */
 void rc_steady_begin(struct rc_steady *d);
@@ -86,12 +86,13 @@ enum rc_status rc_steady_follow(struct rc_steady *d);
 void rc_steady_arrive(struct rc_steady *d);
 /* In place of the first two: the end of this step is known, its q, u, v, face, estimate and counts. */
 void rc_steady_reach(struct rc_steady *d, size_t columns);
-/* The friction energy at node k, as q s: the mean traction of a step times its slip. On a path nodes are points
- * of the surface, and those that leave the contact in the step have a part too. In a steady state this part
- * belongs to the node in front, where the surface was before. The sum is then that of q v exactly, without a
- * loss by the grid: the mean traction times the change of T q, summed over the surface, is the change of the
- * elastic energy. all: with the rest that an iteration has left at nodes that stick, and with negative values,
- * which the sudden release of a node at a trailing edge can have. */
+/* The friction energy at node k, as q s: the mean traction of a step times its slip. On a path nodes
+ * are points of the surface, and those that leave the contact in the step have a part too. In a steady
+ * state this part belongs to the node in front, where the surface was before. The sum is then that of q
+ * v exactly, without a loss by the grid: the mean traction times the change of T q, summed over the
+ * surface, is the change of the elastic energy. all: with the rest that an iteration has left at nodes
+ * that stick, and with negative values, which the sudden release of a node at a trailing edge can
+ * have. */
 double rc_steady_dissipated(const struct rc_steady *d, size_t k, bool all);
 
 #endif

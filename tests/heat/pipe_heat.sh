@@ -79,7 +79,7 @@ refuses 2 "must be thermal" "electrical conductivity" "rc-heat --mu 0.3 --speed 
 refuses 2 "do not slide" "no speed" "rc-heat --mu 0.3 --speed 0 $steel ball.rcg"
 refuses 1 "only bodies of one material: .*rc-pick --set layers=" "a body with layers" "rc-pick --set 'layers=1e-6,2e11,0.3;inf,7e10,0.3' ball.rcg | $heat"
 refuses 1 "heat" "no frame heat" "rc-heat --speed 1 $steel rough.rcg"
-refuses 1 'Peclet number of a cell is above' "a speed without measure" "rc-heat --mu 0.1 --speed 1e30 $steel ball.rcg"
+refuses 1 'Peclet number of a cell is above' "a speed that is far too high" "rc-heat --mu 0.1 --speed 1e30 $steel ball.rcg"
 rc-synth wave --nx 32 --dx 1um --amplitude 10nm --wavelength 32um | rc-solve --quiet --periodic --estar 114GPa --mean-pressure 100MPa -o wave.rcg
 refuses 1 "no steady temperature: give a time" "periodic without a time" "$heat wave.rcg"
 claim "periodic with a time" rc-heat --quiet --mu 0.3 --speed 1 $steel --time 1us -o wavy.rcg wave.rcg

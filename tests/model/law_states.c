@@ -1,8 +1,8 @@
-/* A state may be taken after every step, from the first to the last. A fresh model that goes on from it ends with
- * the same bits in all frames, in the figures other than those of the cost, and in the found axes. This holds for
- * every row of models.list that is marked `exact` in kinds.h. The others keep only the pressure of their
- * iteration, and end within the tolerance of that table. Reached points that are kept or not, and states of
- * restored models, are included. */
+/* A state may be taken after every step, from the first to the last. A fresh model that goes on from it
+ * ends with the same bits in all frames, in the figures other than those of the cost, and in the found
+ * axes. This holds for every row of models.list that is marked `exact` in kinds.h. The others keep only
+ * the pressure of their iteration, and end within the tolerance of that table. Reached points that are
+ * kept or not, and states of restored models, are included. */
 #include "kinds.h"
 
 enum {
@@ -109,8 +109,8 @@ moved_on(const struct kind *kind, struct rc_model *m, bool *going)
     return other;
 }
 
-/* Runs the history; at this count of steps, reached points and kept points, the model is replaced. Returns the
- * count at the end. */
+/* Runs the history; at this count of steps, reached points and kept points, the model is replaced.
+ * Returns the count at the end. */
 static size_t
 history(const struct kind *kind, size_t stop, size_t stop_again, struct result *to)
 {
@@ -196,7 +196,7 @@ same_bits(void **state)
         printf("%s: %zu of %zu stops differ; the pressure by at most %.2g%s%s\n", kind->name,
                differ, stops, of_pressure, most > 0 ? "; most differs " : "", text);
         stages += stops;
-        wrong += kind->exact ? differ : of_pressure > 10 * kind->tol;
+        wrong += kind->exact ? differ : of_pressure > kind->tol;
     }
     printf("%zu stops in %d models\n", stages, KINDS);
     assert_true(wrong == 0);

@@ -101,7 +101,7 @@ claim "a periodic map is its own track" warns 'passed every 32 um and not every 
 claim "  whose length is then no warning" bash -c "
     rc-wear --coefficient 0,1e-6mm3/Nm --motion track:32um --distance 1m -o x.rcg pressed.rcg 2>own.err && ! [ -s own.err ]"
 refuses 1 'cut the contact out with rc-pick --crop' "a track shorter than the map" "$wear --motion track:40um --distance 1m -o x.rcg pin.rcg"
-refuses 1 'is not in its unit' "a coefficient without measure" "rc-wear --coefficient '1e300 1/Pa' --distance 1m -o x.rcg pin.rcg"
+refuses 1 'check the units of the wear coefficient' "a coefficient that is far too large" "rc-wear --coefficient '1e300 1/Pa' --distance 1m -o x.rcg pin.rcg"
 refuses 2 'with a length above 0' "a track without a length" "$wear --motion track:0 --distance 1m -o x.rcg pin.rcg"
 refuses 2 'exclude each other' "a track in fretting" "$wear --motion track:1mm --cycles 10 -o x.rcg pin.rcg"
 
