@@ -104,9 +104,9 @@ for folder in "$work/clean/packages" ${keep:+"$keep"}; do
 done
 before=$(downloaded "$work/clean")
 start=$SECONDS
-in_root "$work/clean" "$get install ./libcontact0_*.deb ./rough-contact_*.deb >/dev/null 2>&1"
+in_root "$work/clean" "$get install ./libcontact0.1_*.deb ./rough-contact_*.deb >/dev/null 2>&1"
 echo "rough-contact and what it needs: $(($(downloaded "$work/clean") - before)) MB fetched, $((SECONDS - start)) s"
-in_root "$work/clean" "$get purge rough-contact libcontact0 >/dev/null && $get autoremove --purge >/dev/null
+in_root "$work/clean" "$get purge rough-contact libcontact0.1 >/dev/null && $get autoremove --purge >/dev/null
     # these stay, for man -k, and because autoremove keeps packages of priority \"important\"; other
     # dependencies are removed
     $get install man-db adduser netbase >/dev/null 2>&1"

@@ -61,6 +61,11 @@ endforeach()
 set(config ${CMAKE_CURRENT_BINARY_DIR}/libcontact-config)
 configure_package_config_file(libcontact-config.cmake.in ${config}.cmake INSTALL_DESTINATION ${package_dir}
                               NO_SET_AND_CHECK_MACRO)
-# The shared library keeps its name as long as the major version stays.
-write_basic_package_version_file(${config}-version.cmake COMPATIBILITY SameMajorVersion)
+# A request is met by the versions that have the same soname.
+if(PROJECT_VERSION_MAJOR EQUAL 0)
+    set(compatible SameMinorVersion)
+else()
+    set(compatible SameMajorVersion)
+endif()
+write_basic_package_version_file(${config}-version.cmake COMPATIBILITY ${compatible})
 install(FILES ${config}.cmake ${config}-version.cmake DESTINATION ${package_dir})

@@ -12,7 +12,12 @@ claim "  CITATION.cff has this version" line CITATION.cff "version: $version"
 claim "  the newest section of CHANGELOG.md has this version" test "$(grep -m 1 '^## ' "$RC_SOURCE/CHANGELOG.md")" = "## $version"
 claim "  the Python package has this version" line python/rcg/__init__.py "__version__ = '$version'"
 claim "  the Debian packages have this version" says "^libcontact \($version-" head -n 1 "$RC_SOURCE/debian/changelog"
-claim "  the name of the library begins with this version" grep -q "^Package: libcontact${version%%.*}\$" "$RC_SOURCE/debian/control"
+# 0.1.2 -> 0.1, 1.2.3 -> 1
+case $version in 0.*) soname=${version%.*} ;; *) soname=${version%%.*} ;; esac
+claim "  the Debian package of the library has the soname of this version" line debian/control "Package: libcontact$soname"
+claim "  its list of symbols has it too" line "debian/libcontact$soname.symbols" "libcontact.so.$soname libcontact$soname #MINVER#"
+claim "  the built library has this soname" test -e "$(dirname "$RC_BIN")/libcontact/libcontact.so.$soname"
+claim "  the manual names it" line man/libcontact.3 ".Pa libcontact.so.$soname ."
 
 # ---- a tarball ----
 

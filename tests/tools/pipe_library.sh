@@ -53,7 +53,7 @@ offered() {
 if command -v nm >/dev/null; then
     claim "the shared library exports exactly the symbols of its headers" offered
     # The package is built without MPI.
-    packaged() { sed -n 's/^ \(.*\)@Base .*/\1/p' "$RC_SOURCE/debian/libcontact0.symbols" | sort | diff - <(grep -v '^rc_ranks_' offered.txt) >&2; }
+    packaged() { sed -n 's/^ \(.*\)@Base .*/\1/p' "$RC_SOURCE/debian/libcontact0.1.symbols" | sort | diff - <(grep -v '^rc_ranks_' offered.txt) >&2; }
     claim "  its Debian package lists the same" packaged
     claim "  they are functions and an object" bash -c 'grep -qx rc_solver_new offered.txt && grep -qx rc_component_names offered.txt'
 else
