@@ -1,5 +1,6 @@
-# Checks that the packages for the build are installed: bash cmake/packages.sh. On Debian and Ubuntu it installs
-# missing ones; elsewhere it prints what is needed. demo.sh and tests/run.sh source it and name the packages.
+# Checks that the packages for the build are installed: bash cmake/packages.sh, or `bash cmake/packages.sh tests` for
+# the build and the tests. On Debian and Ubuntu it installs missing ones; elsewhere it prints what is needed.
+# demo.sh and tests/run.sh source it and name the packages.
 
 build_packages="gcc libc6-dev make cmake pkg-config libfftw3-dev libgsl-dev libpng-dev libxml2-dev
     libzip-dev zlib1g-dev libzstd-dev libdeflate-dev libhdf5-dev libtiff-dev libmd-dev libseccomp-dev libpango1.0-dev fonts-dejavu-core"
@@ -47,4 +48,4 @@ cores() {
 }
 
 # shellcheck disable=SC2086
-[ "${BASH_SOURCE[0]}" != "$0" ] || need_packages $build_packages
+[ "${BASH_SOURCE[0]}" != "$0" ] || need_packages $build_packages ${1:+$test_packages}
