@@ -7,6 +7,14 @@ claim "make.sh makes the samples again, bit for bit" bash -c '
     mkdir again && bash "$RC_SOURCE/sample_surfaces/make.sh" again &&
     [ "$(ls again | wc -l)" = '"$(wc -w <<<"$samples")"' ] &&
     for sample in '"$samples"'; do cmp "again/$sample" "$RC_SOURCE/sample_surfaces/$sample" || exit 1; done'
+# with_origin FILE...: sample_surfaces/README.md has each of them, in backquotes.
+with_origin() {
+    [ $# -gt 20 ] || return
+    for file; do
+        grep -qF "\`${file##*/}\`" "$RC_SOURCE/sample_surfaces/README.md" || { echo "$file" >&2; return 1; }
+    done
+}
+claim "the origin of each sample and picture is listed" with_origin "$RC_SOURCE"/sample_surfaces/*.{png,x3p,txt}
 # 0.55 of pi a^2, a^3 = 3 F R / 4 E*; the largest pressure is exactly the hardness
 claim "the rough sphere of the paper has 0.55 of Hertz's contact area, with a hardness of 6 GPa" bash -c '
     rc-import "$RC_SOURCE/sample_surfaces/rough-sphere.x3p" |
