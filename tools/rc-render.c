@@ -13,14 +13,14 @@
 #define ABOVE_0 .min = 0, .max = INFINITY, .above = true
 /* clang-format off */
 static const struct opt opts[] = {
-    {.name = "channel", .type = OPT_TEXT, AT(wish.channel), .arg = "NAME",
+    {.name = "channel", .type = OPT_TEXT, AT(wanted.channel), .arg = "NAME",
      .help = "channel to draw (default: mises, pressure, height, else the first)"},
-    {.name = "depth", .type = OPT_NUMBERS, .unit = UNIT_M, AT(depth), .min = 0, .max = INFINITY,
+    {.name = "depth", .type = OPT_NUMBERS, .unit = UNIT_M, AT(wanted.depth), .min = 0, .max = INFINITY,
      .arg = "LIST",
      .help = "depth of a stress, or the nearest within half a step (default: that of the largest magnitude)"},
-    {.name = "section", .type = OPT_CHOICE, AT(wish.section), .arg = "x|y",
+    {.name = "section", .type = OPT_CHOICE, AT(wanted.section), .arg = "x|y",
      .help = "a section across this axis instead of a map"},
-    {.name = "case", .type = OPT_NUMBERS, AT(number), .min = 1, .max = 9e15, .whole = true, .arg = "LIST",
+    {.name = "case", .type = OPT_NUMBERS, AT(wanted.number), .min = 1, .max = 9e15, .whole = true, .arg = "LIST",
      .help = "case, for several loads or files (default: the first)"},
     {.name = "colormap", .type = OPT_CHOICE, AT(colormap), .words = colormap_name,
      .help = "colour map of the values (default: by channel)"},
@@ -343,8 +343,11 @@ about_contact(const struct args *a)
 static const char shaded[] = "shaded, light from the upper left";
 
 static void
-render(struct tool *t, struct args *a, struct rc_grid *g, const struct beside *beside, bool largest)
+render(struct tool *t, struct args *a, const struct frames *frames)
 {
+    struct rc_grid *g = frames->grid[0];
+    const struct rc_grid *touch = frames->touch[0];
+    const struct beside is = frames_beside(frames, 0), *beside = &is;
     char title[256];
     struct window w;
     struct survey s;
@@ -352,7 +355,6 @@ render(struct tool *t, struct args *a, struct rc_grid *g, const struct beside *b
     struct look look;
     struct figure f;
     struct means means = {false, 0, 0};
-    const struct rc_grid *touch = look_touch(t, g, beside, about_contact(a));
 
     if (!a->raw)
         means_take(t, g, &means);
@@ -363,7 +365,7 @@ render(struct tool *t, struct args *a, struct rc_grid *g, const struct beside *b
                     "none of its %zu values is a finite number: there is "
                     "nothing to draw",
                     g->nx * g->ny);
-    subtitle_write(&subtitle, g, &s, &means, w.part, largest);
+    subtitle_write(&subtitle, g, &s, &means, w.part, frames_by_size(frames));
     look_figure(t, a, &g, &touch, 1, &s, &look, &f);
     look_extent(&w, &f);
     look_aspect(t, g, &f);
@@ -537,39 +539,17 @@ render_lines(struct tool *t, struct args *a, const struct frames *f)
 
 /* ---- kinds of pictures ---- */
 
-/* Draws one frame: the best of all. */
 static void
-read_one(struct tool *t, struct args *a)
-{
-    struct choice choice = {.wish = &a->wish};
-    struct rc_grid *g;
-
-    a->wish.contact = a->contour || a->border || about_contact(a);
-    while ((g = tool_read(t)) != NULL)
-        choice_offer(&choice, t, g);
-    choice_settle(&choice, t);
-    if (args_lines(a))
-        render_lines(
-            t, a,
-            &(struct frames){.grid = {choice.grid},
-                             .n = 1,
-                             .touch = {look_touch(t, choice.grid, &choice.beside, a->histogram)}});
-    else
-        render(t, a, choice.grid, &choice.beside, choice.by_size);
-    choice_free(&choice);
-}
-
-static void
-read_several(struct tool *t, struct args *a)
+render_maps(struct tool *t, struct args *a)
 {
     static struct frames frames;
 
-    frames.wish = a->wish;
-    frames.border = a->contour || a->border;
-    frames.demands = a->histogram;
-    frames.wanted = (struct wanted){.depth = a->depth, .number = a->number};
+    frames.wanted = a->wanted;
+    frames.one = !args_several(a);
+    frames.border = a->contour || a->border || about_contact(a);
+    frames.demands = a->histogram || about_contact(a);
     frames_read(&frames, t);
-    (args_lines(a) ? render_lines : render_sheet)(t, a, &frames);
+    (args_lines(a) ? render_lines : frames.one ? render : render_sheet)(t, a, &frames);
     frames_free(&frames);
 }
 
@@ -583,8 +563,7 @@ check_text(struct tool *t, const char *option, const char *text)
 int
 main(int argc, char **argv)
 {
-    struct args args = {.wish = {.depth = NAN},
-                        .dpi = NAN,
+    struct args args = {.dpi = NAN,
                         .aspect = NAN,
                         .exaggeration = NAN,
                         .style.given = {.estar = NAN, .radius = NAN, .rms_slope = NAN}};
@@ -599,11 +578,9 @@ main(int argc, char **argv)
     check_text(&t, "y-label", args.style.y_label);
     if (args.curve != NULL)
         render_curves(&t, &args);
-    else if (args_several(&args))
-        read_several(&t, &args);
     else
-        read_one(&t, &args);
-    free(args.depth.v);
-    free(args.number.v);
+        render_maps(&t, &args);
+    free(args.wanted.depth.v);
+    free(args.wanted.number.v);
     return tool_finish(&t);
 }

@@ -52,7 +52,7 @@ meant 1 displacement "  of rc-export" "rc-export --format csv --channel displacm
 meant 1 height "  of rc-import" "rc-import --channel hieght $RC_SOURCE/sample_surfaces/rough-steel.x3p -o never.rcg"
 meant 2 mises "a component" "rc-stress --nu 0.3 --depths 0 --components szz,misses -o never.rcg p.rcg"
 meant 2 pcg "a word of an option" "rc-solve --method pgc --load 1 --estar 1GPa -o never.rcg rough.rcg"
-refuses 1 'there is no channel wear: there are pressure, gap, displacement, height$' "none where no name is near" \
+refuses 1 'no frame with the channel wear, only pressure, gap, displacement, height$' "none where no name is near" \
     "rc-render --channel wear -o never.png p.rcg"
 
 claim "--list prints rounded numbers" eval 'perl -e "print \"# Width: 3 um\n# Height: 3 um\n# Value units: nm\n\"; print 1/3, \" 2 3\n4 5 6\n7 8 \", 20/3, \"\n\"" >third.txt &&

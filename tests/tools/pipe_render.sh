@@ -75,6 +75,12 @@ done
 stream szz Pa 8 9 "depth=0 case=1" '$i' szz Pa 8 9 "depth=1e-06 case=1" '-$i' \
     szz Pa 8 9 "depth=0 case=2" '$j' szz Pa 8 9 "depth=1e-05 case=2" '-$j' >two.rcg
 claim "  it comes from the first case with a depth" warns 'the nearest depth, 1e-05 m, is taken' rc-render --raw --depth 9um -o near.png two.rcg
+stream pressure Pa 8 9 "case=1" '$i < 4 ? 1e9 : 0' mises Pa 8 9 "depth=0 case=1" '1e8 * $i' mises Pa 8 9 "depth=1e-06 case=1" '2e8 * $j' \
+    pressure Pa 8 9 "case=2" '$j < 4 ? 1e9 : 0' szz Pa 8 9 "depth=0 case=2" '$i' >beside.rcg
+claim "the edge of the contact comes from the pressure of its case" bash -c \
+    'rc-render --channel szz --border -o edge.svg beside.rcg && says ">edge of contact<" cat edge.svg'
+claim "  in a sheet of depths too" bash -c \
+    'rc-render --channel mises --depth 0,1um --border -o edge.svg beside.rcg && says ">edge of contact<" cat edge.svg'
 claim "--size sets the width of a figure" rc-render --width 777 -o w.png height.rcg
 claim "it has 777 pixels" size 777 - w.png
 
@@ -174,9 +180,9 @@ none() { [ ! -e out.png ] && [ -z "$(ls out.png.* 2>/dev/null)" ]; }
 draw='rc-render -o out.png'
 stream height m 5 5 "" '"nan"' >empty.rcg
 refuses 1 'none of its 25 values is a finite number: there is nothing to draw' "a map without a number" "$draw empty.rcg"
-refuses 1 'no channel mises: there are height, pressure, gap' "an absent channel" \
+refuses 1 'no frame with the channel mises, only height, pressure, gap' "an absent channel" \
     "$draw --channel mises three.rcg"
-refuses 1 'case 7 has no frame: there are cases 1, 2' "an absent case" "$draw --case 7 cases.rcg"
+refuses 1 'no case 7: there are cases 1, 2' "an absent case" "$draw --case 7 cases.rcg"
 refuses 1 'there are 0, 1.23456e-05, 4e-05 m' "an absent depth" "$draw --depth 54um depths.rcg"
 stream szz Pa 8 9 "depth=0" 1 mises Pa 8 9 "depth=0" 1 szz Pa 8 9 "depth=1e-05" 1 mises Pa 8 9 "depth=1e-05" 1 >turns.rcg
 refuses 1 'there are 0, 1e-05 m' "an absent depth of the second channel" "$draw --channel mises --depth 16um turns.rcg"

@@ -12,99 +12,48 @@ struct place {
     size_t frame;
 };
 
-/* A waiting frame. sure: it is selected, whatever frames follow. */
+/* A frame that was read, without its values. */
+struct seen {
+    char *channel;
+    char section; /* 'x', 'y', or 0 */
+    double depth; /* NAN: none      */
+    size_t number;
+    bool right; /* its channel, case and section are requested */
+    bool taken;
+};
+
+/* A selected frame, or one that may be. sure: it is selected, whatever frames follow. */
 struct held {
     struct rc_grid *grid;
-    double depth;
     bool kept, sure;
-    size_t seen; /* its index in wanted->seen */
+    size_t seen; /* its index */
     struct place place;
 };
 
-struct wanted_depths {
-    size_t number; /* number of the case; 0: none yet */
-    double *depth; /* its frames that match except perhaps in depth */
-    size_t n, room;
-    bool *met; /* for each requested depth: some case has it */
+struct asked_depth {
+    double nearest; /* of the current case so far; NAN: none */
+    bool met;       /* some case has it */
+};
+
+struct wanted_frames {
+    struct seen *seen;
+    size_t n, room, first; /* first: of the current case */
+    struct asked_depth *asked;
     struct held *held;
     size_t waiting, space;
+    struct rc_grid *next; /* was read, but follows the frames that wait */
     struct place place;
     bool ended;
 };
 
-/* ---- frames that were read ---- */
-
-struct seen *
-seen_add(struct seen_list *l, struct tool *t, const struct rc_grid *g)
-{
-    const char *section = rc_grid_get(g, "section");
-    struct seen *s;
-
-    l->seen = tool_grown(t, l->seen, l->n, &l->room, sizeof *l->seen, "a list of frames");
-    s = &l->seen[l->n++];
-    *s = (struct seen){.channel = tool_copy(t, g->channel),
-                       .section = section == NULL ? '\0' : section[0],
-                       .number = rc_grid_case(g)};
-    if (!rc_grid_number(g, "depth", &s->depth))
-        s->depth = NAN;
-    return s;
-}
-
-void
-seen_free(struct seen_list *l)
-{
-    for (size_t k = 0; k < l->n; k++)
-        free(l->seen[k].channel);
-    free(l->seen);
-}
-
-void
-seen_channels(const struct seen_list *l, struct name_list *to)
-{
-    for (size_t k = 0, i; k < l->n; k++) {
-        for (i = 0; strcmp(l->seen[i].channel, l->seen[k].channel) != 0;)
-            i++;
-        if (i == k)
-            name_list_add(to, l->seen[k].channel);
-    }
-}
-
-void
-seen_cases(const struct seen_list *l, seen_right *right, const void *ctx, struct name_list *to)
-{
-    size_t last = 0;
-    char text[32];
-
-    for (size_t k = 0; k < l->n; k++) {
-        if (!right(ctx, &l->seen[k]) || l->seen[k].number == last)
-            continue;
-        last = l->seen[k].number;
-        snprintf(text, sizeof text, "%zu", last);
-        name_list_add(to, text);
-    }
-}
-
-void
-seen_depths(const struct seen_list *l, seen_right *right, const void *ctx, struct name_list *to)
-{
-    for (size_t k = 0, i; k < l->n; k++) {
-        if (isnan(l->seen[k].depth) || !right(ctx, &l->seen[k]))
-            continue;
-        for (i = 0; !right(ctx, &l->seen[i]) || l->seen[i].depth != l->seen[k].depth;)
-            i++;
-        if (i == k)
-            name_list_add(to, rc_number(l->seen[k].depth));
-    }
-}
-
-/* ---- whether a frame meets a list ---- */
+/* ---- whether a frame is requested ---- */
 
 /* Name k of the list: its start and length; NULL past the last. */
 static const char *
-name_at(const char *names, size_t k, size_t *length)
+name_at(const struct wanted *w, size_t k, size_t *length)
 {
-    for (; names != NULL; k--) {
-        *length = strcspn(names, ",");
+    for (const char *names = w->channel; names != NULL; k--) {
+        *length = w->one ? strlen(names) : strcspn(names, ",");
         if (k == 0)
             return names;
         names = names[*length] == ',' ? names + *length + 1 : NULL;
@@ -119,13 +68,12 @@ is_name(const struct seen *s, const char *name, size_t n)
 }
 
 static bool
-right_channel(const void *ctx, const struct seen *s)
+right_channel(const struct wanted *w, const struct seen *s)
 {
-    const struct wanted *w = ctx;
     const char *name;
     size_t n;
 
-    for (size_t k = 0; (name = name_at(w->channel, k, &n)) != NULL; k++)
+    for (size_t k = 0; (name = name_at(w, k, &n)) != NULL; k++)
         if (is_name(s, name, n))
             return true;
     return w->channel == NULL;
@@ -140,6 +88,35 @@ right_case(const struct wanted *w, const struct seen *s)
     return w->number.n == 0;
 }
 
+void
+wanted_check(const struct wanted *w, struct tool *t)
+{
+    size_t n;
+
+    for (size_t k = 0; name_at(w, k, &n) != NULL; k++)
+        if (n == 0)
+            tool_usage(t, "--channel '%s': a name is empty", w->channel);
+}
+
+static struct seen *
+record(const struct wanted *w, struct tool *t, const struct rc_grid *g)
+{
+    struct wanted_frames *f = w->frames;
+    const char *section = rc_grid_get(g, "section");
+    struct seen *s;
+
+    f->seen = tool_grown(t, f->seen, f->n, &f->room, sizeof *f->seen, "a list of frames");
+    s = &f->seen[f->n++];
+    *s = (struct seen){.channel = tool_copy(t, g->channel),
+                       .section = section == NULL ? '\0' : section[0],
+                       .number = rc_grid_case(g)};
+    if (!rc_grid_number(g, "depth", &s->depth))
+        s->depth = NAN;
+    s->right = right_channel(w, s) && right_case(w, s) &&
+               (w->section == NULL || w->section[0] == s->section);
+    return s;
+}
+
 /* ---- depths ---- */
 
 static double
@@ -150,25 +127,17 @@ off(double depth, double asked)
     return d <= 1e-9 * asked ? 0 : d; /* the last digits of 10um and of 1e-05 differ */
 }
 
+/* The nearest depth of the current case, unless it is too far: NAN. */
 static double
-nearest_of(const double *depth, size_t n, double asked)
+near_enough(const struct wanted_frames *f, double nearest, double asked)
 {
-    double nearest = NAN;
+    double between = INFINITY, beyond = INFINITY;
 
-    for (size_t k = 0; k < n; k++)
-        if (isnan(nearest) || off(depth[k], asked) < off(nearest, asked))
-            nearest = depth[k];
-    return nearest;
-}
+    for (size_t k = f->first; k < f->n;
+         k++) { /* distances to the next: towards `asked`, and away */
+        double step = f->seen[k].right ? fabs(f->seen[k].depth - nearest) : 0;
 
-double
-wanted_depth(const double *depth, size_t n, double asked)
-{
-    double nearest = nearest_of(depth, n, asked), between = INFINITY, beyond = INFINITY;
-
-    for (size_t k = 0; k < n; k++) { /* distances to the next depths: towards `asked`, and away */
-        double step = fabs(depth[k] - nearest);
-        if (step > 0 && (depth[k] > nearest) == (asked > nearest))
+        if (step > 0 && (f->seen[k].depth > nearest) == (asked > nearest))
             between = fmin(between, step);
         else if (step > 0)
             beyond = fmin(beyond, step);
@@ -178,112 +147,70 @@ wanted_depth(const double *depth, size_t n, double asked)
     return isfinite(beyond) && fabs(asked - nearest) <= 0.5 * (1 + 1e-9) * beyond ? nearest : NAN;
 }
 
-void
-wanted_tell(struct tool *t, double asked, double taken)
-{
-    if (off(taken, asked) > 1e-3 * asked)
-        tool_warn(t, "--depth: no frame is at %s m: the nearest depth, %s m, is taken",
-                  rc_number(asked), rc_number(taken));
-}
-
-/* ---- frame by frame ---- */
-
-static bool
-anything_goes(const struct wanted *w)
-{
-    return w->channel == NULL && w->depth.n == 0 && w->number.n == 0;
-}
-
-void
-wanted_check(const struct wanted *w, struct tool *t)
-{
-    size_t n;
-
-    for (size_t k = 0; name_at(w->channel, k, &n) != NULL; k++)
-        if (n == 0)
-            tool_usage(t, "--channel '%s': a name is empty", w->channel);
-    for (size_t k = 0; k < w->number.n; k++)
-        if (w->number.v[k] != floor(w->number.v[k]))
-            tool_usage(t, "--case %g: it must be a whole number", w->number.v[k]);
-}
-
-static bool
-only_depth(const void *ctx, const struct seen *s)
-{
-    const struct wanted *w = ctx;
-
-    return right_channel(w, s) && right_case(w, s);
-}
-
-/* ---- frames that wait for others of their case ---- */
-
-static void
-begin_depths(struct wanted *w, struct tool *t)
-{
-    w->depths = tool_room(t, 1, sizeof *w->depths, "depths");
-    w->depths->met = tool_room(t, w->depth.n, sizeof *w->depths->met, "depths");
-}
-
 /* Keeps the waiting frames at the depth that is so far the nearest to depth k of the list. They are sure if
  * the depth is exactly this, or at the `end` of the case. */
 static void
-keep_nearest(struct wanted *w, struct tool *t, size_t k, bool end)
+keep_nearest(const struct wanted *w, struct tool *t, size_t k, bool end)
 {
-    struct wanted_depths *d = w->depths;
+    struct wanted_frames *f = w->frames;
     const double asked = w->depth.v[k];
-    double nearest = end ? wanted_depth(d->depth, d->n, asked) : nearest_of(d->depth, d->n, asked);
+    double nearest = f->asked[k].nearest;
 
-    for (size_t i = 0; i < d->waiting; i++)
-        if (!d->held[i].sure && d->held[i].depth == nearest) {
-            d->held[i].kept = true;
-            d->held[i].sure = end || off(nearest, asked) == 0;
+    if (end)
+        nearest = near_enough(f, nearest, asked);
+    for (size_t i = 0; i < f->waiting; i++)
+        if (!f->held[i].sure && f->seen[f->held[i].seen].depth == nearest) {
+            f->held[i].kept = true;
+            f->held[i].sure = end || off(nearest, asked) == 0;
         }
-    if (end && !isnan(nearest)) {
-        if (!d->met[k])
-            wanted_tell(t, asked, nearest);
-        d->met[k] = true;
-    }
+    if (!end)
+        return;
+    f->asked[k].nearest = NAN;
+    if (!f->asked[k].met && off(nearest, asked) > 1e-3 * asked)
+        tool_warn(t, "--depth: no frame is at %s m: the nearest depth, %s m, is taken",
+                  rc_number(asked), rc_number(nearest));
+    f->asked[k].met |= !isnan(nearest);
 }
 
 /* Frees the waiting frames that are not selected. */
 static void
-sort_out(struct wanted *w, struct tool *t, bool end)
+sort_out(const struct wanted *w, struct tool *t, bool end)
 {
-    struct wanted_depths *d = w->depths;
+    struct wanted_frames *f = w->frames;
     size_t n = 0;
 
-    for (size_t i = 0; i < d->waiting; i++)
-        d->held[i].kept = d->held[i].sure;
+    for (size_t i = 0; i < f->waiting; i++)
+        f->held[i].kept = f->held[i].sure;
     for (size_t k = 0; k < w->depth.n; k++)
         keep_nearest(w, t, k, end);
-    for (size_t i = 0; i < d->waiting; i++)
-        if (d->held[i].kept)
-            d->held[n++] = d->held[i];
+    for (size_t i = 0; i < f->waiting; i++)
+        if (f->held[i].kept)
+            f->held[n++] = f->held[i];
         else
-            rc_grid_free(d->held[i].grid);
-    d->waiting = n;
+            rc_grid_free(f->held[i].grid);
+    f->waiting = n;
 }
 
-static void
-hold(struct wanted *w, struct tool *t, struct rc_grid *g)
-{
-    struct wanted_depths *d = w->depths;
-    const struct seen *s = seen_add(&w->list, t, g);
-    size_t k = 0;
+/* ---- frame by frame ---- */
 
-    if (isnan(s->depth) || !only_depth(w, s)) {
-        rc_grid_free(g);
+static void
+hold(const struct wanted *w, struct tool *t, struct rc_grid *g)
+{
+    struct wanted_frames *f = w->frames;
+    const struct seen *s = record(w, t, g);
+
+    if (!s->right || (w->depth.n > 0 && isnan(s->depth))) {
+        if (w->other == NULL || !right_case(w, s) || !w->other(w->ctx, g))
+            rc_grid_free(g);
         return;
     }
-    while (k < d->n && d->depth[k] != s->depth)
-        k++;
-    if (k == d->n) {
-        d->depth = tool_grown(t, d->depth, d->n, &d->room, sizeof *d->depth, "a list of frames");
-        d->depth[d->n++] = s->depth;
-    }
-    d->held = tool_grown(t, d->held, d->waiting, &d->space, sizeof *d->held, "a list of frames");
-    d->held[d->waiting++] =
-        (struct held){.grid = g, .depth = s->depth, .seen = w->list.n - 1, .place = d->place};
+    for (size_t k = 0; k < w->depth.n; k++)
+        if (isnan(f->asked[k].nearest) ||
+            off(s->depth, w->depth.v[k]) < off(f->asked[k].nearest, w->depth.v[k]))
+            f->asked[k].nearest = s->depth;
+    f->held = tool_grown(t, f->held, f->waiting, &f->space, sizeof *f->held, "a list of frames");
+    f->held[f->waiting++] =
+        (struct held){.grid = g, .seen = f->n - 1, .sure = w->depth.n == 0, .place = f->place};
     sort_out(w, t, false);
 }
 
@@ -294,39 +221,41 @@ set_place(struct tool *t, const struct place *place)
     t->frame = place->frame;
 }
 
-static struct rc_grid *
-first_held(struct wanted *w, struct tool *t)
+/* Reads a frame. At the end of a case the next frame waits until the selected ones were taken. */
+static void
+read_on(const struct wanted *w, struct tool *t)
 {
-    struct wanted_depths *d = w->depths;
-    const struct held first = d->held[0];
+    struct wanted_frames *f = w->frames;
+    struct rc_grid *g = f->next;
 
-    memmove(d->held, d->held + 1, --d->waiting * sizeof *d->held);
-    w->list.seen[first.seen].taken = true;
-    set_place(t, &first.place);
-    return first.grid;
+    f->next = NULL;
+    if (g == NULL) {
+        if (f->n > 0)
+            set_place(t, &f->place);
+        g = tool_read(t);
+        f->place = (struct place){t->source, t->frame};
+        if (f->first < f->n && (g == NULL || rc_grid_case(g) != f->seen[f->first].number)) {
+            sort_out(w, t, true);
+            f->first = f->n;
+            f->next = g;
+            f->ended = g == NULL;
+            return;
+        }
+    }
+    f->ended = g == NULL;
+    if (g != NULL)
+        hold(w, t, g);
 }
 
 static struct rc_grid *
-read_by_depth(struct wanted *w, struct tool *t)
+first_held(struct wanted_frames *f, struct tool *t)
 {
-    struct wanted_depths *d = w->depths;
+    const struct held first = f->held[0];
 
-    while (!d->ended && !(d->waiting > 0 && d->held[0].sure)) {
-        struct rc_grid *g;
-        if (d->number != 0)
-            set_place(t, &d->place);
-        g = tool_read(t);
-        d->place = (struct place){t->source, t->frame};
-        if (g == NULL || rc_grid_case(g) != d->number) {
-            sort_out(w, t, true);
-            d->n = 0;
-            d->number = g == NULL ? 0 : rc_grid_case(g);
-        }
-        d->ended = g == NULL;
-        if (g != NULL)
-            hold(w, t, g);
-    }
-    return d->waiting > 0 ? first_held(w, t) : NULL;
+    memmove(f->held, f->held + 1, --f->waiting * sizeof *f->held);
+    f->seen[first.seen].taken = true;
+    set_place(t, &first.place);
+    return first.grid;
 }
 
 /* ---- requests that no frame met ---- */
@@ -334,11 +263,17 @@ read_by_depth(struct wanted *w, struct tool *t)
 static _Noreturn void
 no_channel(const struct wanted *w, struct tool *t, const char *name, size_t n)
 {
+    const struct wanted_frames *f = w->frames;
     char asked[NAME_SIZE];
     struct name_list l = {.asked = asked};
 
     snprintf(asked, sizeof asked, "%.*s", (int)n, name);
-    seen_channels(&w->list, &l);
+    for (size_t k = 0, i; k < f->n; k++) {
+        for (i = 0; strcmp(f->seen[i].channel, f->seen[k].channel) != 0;)
+            i++;
+        if (i == k)
+            name_list_add(&l, f->seen[k].channel);
+    }
     tool_die(t, "%s: no frame with the channel %.*s, only %s", t->source, (int)n, name,
              name_list_end(&l));
 }
@@ -347,8 +282,16 @@ static _Noreturn void
 no_case(const struct wanted *w, struct tool *t, double number)
 {
     struct name_list l = {.n = 0};
+    size_t last = 0;
+    char text[32];
 
-    seen_cases(&w->list, right_channel, w, &l);
+    for (const struct seen *s = w->frames->seen; s < w->frames->seen + w->frames->n; s++) {
+        if (!right_channel(w, s) || s->number == last)
+            continue;
+        last = s->number;
+        snprintf(text, sizeof text, "%zu", last);
+        name_list_add(&l, text);
+    }
     tool_die(t, "%s: no case %.0f%s%s: there are cases %s", t->source, number,
              w->channel == NULL ? "" : " with ", w->channel == NULL ? "" : w->channel,
              name_list_end(&l));
@@ -357,29 +300,38 @@ no_case(const struct wanted *w, struct tool *t, double number)
 static _Noreturn void
 no_depth(const struct wanted *w, struct tool *t, double depth)
 {
+    const struct seen *seen = w->frames->seen;
     struct name_list l = {.n = 0};
 
-    seen_depths(&w->list, only_depth, w, &l);
+    for (size_t k = 0, i; k < w->frames->n; k++) {
+        if (isnan(seen[k].depth) || !seen[k].right)
+            continue;
+        for (i = 0; !seen[i].right || seen[i].depth != seen[k].depth;)
+            i++;
+        if (i == k)
+            name_list_add(&l, rc_number(seen[k].depth));
+    }
     tool_die(t, "%s: no frame at depth %s m: %s%s%s", t->source, rc_number(depth),
              l.n == 0 ? "no frame has a depth" : "there are ", name_list_end(&l),
              l.n == 0 ? "" : " m");
 }
 
-/* Ends the tool if no frame (with `wanted`: no selected frame) has a name of the list. */
+/* Ends the tool if no frame (with `taken`: no selected frame) has a name of the list. */
 static void
-demand_channels(const struct wanted *w, struct tool *t, bool wanted)
+demand_channels(const struct wanted *w, struct tool *t, bool taken)
 {
+    const struct wanted_frames *f = w->frames;
     const char *name;
     size_t n, i;
 
-    for (size_t k = 0; (name = name_at(w->channel, k, &n)) != NULL; k++) {
-        for (i = 0; i < w->list.n; i++)
-            if (is_name(&w->list.seen[i], name, n) && (!wanted || w->list.seen[i].taken))
+    for (size_t k = 0; (name = name_at(w, k, &n)) != NULL; k++) {
+        for (i = 0; i < f->n; i++)
+            if (is_name(&f->seen[i], name, n) && (!taken || f->seen[i].taken))
                 break;
-        if (i == w->list.n && wanted)
+        if (i == f->n && taken)
             tool_die(t, "%s: no frame with the channel %.*s among the requested cases and depths",
                      t->source, (int)n, name);
-        if (i == w->list.n)
+        if (i == f->n)
             no_channel(w, t, name, n);
     }
 }
@@ -387,74 +339,66 @@ demand_channels(const struct wanted *w, struct tool *t, bool wanted)
 static void
 demand_cases(const struct wanted *w, struct tool *t)
 {
+    const struct wanted_frames *f = w->frames;
     size_t i;
 
     for (size_t k = 0; k < w->number.n; k++) {
-        for (i = 0; i < w->list.n; i++)
-            if (right_channel(w, &w->list.seen[i]) &&
-                (double)w->list.seen[i].number == w->number.v[k])
+        for (i = 0; i < f->n; i++)
+            if (right_channel(w, &f->seen[i]) && (double)f->seen[i].number == w->number.v[k])
                 break;
-        if (i == w->list.n)
+        if (i == f->n)
             no_case(w, t, w->number.v[k]);
     }
 }
 
 static void
-demand_depths(const struct wanted *w, struct tool *t)
+demand_section(const struct wanted *w, struct tool *t)
 {
-    for (size_t k = 0; k < w->depth.n; k++)
-        if (!w->depths->met[k])
-            no_depth(w, t, w->depth.v[k]);
+    size_t i = 0;
+
+    while (i < w->frames->n && !w->frames->seen[i].right)
+        i++;
+    if (w->section != NULL && i == w->frames->n)
+        tool_die(t, "%s: there is no section across %s, such as rc-stress --section %s=0 makes",
+                 t->source, w->section, w->section);
 }
 
 /* Decides after the last frame. */
 static void
-settle(struct wanted *w, struct tool *t)
+settle(const struct wanted *w, struct tool *t)
 {
-    if (w->list.n == 0)
+    struct wanted_frames *f = w->frames;
+
+    if (f->n == 0)
         tool_die(t, "%s: the stream has no frame", t->source);
     demand_channels(w, t, false);
     demand_cases(w, t);
-    demand_depths(w, t);
+    demand_section(w, t);
+    for (size_t k = 0; k < w->depth.n; k++)
+        if (!f->asked[k].met)
+            no_depth(w, t, w->depth.v[k]);
     demand_channels(w, t, true);
-    seen_free(&w->list);
-    if (w->depths != NULL) {
-        free(w->depths->depth);
-        free(w->depths->met);
-        free(w->depths->held);
-    }
-    free(w->depths);
-}
-
-/* ---- both ---- */
-
-/* True if the frame is selected, without regard to depths. */
-static bool
-is_wanted(struct wanted *w, struct tool *t, const struct rc_grid *g)
-{
-    struct seen *s;
-
-    if (w->list.n > 0 && anything_goes(w)) /* the message names no frame: the first one is enough */
-        return true;
-    s = seen_add(&w->list, t, g);
-    return s->taken = only_depth(w, s);
+    for (size_t k = 0; k < f->n; k++)
+        free(f->seen[k].channel);
+    free(f->seen);
+    free(f->asked);
+    free(f->held);
+    free(f);
 }
 
 struct rc_grid *
 wanted_read(struct wanted *w, struct tool *t)
 {
-    struct rc_grid *g;
-
-    if (w->depth.n > 0 && w->depths == NULL)
-        begin_depths(w, t);
-    if (w->depths != NULL) {
-        g = read_by_depth(w, t);
-    } else {
-        while ((g = tool_read(t)) != NULL && !is_wanted(w, t, g))
-            if (w->other == NULL || !w->other(w->ctx, g))
-                rc_grid_free(g);
+    if (w->frames == NULL) {
+        w->frames = tool_room(t, 1, sizeof *w->frames, "a list of frames");
+        w->frames->asked = tool_room(t, w->depth.n, sizeof *w->frames->asked, "a list of depths");
+        for (size_t k = 0; k < w->depth.n; k++)
+            w->frames->asked[k].nearest = NAN;
     }
-    if (g == NULL)
-        settle(w, t);
-    return g;
+    while (!w->frames->ended && !(w->frames->waiting > 0 && w->frames->held[0].sure))
+        read_on(w, t);
+    if (w->frames->waiting > 0)
+        return first_held(w->frames, t);
+    settle(w, t);
+    return NULL;
 }

@@ -67,12 +67,11 @@ check_kinds(struct tool *t, const struct args *a)
 bool
 args_several(const struct args *a)
 {
-    return a->depth.n > 1 || a->number.n > 1 || a->sheet != NULL;
+    return a->wanted.depth.n > 1 || a->wanted.number.n > 1 || a->sheet != NULL;
 }
 
-/* Takes from lists the single frame of a picture, unless it shows several. */
 static void
-check_lists(struct tool *t, struct args *a)
+check_lists(struct tool *t, const struct args *a)
 {
     if (args_several(a) && (a->raw || a->curve != NULL))
         tool_usage(t, "--raw shows one frame: give one --depth and one --case");
@@ -96,10 +95,6 @@ check_lists(struct tool *t, struct args *a)
             t, "--window contact is another one in each map: of several give it as X0:X1,Y0:Y1");
     if (a->sheet != NULL && (a->raw || a->curve != NULL || args_lines(a)))
         tool_usage(t, "--sheet is for maps: leave it out");
-    if (a->depth.n == 1)
-        a->wish.depth = a->depth.v[0];
-    if (a->number.n == 1)
-        a->wish.number = unit_size(a->number.v[0]);
 }
 
 /* A plain number of pixels, or a length on paper. */

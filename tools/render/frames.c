@@ -1,29 +1,65 @@
 /*
- * The frames in a picture of several: one channel, selected by lists of depths and cases.
+ * The frames of a picture: the best one of the selected frames, or several of one channel, and beside them
+ * the pressures and contacts of their cases.
  */
 #include "render.h"
 
+#include <math.h>
 #include <string.h>
 
-static bool
-right_section(const struct frames *f, const struct rc_grid *g)
+/* Index of a channel among the preferred ones; all others have the next index. */
+static size_t
+rank(const char *channel)
 {
-    const char *section = rc_grid_get(g, "section");
+    static const char *const preferred[] = {"mises", "pressure", "height"};
+    size_t k = 0;
 
-    return f->wish.section == NULL || (section != NULL && section[0] == f->wish.section[0]);
+    while (k < sizeof preferred / sizeof *preferred && strcmp(preferred[k], channel) != 0)
+        k++;
+    return k;
+}
+
+/* ---- frames beside ---- */
+
+static void
+drop_aside(struct aside *of)
+{
+    while (of->n > 0)
+        rc_grid_free(of->grid[--of->n]);
+}
+
+/* Drops, of a picture of one frame, those of cases other than this one and that of the frame. */
+static void
+forget(const struct frames *f, struct aside *of, size_t number)
+{
+    size_t n = 0;
+
+    for (size_t k = 0; k < of->n; k++) {
+        const size_t is = rc_grid_case(of->grid[k]);
+
+        if (is == number || (f->n > 0 && is == rc_grid_case(f->grid[0])))
+            of->grid[n++] = of->grid[k];
+        else
+            rc_grid_free(of->grid[k]);
+    }
+    of->n = n;
 }
 
 static bool
 keep_beside(void *ctx, struct rc_grid *g)
 {
     struct frames *f = ctx;
+    struct aside *of = strcmp(g->channel, CONTACT_CHANNEL) == 0           ? &f->contact
+                       : f->border && strcmp(g->channel, "pressure") == 0 ? &f->pressure
+                                                                          : NULL;
 
-    if (strcmp(g->channel, CONTACT_CHANNEL) == 0 && f->contacts < FRAMES)
-        f->contact[f->contacts++] = g;
-    else if (f->border && strcmp(g->channel, "pressure") == 0 && f->pressures < FRAMES)
-        f->pressure[f->pressures++] = g;
-    else
+    if (of == NULL)
         return false;
+    if (f->one)
+        forget(f, of, rc_grid_case(g));
+    if (of->n == FRAMES)
+        return false;
+    of->grid[of->n++] = g;
     return true;
 }
 
@@ -34,13 +70,36 @@ let_go(struct frames *f, struct rc_grid *g)
         rc_grid_free(g);
 }
 
+static struct rc_grid *
+find(const struct aside *of, const struct rc_grid *g)
+{
+    for (size_t k = 0; k < of->n && rc_grid_get(g, "section") == NULL; k++) {
+        const struct rc_grid *is = of->grid[k];
+
+        if (rc_grid_case(is) == rc_grid_case(g) && is->nx == g->nx && is->ny == g->ny &&
+            is->dx == g->dx && is->dy == g->dy && strcmp(is->channel, g->channel) != 0)
+            return of->grid[k];
+    }
+    return NULL;
+}
+
+struct beside
+frames_beside(const struct frames *f, size_t k)
+{
+    return (struct beside){.pressure = find(&f->pressure, f->grid[k]),
+                           .contact = find(&f->contact, f->grid[k])};
+}
+
+/* ---- which are drawn ---- */
+
 /* Drops the kept frames of a channel with a lower preference than this one. */
 static bool
 prefer(struct frames *f, const struct rc_grid *g)
 {
     if (f->n == 0 || strcmp(f->grid[0]->channel, g->channel) == 0)
         return true;
-    if (f->wish.channel != NULL || choice_rank(g->channel) >= choice_rank(f->grid[0]->channel))
+    f->others = true;
+    if (f->wanted.channel != NULL || rank(g->channel) >= rank(f->grid[0]->channel))
         return false;
     for (size_t k = 0; k < f->n; k++)
         let_go(f, f->grid[k]);
@@ -48,21 +107,66 @@ prefer(struct frames *f, const struct rc_grid *g)
     return true;
 }
 
-static struct rc_grid *
-find(struct rc_grid *const *of, size_t n, const struct rc_grid *g)
+static double
+largest(const struct rc_grid *g)
 {
-    for (size_t k = 0; k < n && rc_grid_get(g, "section") == NULL; k++)
-        if (rc_grid_case(of[k]) == rc_grid_case(g) && of[k]->nx == g->nx && of[k]->ny == g->ny &&
-            strcmp(of[k]->channel, g->channel) != 0)
-            return of[k];
-    return NULL;
+    double size = 0;
+
+    for (size_t k = 0; k < g->nx * g->ny; k++)
+        if (isfinite(g->v[k]))
+            size = fmax(size, fabs(g->v[k]));
+    return size;
 }
 
-struct beside
-frames_beside(const struct frames *f, size_t k)
+/* Of a picture of one frame: the first, but of several depths the one with the largest magnitude. Returns
+ * the frame that is not kept. */
+static struct rc_grid *
+keep_best(struct frames *f, struct rc_grid *g)
 {
-    return (struct beside){.pressure = find(f->pressure, f->pressures, f->grid[k]),
-                           .contact = find(f->contact, f->contacts, f->grid[k])};
+    const bool deep = rc_grid_get(g, "depth") != NULL;
+    const double size = deep && f->wanted.depth.n == 0 ? largest(g) : 0;
+    struct rc_grid *old = f->n > 0 ? f->grid[0] : NULL;
+
+    if (old == NULL)
+        f->cases = f->depths = f->same = f->last = 0;
+    f->cases += rc_grid_case(g) != f->last;
+    f->last = rc_grid_case(g);
+    if (f->cases > 1)
+        return g;
+    f->depths += deep;
+    f->same += !deep;
+    if (old != NULL && !(deep && size > f->size && rc_grid_get(old, "depth") != NULL))
+        return g;
+    f->grid[0] = g;
+    f->size = size;
+    f->n = 1;
+    return old;
+}
+
+/* Names omitted frames that the user may have meant. */
+static void
+tell(const struct frames *f, struct tool *t)
+{
+    const struct rc_grid *g = f->grid[0];
+    double depth;
+
+    if (f->one && f->cases > 1)
+        tool_warn(t, "%zu cases match: case %zu is drawn, the others are left: choose with --case",
+                  f->cases, rc_grid_case(g));
+    if (f->one && f->same > 1)
+        tool_warn(t, "%zu frames of case %zu match (%s): the first is drawn", f->same,
+                  rc_grid_case(g), g->channel);
+    if (f->wanted.channel == NULL && f->others)
+        tool_note(t, "drawing %s: choose another channel with --channel", g->channel);
+    if (frames_by_size(f) && rc_grid_number(g, "depth", &depth))
+        tool_note(t, "of %zu depths drawing %s, where %s is largest: choose with --depth",
+                  f->depths, scale_value(depth, "m"), g->channel);
+}
+
+bool
+frames_by_size(const struct frames *f)
+{
+    return f->one && f->depths > 1 && f->wanted.depth.n == 0;
 }
 
 void
@@ -70,13 +174,16 @@ frames_read(struct frames *f, struct tool *t)
 {
     struct rc_grid *g;
 
+    f->wanted.one = true;
     f->wanted.other = keep_beside;
     f->wanted.ctx = f;
-    f->wanted.channel = f->wish.channel;
     wanted_check(&f->wanted, t);
     while ((g = wanted_read(&f->wanted, t)) != NULL) {
-        if (!right_section(f, g) || !prefer(f, g)) {
+        if (!prefer(f, g)) {
             let_go(f, g);
+        } else if (f->one) {
+            if ((g = keep_best(f, g)) != NULL)
+                let_go(f, g);
         } else if (f->n == FRAMES) {
             f->left++;
             rc_grid_free(g);
@@ -84,15 +191,10 @@ frames_read(struct frames *f, struct tool *t)
             f->grid[f->n++] = g;
         }
     }
-    if (f->n == 0)
-        tool_die(t, "%s: there is no frame%s%s to draw", t->source,
-                 f->wish.section == NULL ? "" : " of a section across ",
-                 f->wish.section == NULL ? "" : f->wish.section);
     if (f->left > 0)
         tool_die(t, "%zu frames match, a picture shows at most %d: choose with --depth and --case",
                  f->n + f->left, FRAMES);
-    if (f->wish.channel == NULL)
-        tool_note(t, "drawing %s: choose another channel with --channel", f->grid[0]->channel);
+    tell(f, t);
     for (size_t k = 0; k < f->n; k++) {
         struct beside beside = frames_beside(f, k);
         f->touch[k] = look_touch(t, f->grid[k], &beside, f->demands);
@@ -104,9 +206,7 @@ frames_free(struct frames *f)
 {
     for (size_t k = 0; k < f->n; k++)
         rc_grid_free(f->grid[k]);
-    for (size_t k = 0; k < f->pressures; k++)
-        rc_grid_free(f->pressure[k]);
-    for (size_t k = 0; k < f->contacts; k++)
-        rc_grid_free(f->contact[k]);
-    f->n = f->pressures = f->contacts = 0;
+    drop_aside(&f->pressure);
+    drop_aside(&f->contact);
+    f->n = 0;
 }

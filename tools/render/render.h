@@ -7,39 +7,10 @@
 #include "tools/cli/cli.h"
 #include "tools/plot/plot.h"
 
-/* ---- choice.c: the frame to draw; only the best frame so far is kept ---- */
-
-struct wish {
-    const char *channel; /* NULL: mises, pressure, height, else the first channel */
-    const char *section; /* "x" or "y": a section across that axis; NULL: any */
-    double depth;        /* metres: the nearest within half a step; NAN: any */
-    size_t number;       /* number of the case; 0: the first */
-    bool contact;        /* true: the pressure of its case is kept too */
-};
-
 /* Other frames of the case of the drawn frame, on its grid; NULL: none, or it is the drawn frame itself. */
 struct beside {
     struct rc_grid *pressure, *contact;
 };
-
-struct choice {
-    const struct wish *wish;
-    struct rc_grid *grid; /* the best frame so far; NULL: none matched             */
-    struct beside beside;
-    double size;           /* its largest |value|                                      */
-    bool by_size;          /* settled: the reason why it is preferred to other depths  */
-    struct seen_list list; /* every frame that was read */
-};
-
-/* Keeps the frame if it is better than the kept one, or frees it. Of several depths the one with the largest
- * |value| is better, of several cases the first. */
-void choice_offer(struct choice *choice, struct tool *tool, struct rc_grid *grid);
-/* After the last frame: fails if none matched, with a list of the existing ones, and names omitted frames
- * that the user may have meant. */
-void choice_settle(struct choice *choice, struct tool *tool);
-void choice_free(struct choice *choice);
-/* Index of a channel among the preferred ones; all others have the next index. */
-size_t choice_rank(const char *channel);
 
 /* ---- channels.c ---- */
 
@@ -307,30 +278,43 @@ struct canvas *curves_draw(struct tool *tool, const char *columns, const struct 
 /* True if --log selects this axis. */
 bool curve_log(const struct curve_style *style, char axis);
 
-/* ---- frames.c: several frames of one channel in one picture ---- */
+/* ---- frames.c: the frames to draw ---- */
 
 enum {
     FRAMES = 64
 };
 
-struct frames {
-    struct wish wish;     /* channel and section; for depths and cases see the lists */
-    struct wanted wanted; /* requested depths and cases; none: all */
+struct aside {
     struct rc_grid *grid[FRAMES];
     size_t n;
-    size_t left;  /* number of frames beyond the limit */
+};
+
+struct frames {
+    struct wanted
+        wanted; /* the request; without a channel: mises, pressure, height, else the first */
+    bool
+        one; /* true: only the best frame: of several cases the first, of several depths the one with the
+                     largest magnitude */
     bool border;  /* true: pressures of the cases are kept beside frames of another channel */
     bool demands; /* true: the contact must be known */
-    struct rc_grid *pressure[FRAMES], *contact[FRAMES]; /* pressure and contact of cases */
-    size_t pressures, contacts;
+    struct rc_grid *grid[FRAMES];
+    size_t n;
+    size_t left; /* number of frames beyond the limit */
+    struct aside pressure, contact;
     const struct rc_grid *touch[FRAMES]; /* the contact in each frame; NULL: unknown */
+    bool others;                         /* frames of another channel were left */
+    double size;                         /* of one: its largest magnitude */
+    size_t cases, last;                  /* of one: matching cases, and the last of them */
+    size_t depths, same; /* of one: matching frames of its case with a depth, and without */
 };
 
 /* The other frames of the case of frame k. */
 struct beside frames_beside(const struct frames *frames, size_t k);
+/* True if the depth was chosen because its magnitude is the largest of several. */
+bool frames_by_size(const struct frames *frames);
 
-/* Reads all inputs and keeps the requested frames; without a requested channel those of the first channel in
- * the order of struct wish. Ends the tool if there is none. */
+/* Reads all inputs and keeps the frames to draw. Ends the tool if there is none, and names omitted frames that
+ * the user may have meant. */
 void frames_read(struct frames *frames, struct tool *tool);
 void frames_free(struct frames *frames);
 
@@ -373,14 +357,13 @@ struct canvas *material_ratio_draw(struct tool *tool, struct rc_grid *const *gri
 /* ---- args.c: options ---- */
 
 struct args {
-    struct wish wish; /* which frame */
+    struct wanted wanted; /* which frames */
     const char *colormap, *range;
     const char *width, *window, *depths, *keep;
     double dpi;                  /* as given                                 */
     double aspect, exaggeration; /* the given value; NAN: automatic */
     bool contour, border, figure, raw, clip, hertz;
-    struct numbers depth, number; /* the request: several frames, or the one of `wish` */
-    const char *curve;            /* X:Y[,Y...]: tables are drawn instead of maps */
+    const char *curve; /* X:Y[,Y...]: tables are drawn instead of maps */
     const char *cut;
     const char *view;  /* AZ,EL: a relief */
     const char *sheet; /* COLSxROWS or "auto" */
@@ -388,8 +371,7 @@ struct args {
     struct curve_style style; /* log and paper are for every picture */
 };
 
-/* Ends the tool for contradicting options; determines the size of the picture, and the depth and case of a
- * picture of one frame. */
+/* Ends the tool for contradicting options; determines the size of the picture. */
 void args_check(struct tool *tool, struct args *args);
 /* True if the picture has curves of frames: values along a line, histogram, material ratio. */
 bool args_lines(const struct args *args);
