@@ -756,7 +756,7 @@ RC_API const struct rc_elastic_figures *rc_elastic_result(const struct rc_model 
 
 /* Von Mises plasticity with isotropic hardening. The yield stress grows with the equivalent plastic strain
  * linearly, or by a table of points, which the caller keeps. */
-struct rc_yield {
+struct rc_yield_law {
     double stress;  /* Pa, > 0: initial yield stress                      */
     double modulus; /* Pa, >= 0: slope over the equivalent plastic strain */
     size_t points;  /* points of the table; 0: linear law */
@@ -765,12 +765,12 @@ struct rc_yield {
 };
 
 /* Yield stress at this equivalent plastic strain, Pa. */
-RC_API double rc_yield_stress(const struct rc_yield *law, double strain);
+RC_API double rc_yield_law_stress(const struct rc_yield_law *law, double strain);
 
-struct rc_plastic_problem {
+struct rc_yield_problem {
     /* pair.one is the body that yields, with e and nu; no hardness; load and approach are ignored */
     struct rc_problem contact;
-    struct rc_yield yield;
+    struct rc_yield_law law;
     size_t slabs;            /* slabs that may yield, from the surface down; 0: chosen */
     const double *thickness; /* m, of each; NULL: chosen                               */
     size_t increments;       /* increments of each load; 0: chosen                     */
@@ -781,7 +781,7 @@ struct rc_plastic_problem {
 };
 
 /* Results of one load; lengths in m. */
-struct rc_plastic_figures {
+struct rc_yield_load {
     size_t increments;    /* increments of this load: 1 without or almost without further yield */
     size_t applications;  /* applications of the volume operator, in all runs of this load */
     size_t voxels;        /* voxels (a node and a slab) that have yielded                        */
@@ -801,22 +801,22 @@ struct rc_plastic_figures {
 
 enum {
     RC_PEEQ = 5, /* equivalent plastic strain, after exx eyy exy exz eyz; ezz = -exx - eyy */
-    RC_PLASTIC_STRAINS
+    RC_YIELD_STRAINS
 };
 
-/* ---- the yielding model: elastic until the first yield ---- */
+/* ---- yield as a model: elastic until the first yield ---- */
 
 enum {
-    RC_YIELDING_INCREMENTS = 512 /* most increments of a load */
+    RC_YIELD_INCREMENTS = 512 /* most increments of a load */
 };
-struct rc_yielding_figures {
+struct rc_yield_figures {
     struct rc_contact contact;
-    struct rc_plastic_figures plastic; /* all 0: no voxel has yielded */
-    bool yielded;                      /* true: the body has yielded; false: the solution is
+    struct rc_yield_load last;    /* all 0: no voxel has yielded */
+    bool yielded;                 /* true: the body has yielded; false: the solution is
                                           elastic */
-    size_t slabs;                      /* slabs in use; 0: no voxel has yielded */
-    const double *thickness;           /* m, of each                                             */
-    size_t increment, increments;      /* reached, and of the load, as tried                     */
+    size_t slabs;                 /* slabs in use; 0: no voxel has yielded */
+    const double *thickness;      /* m, of each                                             */
+    size_t increment, increments; /* reached, and of the load, as tried                     */
     double max_mises_over_yield, max_mises_depth; /* elastic contact: largest Mises stress over the
                                                      yield stress, and its depth in m; NAN: unknown */
     double indentation, residual_indentation;     /* as in rc_elastic_figures                */
@@ -828,18 +828,17 @@ struct rc_yielding_figures {
  * error is at most contact.tol (0: 1e-2). lag 0: it chooses a value that suits this. The heights h (nx ny m)
  * are copied; the caller keeps everything that the problem points to. NULL when the problem is invalid, or
  * memory is short. */
-RC_API struct rc_model *rc_yielding_new(const struct rc_shape *shape, const double *h,
-                                        const struct rc_plastic_problem *problem,
-                                        struct rc_err *err);
+RC_API struct rc_model *rc_yield_new(const struct rc_shape *shape, const double *h,
+                                     const struct rc_yield_problem *problem, struct rc_err *err);
 /* Announces this number of loads, N the largest: slabs are chosen for the largest, and increments also for
  * the loads that inherit their error. Optional. */
-RC_API void rc_yielding_plan(struct rc_model *model, size_t loads, double largest);
+RC_API void rc_yield_plan(struct rc_model *model, size_t loads, double largest);
 /* The figures after a look. NULL: neither the model nor its inner model yields. */
-RC_API const struct rc_yielding_figures *rc_yielding_result(const struct rc_model *model);
+RC_API const struct rc_yield_figures *rc_yield_result(const struct rc_model *model);
 /* Plastic strain of a slab, nx ny each; NULL: not needed. False: no voxel has yielded, or the slab does not
  * exist. */
-RC_API bool rc_yielding_strain(const struct rc_model *model, size_t slab,
-                               double *const e[RC_PLASTIC_STRAINS]);
+RC_API bool rc_yield_strain(const struct rc_model *model, size_t slab,
+                            double *const e[RC_YIELD_STRAINS]);
 
 /* ---- adhesion ---- */
 
@@ -872,14 +871,14 @@ struct rc_adhesion_scales {
     /* cohesive_length over the larger of dx, dy: below 1.5 the grid itself causes hysteresis */
     double cohesive_nodes;
 };
-/* RC_FAIL, and *err says why, when rc_adhesive_new would refuse the problem, except for short memory. */
+/* RC_FAIL, and *err says why, when rc_adhesion_new would refuse the problem, except for short memory. */
 RC_API enum rc_status rc_adhesion_check(const struct rc_shape *shape,
                                         const struct rc_adhesion_problem *problem,
                                         struct rc_adhesion_scales *scales, struct rc_err *err);
 
 /* The current state of the path. Loads are positive when the bodies are pressed together; all pressures but
  * `repulsive_load` are net, p of the contact less sigma. NAN: unknown. */
-struct rc_adhesion_figures {
+struct rc_adhesion_state {
     double load, mean_pressure; /* N, Pa                                                        */
     double approach;            /* m: 0 at first touch of the undeformed bodies, negative apart */
     double mean_gap;            /* m, over the map                                              */
@@ -926,15 +925,15 @@ RC_API enum rc_status rc_adhesion_expect(const struct rc_shape *shape,
  * load the next stable state of lower energy is found, if there is one: see `separated`. Keeping a point adds
  * its plastic dents to the shape. The caller keeps everything that `problem` points to. NULL when the problem
  * is invalid, among ranks, when the engine or method does not suit it, or memory is short. */
-struct rc_adhesive_figures {
+struct rc_adhesion_figures {
     struct rc_contact contact; /* the figures that all contacts have */
-    struct rc_adhesion_figures adhesion;
+    struct rc_adhesion_state state;
 };
-RC_API struct rc_model *rc_adhesive_new(const struct rc_shape *shape, const double *h,
+RC_API struct rc_model *rc_adhesion_new(const struct rc_shape *shape, const double *h,
                                         const struct rc_adhesion_problem *problem,
                                         struct rc_err *err);
-/* The figures after a look. NULL: neither the model nor its inner model is adhesive. */
-RC_API const struct rc_adhesive_figures *rc_adhesive_result(const struct rc_model *model);
+/* The figures after a look. NULL: neither the model nor its inner model has adhesion. */
+RC_API const struct rc_adhesion_figures *rc_adhesion_result(const struct rc_model *model);
 
 /* ---- leakage ---- */
 
@@ -1010,7 +1009,7 @@ RC_API void rc_leak_free(struct rc_leak *leak); /* NULL is allowed */
  * increments. Tractions act on body 1, and the force is their sum. Body 2 pulls body 1 along, and has
  * moved over it by the displacement (on a periodic map their mean planes). Slip is the motion of body 1 over
  * body 2, opposite to the traction. */
-struct rc_slip_problem {
+struct rc_friction_law {
     enum rc_boundary boundary;
     struct rc_pair pair; /* uniform bodies                                                    */
     double nu;           /* Poisson's ratio of both, if only E* of the pair is known          */
@@ -1024,7 +1023,7 @@ struct rc_slip_problem {
 };
 
 /* Figures of an increment. */
-struct rc_slip_figures {
+struct rc_friction_increment {
     double load;     /* N, normal                                                           */
     double limit;    /* N: largest force that friction can carry, at most mu times the load */
     double force[2]; /* N, along x and y                                                    */
@@ -1057,8 +1056,8 @@ enum {
     RC_FEWER = 2 /* most solutions with fewer increments */
 };
 struct rc_friction_problem {
-    struct rc_slip_problem
-        slip; /* `coupling` sets `uncoupled`; tol: the tolerance of an increment */
+    struct rc_friction_law
+        law; /* `coupling` sets `uncoupled`; tol: the tolerance of an increment */
     enum rc_coupling coupling;
     size_t increments; /* from point to point, in which all axes change in proportion; 0: chosen */
     size_t max_passes; /* passes of pressure and tractions in an increment; 0: 50                */
@@ -1076,9 +1075,9 @@ struct rc_friction_problem {
 };
 
 struct rc_friction_figures {
-    struct rc_slip_figures slip; /* figures of the last increment; dissipated: since the last
+    struct rc_friction_increment last; /* figures of the last increment; dissipated: since the last
                                     kept point */
-    size_t passes;               /* since the last point kept: pressures passed to friction      */
+    size_t passes; /* since the last point kept: pressures passed to friction      */
     /* relative L1, of the last pass; 0: only one pass is needed */
     double pressure_change, traction_change;
     /* Estimated relative L1 errors of the tractions. First: of the last increment, with the change by further
@@ -1141,9 +1140,10 @@ struct rc_rolling_problem {
     /* Friction and bodies. A steady state needs the free boundary. Pressure moves dissimilar bodies along
      * each other, unless `uncoupled`; tractions do not change the pressure. tol 0 is 1e-3, on a path
      * 1e-2. max_steps holds for each grid. */
-    struct rc_slip_problem slip;
-    bool force; /* points give RC_FORCE_X, RC_FORCE_Y, and RC_CREEP_X, RC_CREEP_Y are found */
-    bool path;  /* each point is a step; else a steady state, whatever comes before */
+    struct rc_friction_law law;
+    bool
+        force; /* points give RC_TANGENTIAL_X, RC_TANGENTIAL_Y, and RC_CREEP_X, RC_CREEP_Y are found */
+    bool path; /* each point is a step; else a steady state, whatever comes before */
     /* NULL: the inner model solves the contact. The caller keeps it, and may change it from point to point.
      * On a path the map moves by whole columns. */
     const struct rc_rolling_contact *known;
@@ -1181,7 +1181,7 @@ struct rc_rolling_figures {
  * traction). RC_FAIL during a path if no node is in contact, friction cannot carry the force, or a
  * contact with spin reaches half a period from its middle. RC_FAIL too if the contact reaches the last
  * column (the leading edge), or a column that comes in. Sources: Kalker 1990, Three-dimensional elastic
- * bodies in rolling contact; Newton's method as in libcontact/slip/steady.c. */
+ * bodies in rolling contact; Newton's method as in libcontact/rolling/steady.c. */
 RC_API struct rc_model *rc_rolling_new(struct rc_model *inner,
                                        const struct rc_rolling_problem *problem,
                                        struct rc_err *err);
@@ -1206,11 +1206,11 @@ struct rc_wear_problem {
     /* Two rough bodies slide over each other along x, on a map that repeats: h gives the heights of body 1,
      * and h2 those of body 2, nx ny m, face to face (NULL: body 2 is smooth). Each wears by the mean pressure
      * of all alignments. The caller keeps h2 as long as the model. */
-    bool sliding;
+    bool two_bodies;
     const double *h2;
     /* nx ny J/m2: a friction energy at each node per unit of the distance, which then is a number of
      * cycles. A node loses k times this energy, whatever its pressure is; NULL: k p per sliding
-     * distance. The caller keeps it as long as the model. There is no part, track, sliding or condition
+     * distance. The caller keeps it as long as the model. There is no part, track, two_bodies or condition
      * beside it. */
     const double *energy;
     /* A leg ends early when one of these is reached; 0: no such condition. */
@@ -1321,7 +1321,7 @@ RC_API void rc_relaxation_free(struct rc_relaxation *r); /* NULL is allowed */
 
 /* ---- steady sliding over a viscoelastic body as a model ---- */
 
-struct rc_slide_problem {
+struct rc_sliding_problem {
     const struct rc_relaxation
         *material; /* E/(1 - nu^2) of body 1; the caller keeps it             */
     double
@@ -1329,7 +1329,7 @@ struct rc_slide_problem {
     bool along_y;   /* body 2 slides along +y; false: along +x                                    */
     bool repeats;   /* it meets its own grooves after one period of the map; false: a fresh track */
 };
-struct rc_slide_figures {
+struct rc_sliding_figures {
     double speed; /* m/s                                                               */
     /* Coefficient of friction and force (N) against the motion, by the losses in the material: the integral
      * of -p du/dx. friction_error: its difference to the integral of -p dh/dx, an error of the grid, and the
@@ -1350,12 +1350,12 @@ struct rc_slide_figures {
  * which may be negative. The bodies of `problem` are not used. NULL when a number is out of range, memory is
  * short, or the material flows without end. A point fails if tan delta exceeds 3 among the waves of the map.
  * The material keeps J(-i qx v) (Persson 2001, J. Chem. Phys. 115, 3840; Carbone and Putignano 2013, J. Mech.
- * Phys. Solids 61, 1822); the iteration is described in libcontact/visco/slide.c. */
-RC_API struct rc_model *rc_slide_new(const struct rc_shape *shape, const double *h,
-                                     const struct rc_problem *problem,
-                                     const struct rc_slide_problem *law, struct rc_err *err);
+ * Phys. Solids 61, 1822); the iteration is described in libcontact/viscoelastic/sliding.c. */
+RC_API struct rc_model *rc_sliding_new(const struct rc_shape *shape, const double *h,
+                                       const struct rc_problem *problem,
+                                       const struct rc_sliding_problem *law, struct rc_err *err);
 /* The figures of this model, after rc_model_look; NULL: it does not slide. */
-RC_API const struct rc_slide_figures *rc_slide_result(const struct rc_model *model);
+RC_API const struct rc_sliding_figures *rc_sliding_result(const struct rc_model *model);
 
 /* ---- viscoelastic bodies as a model ---- */
 

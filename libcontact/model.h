@@ -35,12 +35,12 @@ struct rc_solver;
 /* ---- axes: quantities that a history prescribes ---- */
 
 enum rc_axis {
-    RC_LOAD,     /* N, positive when the bodies are pressed together                       */
-    RC_APPROACH, /* m, from first touch; -INFINITY separates bodies that attract each other */
-    RC_FORCE_X,  /* N, of body 2 on body 1                                                 */
-    RC_FORCE_Y,
-    RC_SHIFT_X, /* m, of body 2 over body 1                                               */
-    RC_SHIFT_Y,
+    RC_LOAD,         /* N, positive when the bodies are pressed together                       */
+    RC_APPROACH,     /* m, from first touch; -INFINITY separates bodies that attract each other */
+    RC_TANGENTIAL_X, /* N, of body 2 on body 1                                                 */
+    RC_TANGENTIAL_Y,
+    RC_DISPLACEMENT_X, /* m, of body 2 over body 1                                               */
+    RC_DISPLACEMENT_Y,
     RC_CREEP_X, /* creepages                                                              */
     RC_CREEP_Y,
     RC_SPIN,     /* rad/m                                                                  */

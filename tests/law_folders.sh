@@ -14,8 +14,8 @@
 cat >arrows.txt <<'END'
 libcontact          | -                                        | -
 libcontact/model    | %base                                    | libcontact libcontact/solver=rc_figures_
-libcontact/model    |                                          | libcontact/solver=rc_model_ libcontact/adhesion=rc_figures_ libcontact/adhesion=rc_model_ libcontact/leak=rc_figures_ libcontact/plastic=rc_figures_
-libcontact/model    |                                          | libcontact/slip=rc_figures_ libcontact/slip=rc_model_ libcontact/wear=rc_figures_ libcontact/wear=rc_model_ libcontact/travel=rc_figures_ libcontact/travel=rc_model_ libcontact/visco=rc_figures_ libcontact/visco=rc_model_ libcontact/stress=rc_figures_ libcontact/fatigue=rc_figures_ libcontact/heat=rc_figures_ libcontact/surface=rc_figures_ libcontact/features=rc_figures_
+libcontact/model    |                                          | libcontact/solver=rc_model_ libcontact/adhesion=rc_figures_ libcontact/adhesion=rc_model_ libcontact/leak=rc_figures_ libcontact/yield=rc_figures_
+libcontact/model    |                                          | libcontact/friction=rc_figures_ libcontact/friction=rc_model_ libcontact/rolling=rc_figures_ libcontact/rolling=rc_model_ libcontact/wear=rc_figures_ libcontact/wear=rc_model_ libcontact/travel=rc_figures_ libcontact/travel=rc_model_ libcontact/viscoelastic=rc_figures_ libcontact/viscoelastic=rc_model_ libcontact/stress=rc_figures_ libcontact/fatigue=rc_figures_ libcontact/heat=rc_figures_ libcontact/surface=rc_figures_ libcontact/features=rc_figures_
 libcontact/ranks    | libcontact/common.h libcontact/contact_mpi.h | libcontact
 libcontact/transform | %base                                   | libcontact
 libcontact/body     | %base %ranks                             | libcontact libcontact/ranks
@@ -33,20 +33,22 @@ libcontact/heat     | %base libcontact/operator/operator.h     | libcontact libc
 libcontact/heat     | libcontact/body/quadrature.h             | libcontact/body
 libcontact/heat     | libcontact/solver/solver.h               | libcontact/solver
 libcontact/volume   | %base libcontact/operator/operator.h     | libcontact libcontact/ranks libcontact/operator libcontact/transform
-libcontact/plastic  | libcontact/model/row.h                   | libcontact/model
-libcontact/plastic  | %base libcontact/volume/volume.h         | libcontact libcontact/volume libcontact/solver libcontact/stress
+libcontact/yield  | libcontact/model/row.h                   | libcontact/model
+libcontact/yield  | %base libcontact/volume/volume.h         | libcontact libcontact/volume libcontact/solver libcontact/stress
 libcontact/adhesion | %base libcontact/operator/operator.h     | libcontact libcontact/operator libcontact/body
 libcontact/adhesion | libcontact/model/row.h                   | libcontact/model libcontact/solver=rc_figures_
 libcontact/leak     | %base                                    | libcontact
 libcontact/wear     | %base libcontact/model/row.h             | libcontact libcontact/model
 libcontact/travel   | %base libcontact/model/row.h             | libcontact libcontact/model
-libcontact/visco    | %base libcontact/model/row.h             | libcontact libcontact/model
-libcontact/visco    | libcontact/solver/solver.h libcontact/transform/fourier.h | libcontact/solver libcontact/operator libcontact/transform
-libcontact/visco    | libcontact/operator/operator.h libcontact/body/quadrature.h | libcontact/body
-libcontact/slip     | %base libcontact/operator/operator.h     | libcontact libcontact/solver libcontact/operator libcontact/transform libcontact/body libcontact/ranks
-libcontact/slip     | %base libcontact/solver/solver.h         | libcontact libcontact/solver
-libcontact/slip     | libcontact/model/row.h                   | libcontact/model
-libcontact/slip     | libcontact/operator/operator.h           | libcontact/ranks libcontact/operator libcontact/transform libcontact/body
+libcontact/viscoelastic| %base libcontact/model/row.h             | libcontact libcontact/model
+libcontact/viscoelastic| libcontact/solver/solver.h libcontact/transform/fourier.h | libcontact/solver libcontact/operator libcontact/transform
+libcontact/viscoelastic| libcontact/operator/operator.h libcontact/body/quadrature.h | libcontact/body
+libcontact/friction | %base libcontact/operator/operator.h     | libcontact libcontact/solver libcontact/operator libcontact/transform libcontact/body libcontact/ranks
+libcontact/friction | %base libcontact/solver/solver.h         | libcontact libcontact/solver
+libcontact/friction | libcontact/model/row.h                   | libcontact/model
+libcontact/friction | libcontact/operator/operator.h           | libcontact/ranks libcontact/operator libcontact/transform libcontact/body
+libcontact/rolling  | %base libcontact/friction/friction.h     | libcontact libcontact/friction
+libcontact/rolling  | libcontact/friction/discs.h libcontact/model/row.h | libcontact/model libcontact/operator libcontact/body
 libcontact/features | %base                                   | libcontact
 libcontact/surface  | %base %ranks                             | libcontact libcontact/ranks
 libcontact/surface  | libcontact/transform/transform.h         | libcontact/transform
@@ -118,8 +120,8 @@ tools               | formats/containers/containers.h          | formats/contain
 END
 base='libcontact/contact.h libcontact/grid.h libcontact/common.h libcontact/memory.h libcontact/expected.h libcontact/owned.h'
 public='libcontact/contact.h libcontact/grid.h libcontact/model.h'
-physics='libcontact libcontact/body libcontact/operator libcontact/solver libcontact/stress libcontact/plastic'
-physics="$physics libcontact/model libcontact/adhesion libcontact/leak libcontact/slip libcontact/wear libcontact/travel libcontact/visco libcontact/fatigue libcontact/heat libcontact/surface libcontact/features"
+physics='libcontact libcontact/body libcontact/operator libcontact/solver libcontact/stress libcontact/yield'
+physics="$physics libcontact/model libcontact/adhesion libcontact/leak libcontact/friction libcontact/rolling libcontact/wear libcontact/travel libcontact/viscoelastic libcontact/fatigue libcontact/heat libcontact/surface libcontact/features"
 cli='tools/cli tools/text tools/machine'
 plot='tools/plot tools/canvas'
 reader='libcontact/grid.h formats/core/core.h formats/format.h formats/containers/containers.h formats/sandbox/sandbox.h'

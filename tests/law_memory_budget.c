@@ -17,8 +17,8 @@
 
 #include "libcontact/adhesion/adhesion.h"
 #include "libcontact/memory.h"
-#include "libcontact/plastic/plastic.h"
-#include "libcontact/slip/slip.h"
+#include "libcontact/yield/yield.h"
+#include "libcontact/friction/friction.h"
 #include "libcontact/volume/volume.h"
 #include "tests/exact.h"
 #include "tools/machine/memory.h"
@@ -251,28 +251,28 @@ slabs_single(const struct work *w, const double *h, const double *p)
 static bool
 friction(const struct work *w, const double *h, const double *p)
 {
-    const struct rc_slip_problem problem = {
+    const struct rc_friction_law problem = {
         .boundary = w->boundary, .pair.one = {.e = 3e9, .nu = 0.3}, .mu = 0.3, .tol = 0.1};
-    struct rc_slip *slip = rc_slip_new(w->shape, &problem, NULL);
+    struct rc_friction_solver *slip = rc_friction_solver_new(w->shape, &problem, NULL);
     enum rc_status status = RC_FAIL;
 
     (void)h;
-    if (slip != NULL && rc_slip_set_pressure(slip, p, NULL, NULL) == RC_OK &&
-        rc_slip_set_force(slip, 1e4 * (double)nodes_of(w) * w->shape->dx * w->shape->dy, 0, NULL) ==
-            RC_OK)
+    if (slip != NULL && rc_friction_solver_set_pressure(slip, p, NULL, NULL) == RC_OK &&
+        rc_friction_solver_set_force(slip, 1e4 * (double)nodes_of(w) * w->shape->dx * w->shape->dy,
+                                     0, NULL) == RC_OK)
         do
-            status = rc_slip_step(slip, NULL);
+            status = rc_friction_solver_step(slip, NULL);
         while (status == RC_MORE);
-    rc_slip_free(slip);
+    rc_friction_solver_free(slip);
     return status == RC_OK;
 }
 
 static size_t
-states_of(const struct rc_adhesion *a)
+states_of(const struct rc_adhesion_solver *a)
 {
-    struct rc_adhesion_progress progress;
+    struct rc_adhesion_solver_progress progress;
 
-    rc_adhesion_progress(a, &progress);
+    rc_adhesion_solver_progress(a, &progress);
     return progress.state;
 }
 
@@ -284,19 +284,19 @@ adhesion(const struct work *w, const double *h, const double *p)
         .contact = {.boundary = w->boundary, .pair.estar = 3e9, .tol = 1e-3},
         .work = 0.1,
         .law = "jkr"};
-    struct rc_adhesion *a = rc_adhesion_new(w->shape, h, &problem, NULL);
+    struct rc_adhesion_solver *a = rc_adhesion_solver_new(w->shape, h, &problem, NULL);
     enum rc_status status = RC_FAIL;
 
     (void)p;
-    if (a != NULL && rc_adhesion_set_approach(a, 1e-8, NULL) == RC_OK) {
-        while ((status = rc_adhesion_step(a, NULL)) == RC_MORE)
+    if (a != NULL && rc_adhesion_solver_set_approach(a, 1e-8, NULL) == RC_OK) {
+        while ((status = rc_adhesion_solver_step(a, NULL)) == RC_MORE)
             ;
-        status = rc_adhesion_pull_off(a, NULL);
+        status = rc_adhesion_solver_pull_off(a, NULL);
         while (status != RC_FAIL && states_of(a) <= 4 &&
-               (status = rc_adhesion_step(a, NULL)) == RC_MORE)
+               (status = rc_adhesion_solver_step(a, NULL)) == RC_MORE)
             ;
     }
-    rc_adhesion_free(a);
+    rc_adhesion_solver_free(a);
     return status != RC_FAIL;
 }
 
@@ -308,7 +308,7 @@ friction_found(const struct work *w, const double *h, const double *p)
     const struct rc_pair pair = {.one = {.e = 3e9, .nu = 0.3}};
     const struct rc_problem contact = {.boundary = w->boundary, .pair = pair, .tol = 0.01};
     const struct rc_friction_problem law = {
-        .slip = {.boundary = w->boundary, .pair = pair, .mu = 0.3, .tol = 0.1}, .increments = 1};
+        .law = {.boundary = w->boundary, .pair = pair, .mu = 0.3, .tol = 0.1}, .increments = 1};
     struct rc_model *m =
         rc_friction_new(rc_elastic_new(w->shape, h, &contact, NULL, NULL), h, &law, NULL);
     enum rc_status status = RC_FAIL;
@@ -316,8 +316,8 @@ friction_found(const struct work *w, const double *h, const double *p)
 
     (void)p;
     rc_point_set(&to, RC_LOAD, load);
-    rc_point_set(&to, RC_FORCE_X, 0.1 * load);
-    rc_point_set(&to, RC_FORCE_Y, 0);
+    rc_point_set(&to, RC_TANGENTIAL_X, 0.1 * load);
+    rc_point_set(&to, RC_TANGENTIAL_Y, 0);
     if (m != NULL)
         status = rc_model_run(m, &to, NULL);
     rc_model_free(m);
@@ -332,30 +332,30 @@ yielding(const struct work *w, const double *h, const double *p)
         SLABS = 12
     };
     double thickness[SLABS];
-    struct rc_plastic_problem problem = {.contact = {.boundary = w->boundary,
-                                                     .pair.one = {.e = 3e9, .nu = 0.3},
-                                                     .pair.two.e = INFINITY},
-                                         .yield = {.stress = 1e7, .modulus = 1e8},
-                                         .slabs = SLABS,
-                                         .thickness = thickness,
-                                         .increments = 1,
-                                         .lag = 0.5};
+    struct rc_yield_problem problem = {.contact = {.boundary = w->boundary,
+                                                   .pair.one = {.e = 3e9, .nu = 0.3},
+                                                   .pair.two.e = INFINITY},
+                                       .law = {.stress = 1e7, .modulus = 1e8},
+                                       .slabs = SLABS,
+                                       .thickness = thickness,
+                                       .increments = 1,
+                                       .lag = 0.5};
     double load = 1e7 * (double)nodes_of(w) * w->shape->dx * w->shape->dy;
-    struct rc_plastic *plastic;
+    struct rc_yield_solver *plastic;
     enum rc_status status = RC_FAIL;
     bool enough = false;
 
     (void)p;
     for (int k = 0; k < SLABS; k++)
         thickness[k] = 1e-6;
-    plastic = rc_plastic_new(w->shape, h, &problem, NULL);
-    if (plastic != NULL && rc_plastic_set_load(plastic, load, NULL) == RC_OK)
+    plastic = rc_yield_solver_new(w->shape, h, &problem, NULL);
+    if (plastic != NULL && rc_yield_solver_set_load(plastic, load, NULL) == RC_OK)
         do
-            status = rc_plastic_step(plastic, NULL);
+            status = rc_yield_solver_step(plastic, NULL);
         while (status == RC_MORE);
     if (status != RC_FAIL)
         enough = 10 * plastic->figures.voxels > nodes_of(w) * SLABS;
-    rc_plastic_free(plastic);
+    rc_yield_solver_free(plastic);
     return enough;
 }
 

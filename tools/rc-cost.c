@@ -111,7 +111,7 @@ check_arguments(struct costs *run)
     struct tool *t = &run->t;
     struct physics *physics = &args.contact.physics;
 
-    physics->attracts = args.contact.adhesion != NULL;
+    physics->adhesion = args.contact.adhesion != NULL;
     physics_check(t, physics);
     if (physics_steps(physics)->n > 1 && !physics->history)
         tool_usage(t, "one load at a time: %zu were given", physics_steps(physics)->n);

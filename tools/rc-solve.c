@@ -132,7 +132,7 @@ check_arguments(struct run *run)
 {
     /* each load starts from the last one */
     args.physics.history |= args.yield != NULL || args.adhesion != NULL;
-    args.physics.attracts = args.adhesion != NULL;
+    args.physics.adhesion = args.adhesion != NULL;
     args.physics.travels = args.travel.n > 0;
     relax_read(run, &args);
     physics_check(&run->d.t, &args.physics);

@@ -173,8 +173,8 @@ read_motion(struct run *run)
     struct tool *t = &run->d.t;
     struct rc_err err;
 
-    law->sliding = strcmp(text, "sliding") == 0;
-    if ((track || (!law->sliding && strcmp(text, "same") != 0)) &&
+    law->two_bodies = strcmp(text, "sliding") == 0;
+    if ((track || (!law->two_bodies && strcmp(text, "same") != 0)) &&
         (!track || unit_number(text + 6, UNIT_M, &law->track, &err) != RC_OK || !(law->track > 0) ||
          isinf(law->track)))
         tool_usage(
@@ -182,18 +182,18 @@ read_motion(struct run *run)
             "--motion %s: it must be same, sliding or track:LENGTH, with a length above 0, as "
             "in track:60mm",
             text);
-    if ((track || law->sliding) && args.cycles.n > 0)
+    if ((track || law->two_bodies) && args.cycles.n > 0)
         tool_usage(t,
                    "--motion %s and --cycles exclude each other: in a cycle of fretting the same "
                    "points stay in contact",
                    track ? "track" : text);
-    if (law->sliding != (args.counter != NULL))
+    if (law->two_bodies != (args.counter != NULL))
         tool_usage(
             t, "--motion sliding and --counter belong together: it is the surface of body 2 that "
                "slides over body 1");
-    if (law->sliding && args.until != NULL)
+    if (law->two_bodies && args.until != NULL)
         tool_usage(t, "--until with --motion sliding is not implemented");
-    if (law->sliding)
+    if (law->two_bodies)
         run->counter = physics_counter(t, args.counter);
 }
 
@@ -588,7 +588,7 @@ set_keys(struct drive *d, struct rc_model *m, struct rc_grid *g)
     else if (run->map[SLIP] != NULL)
         tool_set_number(&d->t, g, "cycles", f->distance / run->path);
     judge_map(run, m, g);
-    if (run->law.sliding && f->pressure_error > args.tol)
+    if (run->law.two_bodies && f->pressure_error > args.tol)
         course_warn(
             &d->course, "the pressure of one alignment is less accurate than the wear",
             "the estimated error of the pressure, %.2g, is above --tol: it is the pressure of one "
@@ -679,7 +679,7 @@ do_case(struct run *run, const struct rc_grid *g)
     rc_measure(&shape, g->v, &before);
     run->relief = before.maximum - before.minimum;
     run->written = 0;
-    if (run->law.sliding)
+    if (run->law.two_bodies)
         add_counter(run, g);
     for (size_t k = 0; k < d->points; k++)
         rc_point_set(&d->point[k], RC_LOAD, load);

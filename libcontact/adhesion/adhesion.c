@@ -105,18 +105,19 @@ struct retraction {
     bool on;
     struct rc_retraction search;
     double *kept[RC_RETRACTION_KEPT]; /* gaps on the whole grid */
-    struct rc_adhesion_figures found; /* figures of the lowest state */
+    struct rc_adhesion_state found;   /* figures of the lowest state */
     size_t iterations, eigen_steps, jumps;
     double convolutions;
     double start; /* the shift of the first state */
     bool short_of;
 };
 
-struct rc_adhesion {
+struct rc_adhesion_solver {
     struct rc_shape shape;
-    struct rc_adhesion *coarse; /* a coarser grid, for the start of the first state; NULL: none */
-    size_t lent;                /* bytes of the coarser grids */
-    bool rough;                 /* this path is on such a grid */
+    struct rc_adhesion_solver
+        *coarse; /* a coarser grid, for the start of the first state; NULL: none */
+    size_t lent; /* bytes of the coarser grids */
+    bool rough;  /* this path is on such a grid */
     struct rc_whole *whole;
     struct rc_gap gap;
     struct rc_adhesion_scales scales;
@@ -133,13 +134,13 @@ struct rc_adhesion {
     double mu[3];    /* eigenvalue of the last state of each control; 0: none */
     double softness; /* the lowest stiffness along a descent, close to its end */
     struct way way;
-    struct rc_adhesion_past past;
+    struct rc_adhesion_solver_past past;
     double judged; /* the error when the eigenvalue was found; 0: not found yet */
     double hidden; /* then the error along the softest mode, times mu */
     bool converged;
     bool separated;
     bool fresh; /* the figures belong to the present state */
-    struct rc_adhesion_figures figures;
+    struct rc_adhesion_state figures;
     struct retraction pull;
 };
 
@@ -250,7 +251,7 @@ rc_adhesion_check(const struct rc_shape *shape, const struct rc_adhesion_problem
 }
 
 static enum rc_status
-check_heights(const struct rc_adhesion *a, const double *h, struct rc_err *err)
+check_heights(const struct rc_adhesion_solver *a, const double *h, struct rc_err *err)
 {
     for (size_t k = 0; k < a->shape.nx * a->shape.ny; k++)
         if (!isfinite(h[k]))
@@ -261,7 +262,7 @@ check_heights(const struct rc_adhesion *a, const double *h, struct rc_err *err)
 /* Takes the heights h, which include the dents (NULL: none); approaches count from first touch without
  * dents. */
 static void
-take_heights(struct rc_adhesion *a, const double *h, const double *dent)
+take_heights(struct rc_adhesion_solver *a, const double *h, const double *dent)
 {
     size_t n = a->shape.nx * a->shape.ny;
     double top = -INFINITY;
@@ -274,8 +275,8 @@ take_heights(struct rc_adhesion *a, const double *h, const double *dent)
 }
 
 static enum rc_status
-take_hardness(const struct rc_adhesion *a, const struct rc_problem *c, double *hard, double **hards,
-              struct rc_err *err)
+take_hardness(const struct rc_adhesion_solver *a, const struct rc_problem *c, double *hard,
+              double **hards, struct rc_err *err)
 {
     size_t n = a->shape.nx * a->shape.ny;
 
@@ -299,16 +300,16 @@ take_hardness(const struct rc_adhesion *a, const struct rc_problem *c, double *h
 }
 
 static void
-free_coarse(struct rc_adhesion *a)
+free_coarse(struct rc_adhesion_solver *a)
 {
-    rc_adhesion_free(a->coarse);
+    rc_adhesion_solver_free(a->coarse);
     rc_memory_return(a->lent);
     a->coarse = NULL;
     a->lent = 0;
 }
 
 void
-rc_adhesion_free(struct rc_adhesion *a)
+rc_adhesion_solver_free(struct rc_adhesion_solver *a)
 {
     if (a == NULL)
         return;
@@ -322,7 +323,7 @@ rc_adhesion_free(struct rc_adhesion *a)
 }
 
 /* A path without heights. */
-static struct rc_adhesion *
+static struct rc_adhesion_solver *
 path_new(const struct rc_shape *shape, const struct rc_adhesion_problem *problem,
          struct rc_err *err)
 {
@@ -331,7 +332,7 @@ path_new(const struct rc_shape *shape, const struct rc_adhesion_problem *problem
         .boundary = c->boundary, .pair = &c->pair, .threads = c->threads};
     struct rc_adhesion_scales scales;
     struct rc_attraction law;
-    struct rc_adhesion *a;
+    struct rc_adhesion_solver *a;
     double nodes = (double)shape->nx * (double)shape->ny, hard, *hards;
 
     if (attraction_of(shape, problem, &law, &scales, err) != RC_OK)
@@ -350,7 +351,7 @@ path_new(const struct rc_shape *shape, const struct rc_adhesion_problem *problem
     if ((a->whole = rc_whole_new(shape, &options, err)) == NULL ||
         take_hardness(a, c, &hard, &hards, err) != RC_OK ||
         rc_gap_new(&a->gap, a->whole, &law, a->h, hard, hards, err) != RC_OK) {
-        rc_adhesion_free(a);
+        rc_adhesion_solver_free(a);
         return NULL;
     }
     return a;
@@ -369,7 +370,7 @@ sample(const struct rc_shape *fine, const double *v, double factor, double *to)
 
 /* The law on a coarser grid: the same work, and a range that the grid resolves. */
 static double
-coarse_range(const struct rc_adhesion *fine, const struct rc_adhesion_problem *p,
+coarse_range(const struct rc_adhesion_solver *fine, const struct rc_adhesion_problem *p,
              const struct rc_shape *shape)
 {
     const double length = sqrt(shape->dx) * sqrt(shape->dy);
@@ -384,12 +385,12 @@ coarse_range(const struct rc_adhesion *fine, const struct rc_adhesion_problem *p
 
 /* The path on the coarser grid. NULL if this grid does not pay, or memory is short: the start is then from
  * undeformed bodies. */
-static struct rc_adhesion *
-coarse_new(const struct rc_adhesion *fine, const struct rc_adhesion_problem *problem)
+static struct rc_adhesion_solver *
+coarse_new(const struct rc_adhesion_solver *fine, const struct rc_adhesion_problem *problem)
 {
     const struct rc_shape *f = &fine->shape, shape = rc_shape_coarser(f);
     struct rc_adhesion_problem p = *problem;
-    struct rc_adhesion *a;
+    struct rc_adhesion_solver *a;
     double *hards = NULL;
 
     if ((f->nx > 1 && shape.nx < COARSEST) || (f->ny > 1 && shape.ny < COARSEST) ||
@@ -413,16 +414,16 @@ coarse_new(const struct rc_adhesion *fine, const struct rc_adhesion_problem *pro
     return a;
 }
 
-struct rc_adhesion *
-rc_adhesion_new(const struct rc_shape *shape, const double *h,
-                const struct rc_adhesion_problem *problem, struct rc_err *err)
+struct rc_adhesion_solver *
+rc_adhesion_solver_new(const struct rc_shape *shape, const double *h,
+                       const struct rc_adhesion_problem *problem, struct rc_err *err)
 {
-    struct rc_adhesion *a = path_new(shape, problem, err);
+    struct rc_adhesion_solver *a = path_new(shape, problem, err);
 
     if (a == NULL)
         return NULL;
     if (check_heights(a, h, err) != RC_OK) {
-        rc_adhesion_free(a);
+        rc_adhesion_solver_free(a);
         return NULL;
     }
     take_heights(a, h, NULL);
@@ -436,7 +437,7 @@ rc_adhesion_new(const struct rc_shape *shape, const double *h,
 /* ---- a state ---- */
 
 static void
-set(struct rc_adhesion *a, enum rc_gap_control control, double given)
+set(struct rc_adhesion_solver *a, enum rc_gap_control control, double given)
 {
     a->control = control;
     a->given = given;
@@ -450,7 +451,7 @@ set(struct rc_adhesion *a, enum rc_gap_control control, double given)
 /* The largest load that has a state. A node at its hardness carries the hardness minus the traction at gap 0.
  * If this is negative, the traction pulls the node into contact, and while open it carries nothing. */
 static double
-most_load(const struct rc_adhesion *a)
+most_load(const struct rc_adhesion_solver *a)
 {
     size_t n = a->shape.nx * a->shape.ny;
     double sum = 0;
@@ -463,7 +464,7 @@ most_load(const struct rc_adhesion *a)
 }
 
 enum rc_status
-rc_adhesion_set_load(struct rc_adhesion *a, double load, struct rc_err *err)
+rc_adhesion_solver_set_load(struct rc_adhesion_solver *a, double load, struct rc_err *err)
 {
     double cell = a->shape.dx * a->shape.dy, most = a->gap.yields ? most_load(a) : INFINITY;
 
@@ -482,7 +483,7 @@ rc_adhesion_set_load(struct rc_adhesion *a, double load, struct rc_err *err)
 
 /* The shift for an approach, over the length. */
 static void
-set_shift(struct rc_adhesion *a, double c)
+set_shift(struct rc_adhesion_solver *a, double c)
 {
     if (a->whole->boundary == RC_FREE)
         set(a, RC_GAP_SHIFT, c);
@@ -491,7 +492,7 @@ set_shift(struct rc_adhesion *a, double c)
 }
 
 enum rc_status
-rc_adhesion_set_approach(struct rc_adhesion *a, double approach, struct rc_err *err)
+rc_adhesion_solver_set_approach(struct rc_adhesion_solver *a, double approach, struct rc_err *err)
 {
     double c = approach / a->whole->length;
 
@@ -510,13 +511,13 @@ rc_adhesion_set_approach(struct rc_adhesion *a, double approach, struct rc_err *
 /* The smallest known eigenvalue. Its iteration may have found another mode than the softest one; the
  * stiffness along the descent then gives a lower value. */
 static double
-softest(const struct rc_adhesion *a)
+softest(const struct rc_adhesion_solver *a)
 {
     return fmin(a->gap.mode.mu, a->softness);
 }
 
 static double
-own_error(const struct rc_adhesion *a)
+own_error(const struct rc_adhesion_solver *a)
 {
     const struct rc_gap_told *t = &a->gap.told;
     double mu = a->judged > 0 ? softest(a) : a->mu[a->control], worst, measured;
@@ -532,29 +533,29 @@ own_error(const struct rc_adhesion *a)
 
 /* The possible error from dents of earlier states, relative to the pressures of this state. */
 static double
-inherited_error(const struct rc_adhesion *a)
+inherited_error(const struct rc_adhesion_solver *a)
 {
     return a->gap.told.size > 0 ? fmax(a->past.dents[0], a->past.dents[1] / a->gap.told.size)
                                 : a->past.dents[0];
 }
 
 static double
-estimate(const struct rc_adhesion *a)
+estimate(const struct rc_adhesion_solver *a)
 {
     return own_error(a) + inherited_error(a);
 }
 
 static bool
-ends(const struct rc_adhesion *a)
+ends(const struct rc_adhesion_solver *a)
 {
     return a->gap.told.vanishes || own_error(a) <= (a->gap.yields ? yielding_part : 1) * a->tol;
 }
 
 /* Poses the first state on the coarser grid. */
 static void
-begin_coarse(struct rc_adhesion *a)
+begin_coarse(struct rc_adhesion_solver *a)
 {
-    struct rc_adhesion *c = a->coarse;
+    struct rc_adhesion_solver *c = a->coarse;
     const double ratio = a->whole->length / c->whole->length;
     const double units =
         a->control != RC_GAP_LOAD
@@ -573,7 +574,7 @@ begin_coarse(struct rc_adhesion *a)
  * Phi has one minimum, and its gap lies between the start and the nearest state, if A has no positive entries
  * outside its diagonal. */
 static bool
-freezes(const struct rc_adhesion *a)
+freezes(const struct rc_adhesion_solver *a)
 {
     return a->way.known && !a->pull.on && a->control == RC_GAP_LOAD &&
            a->way.to != a->way.start.given;
@@ -581,7 +582,7 @@ freezes(const struct rc_adhesion *a)
 
 /* Starts a part of the way, which ends at way.to. */
 static void
-begin_part(struct rc_adhesion *a)
+begin_part(struct rc_adhesion_solver *a)
 {
     a->below = a->leaves = 0;
     a->judged = 0;
@@ -597,7 +598,7 @@ begin_part(struct rc_adhesion *a)
 
 /* Notes the state at which the next part begins. */
 static void
-begin_at(struct rc_adhesion *a, double to)
+begin_at(struct rc_adhesion_solver *a, double to)
 {
     a->way.to = to;
     a->way.known = a->way.steady;
@@ -611,7 +612,7 @@ begin_at(struct rc_adhesion *a, double to)
 }
 
 static void
-begin(struct rc_adhesion *a)
+begin(struct rc_adhesion_solver *a)
 {
     begin_at(a, a->given);
 }
@@ -623,7 +624,7 @@ begin(struct rc_adhesion *a)
  * force falls as the load rises, and the bound is strict. With a given approach the load may have a minimum
  * on the way, with the stiffness of a flat punch on one side, and varies from node to node. */
 static double
-loss(struct rc_adhesion *a, double *most)
+loss(struct rc_adhesion_solver *a, double *most)
 {
     const struct rc_gap_energy *from = &a->way.start, to = rc_gap_energy(&a->gap, a->control);
     const double part = a->way.to - from->given, change = to.force - from->force;
@@ -638,7 +639,7 @@ loss(struct rc_adhesion *a, double *most)
 }
 
 static void
-spend(struct rc_adhesion *a)
+spend(struct rc_adhesion_solver *a)
 {
     a->way.iterations += a->gap.iterations;
     a->way.eigen_steps += a->gap.mode.steps;
@@ -648,7 +649,7 @@ spend(struct rc_adhesion *a)
 
 /* Repeats half of this part, from its start, or less if half is longer than `longest`. */
 static enum rc_status
-divide(struct rc_adhesion *a, double longest)
+divide(struct rc_adhesion_solver *a, double longest)
 {
     double part = (a->way.to - a->way.start.given) / 2;
 
@@ -663,7 +664,7 @@ divide(struct rc_adhesion *a, double longest)
 
 /* The next part, twice as long as this one if the way is so long. */
 static enum rc_status
-go_further(struct rc_adhesion *a)
+go_further(struct rc_adhesion_solver *a)
 {
     double part = a->way.to - a->way.start.given, left = a->given - a->way.to;
 
@@ -676,7 +677,7 @@ go_further(struct rc_adhesion *a)
 /* Ends a part of the way. It has a jump if it has lost more energy than a path without jumps can lose; if it
  * has lost less, but not much less, halves of it decide. */
 static enum rc_status
-finish(struct rc_adhesion *a, bool converged)
+finish(struct rc_adhesion_solver *a, bool converged)
 {
     const double part = fabs(a->way.to - a->way.start.given), longest = most_way * a->gap.law.range;
 
@@ -703,7 +704,7 @@ finish(struct rc_adhesion *a, bool converged)
 
 /* Convolutions for the state, in equivalents on this grid. */
 static double
-convolutions(const struct rc_adhesion *a)
+convolutions(const struct rc_adhesion_solver *a)
 {
     return a->stage != STAGE_COARSE
                ? a->gap.convolutions
@@ -712,9 +713,9 @@ convolutions(const struct rc_adhesion *a)
 
 /* The state on the coarser grid is the start on this grid. Bodies that separate there start as without it. */
 static void
-end_coarse(struct rc_adhesion *a)
+end_coarse(struct rc_adhesion_solver *a)
 {
-    struct rc_adhesion *c = a->coarse;
+    struct rc_adhesion_solver *c = a->coarse;
     double sum;
 
     if (c->stage == STAGE_COARSE)
@@ -731,7 +732,7 @@ end_coarse(struct rc_adhesion *a)
 }
 
 static void
-move(struct rc_adhesion *a)
+move(struct rc_adhesion_solver *a)
 {
     struct rc_gap *g = &a->gap;
 
@@ -741,7 +742,7 @@ move(struct rc_adhesion *a)
 }
 
 static enum rc_status
-descend(struct rc_adhesion *a)
+descend(struct rc_adhesion_solver *a)
 {
     move(a);
     if (!a->gap.parting)
@@ -752,7 +753,7 @@ descend(struct rc_adhesion *a)
 
 /* After a look: the attraction is no longer frozen if this gap is near its state. */
 static bool
-thaws(struct rc_adhesion *a)
+thaws(struct rc_adhesion_solver *a)
 {
     struct rc_gap *g = &a->gap;
     const struct way *w = &a->way;
@@ -764,7 +765,7 @@ thaws(struct rc_adhesion *a)
 
 /* A step with frozen attraction. When the error has fallen, the attraction becomes that of the present gap. */
 static enum rc_status
-turn(struct rc_adhesion *a)
+turn(struct rc_adhesion_solver *a)
 {
     struct rc_gap *g = &a->gap;
     struct way *w = &a->way;
@@ -781,7 +782,7 @@ turn(struct rc_adhesion *a)
 }
 
 static enum rc_status
-down(struct rc_adhesion *a)
+down(struct rc_adhesion_solver *a)
 {
     struct rc_gap *g = &a->gap;
 
@@ -814,7 +815,7 @@ down(struct rc_adhesion *a)
 }
 
 static enum rc_status
-eigen(struct rc_adhesion *a)
+eigen(struct rc_adhesion_solver *a)
 {
     struct rc_gap *g = &a->gap;
     bool negative;
@@ -849,7 +850,7 @@ eigen(struct rc_adhesion *a)
 }
 
 static enum rc_status
-step_state(struct rc_adhesion *a)
+step_state(struct rc_adhesion_solver *a)
 {
     a->fresh = false;
     if (a->stage == STAGE_NEW && a->coarse != NULL && !a->past.begun)
@@ -870,9 +871,9 @@ step_state(struct rc_adhesion *a)
 /* ---- retraction ---- */
 
 static struct rc_retraction_state
-place_of(struct rc_adhesion *a)
+place_of(struct rc_adhesion_solver *a)
 {
-    const struct rc_adhesion_figures *f = rc_adhesion_result(a);
+    const struct rc_adhesion_state *f = rc_adhesion_solver_result(a);
     double length = a->whole->length, unit = a->whole->modulus * length * length;
 
     return (struct rc_retraction_state){.c = rc_gap_shift(&a->gap),
@@ -883,14 +884,14 @@ place_of(struct rc_adhesion *a)
 }
 
 static void
-copy_gap(const struct rc_adhesion *a, double *to, const double *from)
+copy_gap(const struct rc_adhesion_solver *a, double *to, const double *from)
 {
     memcpy(to, from, a->gap.n * sizeof *to);
 }
 
 /* Makes the next state start from this gap, which belongs to c. */
 static void
-put_back(struct rc_adhesion *a, const double *gap, double c)
+put_back(struct rc_adhesion_solver *a, const double *gap, double c)
 {
     copy_gap(a, a->gap.x, gap);
     a->gap.mode.known = false; /* its softest mode belongs to another gap */
@@ -901,7 +902,7 @@ put_back(struct rc_adhesion *a, const double *gap, double c)
 }
 
 enum rc_status
-rc_adhesion_pull_off(struct rc_adhesion *a, struct rc_err *err)
+rc_adhesion_solver_pull_off(struct rc_adhesion_solver *a, struct rc_err *err)
 {
     struct retraction *p = &a->pull;
 
@@ -915,7 +916,7 @@ rc_adhesion_pull_off(struct rc_adhesion *a, struct rc_err *err)
         p->kept[k] = kept;
     }
     if (a->gap.yields)
-        rc_adhesion_keep_shape(a, NULL);
+        rc_adhesion_solver_keep_shape(a, NULL);
     p->on = true;
     p->short_of = false;
     p->iterations = p->eigen_steps = p->jumps = 0;
@@ -928,7 +929,7 @@ rc_adhesion_pull_off(struct rc_adhesion *a, struct rc_err *err)
 }
 
 static void
-count(struct rc_adhesion *a)
+count(struct rc_adhesion_solver *a)
 {
     struct retraction *p = &a->pull;
 
@@ -941,11 +942,11 @@ count(struct rc_adhesion *a)
 }
 
 static enum rc_status
-end_retraction(struct rc_adhesion *a)
+end_retraction(struct rc_adhesion_solver *a)
 {
     struct retraction *p = &a->pull;
     const struct rc_retraction *r = &p->search;
-    struct rc_adhesion_figures *f = &a->figures;
+    struct rc_adhesion_state *f = &a->figures;
     double length = a->whole->length, unit = a->whole->modulus * length * length;
     bool converged = !p->short_of && !r->short_of;
 
@@ -973,7 +974,7 @@ end_retraction(struct rc_adhesion *a)
 
 /* Sets the next approach, or ends. */
 static enum rc_status
-go_on(struct rc_adhesion *a)
+go_on(struct rc_adhesion_solver *a)
 {
     struct retraction *p = &a->pull;
     struct rc_retraction *r = &p->search;
@@ -995,7 +996,7 @@ go_on(struct rc_adhesion *a)
 }
 
 enum rc_status
-rc_adhesion_step(struct rc_adhesion *a, struct rc_err *err)
+rc_adhesion_solver_step(struct rc_adhesion_solver *a, struct rc_err *err)
 {
     enum rc_status status;
 
@@ -1007,7 +1008,7 @@ rc_adhesion_step(struct rc_adhesion *a, struct rc_err *err)
 
 /* ---- results ---- */
 
-#define FIGURE(member) RC_FIGURE(struct rc_adhesion_figures, member)
+#define FIGURE(member) RC_FIGURE(struct rc_adhesion_state, member)
 const struct rc_figure rc_figures_adhesion[] = {
     {FIGURE(attractive_load), "N", "Load of attraction", .says = "sum of the attraction, positive"},
     {FIGURE(repulsive_load), "N", "Load of repulsion", .says = "sum of the repulsion"},
@@ -1025,7 +1026,7 @@ const struct rc_figure rc_figures_adhesion[] = {
 };
 
 static double
-at_edge(const struct rc_adhesion *a)
+at_edge(const struct rc_adhesion_solver *a)
 {
     const struct rc_gap *g = &a->gap;
     double nearest = INFINITY, v, s, d;
@@ -1084,18 +1085,18 @@ figures_row(void *ctx, size_t j, double *sums)
 }
 
 static void
-find_figures(struct rc_adhesion *a)
+find_figures(struct rc_adhesion_solver *a)
 {
-    struct rc_adhesion_figures *f = &a->figures;
+    struct rc_adhesion_state *f = &a->figures;
     struct rc_gap *g = &a->gap;
     double sums[RC_GAP_SUMS], cell = a->shape.dx * a->shape.dy, e = a->whole->modulus,
                               nodes = (double)a->shape.nx * (double)a->shape.ny;
 
-    *f = (struct rc_adhesion_figures){.pull_off_load = NAN,
-                                      .pull_off_approach = NAN,
-                                      .pull_off_spread = NAN,
-                                      .states = 1,
-                                      .edge_traction = at_edge(a)};
+    *f = (struct rc_adhesion_state){.pull_off_load = NAN,
+                                    .pull_off_approach = NAN,
+                                    .pull_off_spread = NAN,
+                                    .states = 1,
+                                    .edge_traction = at_edge(a)};
     rc_sums_rows(&g->sums, figures_row, g, sums);
     f->load = sums[0] * e * cell;
     f->mean_pressure = sums[0] * e / nodes;
@@ -1126,8 +1127,8 @@ find_figures(struct rc_adhesion *a)
     a->fresh = true;
 }
 
-const struct rc_adhesion_figures *
-rc_adhesion_result(struct rc_adhesion *a)
+const struct rc_adhesion_state *
+rc_adhesion_solver_result(struct rc_adhesion_solver *a)
 {
     if (a->stage == STAGE_COARSE) { /* interrupted: the start on this grid is the best state */
         end_coarse(a);
@@ -1139,7 +1140,7 @@ rc_adhesion_result(struct rc_adhesion *a)
 }
 
 void
-rc_adhesion_pressure(const struct rc_adhesion *a, double *pressure)
+rc_adhesion_solver_pressure(const struct rc_adhesion_solver *a, double *pressure)
 {
     for (size_t j = 0; j < a->gap.ny; j++)
         for (size_t i = 0; i < a->gap.nx; i++)
@@ -1150,7 +1151,7 @@ rc_adhesion_pressure(const struct rc_adhesion *a, double *pressure)
 }
 
 void
-rc_adhesion_gap(const struct rc_adhesion *a, double *gap)
+rc_adhesion_solver_gap(const struct rc_adhesion_solver *a, double *gap)
 {
     for (size_t j = 0; j < a->gap.ny; j++)
         for (size_t i = 0; i < a->gap.nx; i++)
@@ -1158,7 +1159,7 @@ rc_adhesion_gap(const struct rc_adhesion *a, double *gap)
 }
 
 void
-rc_adhesion_displacement(const struct rc_adhesion *a, double *displacement)
+rc_adhesion_solver_displacement(const struct rc_adhesion_solver *a, double *displacement)
 {
     const struct rc_gap *g = &a->gap;
     double c = rc_gap_shift(g);
@@ -1170,7 +1171,7 @@ rc_adhesion_displacement(const struct rc_adhesion *a, double *displacement)
 }
 
 void
-rc_adhesion_traction(const struct rc_adhesion *a, double *traction)
+rc_adhesion_solver_traction(const struct rc_adhesion_solver *a, double *traction)
 {
     const struct rc_gap *g = &a->gap;
 
@@ -1185,15 +1186,16 @@ rc_adhesion_traction(const struct rc_adhesion *a, double *traction)
 }
 
 void
-rc_adhesion_progress(const struct rc_adhesion *a, struct rc_adhesion_progress *progress)
+rc_adhesion_solver_progress(const struct rc_adhesion_solver *a,
+                            struct rc_adhesion_solver_progress *progress)
 {
-    const struct rc_adhesion *at = a;
+    const struct rc_adhesion_solver *at = a;
     const struct rc_gap *g;
 
     while (at->stage == STAGE_COARSE)
         at = at->coarse;
     g = &at->gap;
-    *progress = (struct rc_adhesion_progress){
+    *progress = (struct rc_adhesion_solver_progress){
         .state = a->pull.on ? a->pull.search.states + 1 : 1,
         .coarser = at != a,
         .convolutions = convolutions(a),
@@ -1213,7 +1215,7 @@ rc_adhesion_progress(const struct rc_adhesion *a, struct rc_adhesion_progress *p
 
 /* Holds a state with this shift and the pressure `au`; the caller must then set the next one. */
 static void
-hold(struct rc_adhesion *a, double c)
+hold(struct rc_adhesion_solver *a, double c)
 {
     set_shift(a, c);
     a->gap.control = a->control;
@@ -1223,20 +1225,20 @@ hold(struct rc_adhesion *a, double c)
 }
 
 double
-rc_adhesion_approach(const struct rc_adhesion *a)
+rc_adhesion_solver_approach(const struct rc_adhesion_solver *a)
 {
     return rc_gap_shift(&a->gap) * a->whole->length;
 }
 
-struct rc_adhesion_past *
-rc_adhesion_past(struct rc_adhesion *a)
+struct rc_adhesion_solver_past *
+rc_adhesion_solver_past(struct rc_adhesion_solver *a)
 {
     return &a->past;
 }
 
 enum rc_status
-rc_adhesion_start(struct rc_adhesion *a, const double *pressure, double approach,
-                  struct rc_err *err)
+rc_adhesion_solver_start(struct rc_adhesion_solver *a, const double *pressure, double approach,
+                         struct rc_err *err)
 {
     struct rc_gap *g = &a->gap;
     double c = approach / a->whole->length;
@@ -1271,8 +1273,8 @@ rc_adhesion_start(struct rc_adhesion *a, const double *pressure, double approach
 
 /* The displacement and the pressure stay; the gap changes by the change of the heights. */
 enum rc_status
-rc_adhesion_set_heights(struct rc_adhesion *a, const double *h, const double *dent,
-                        struct rc_err *err)
+rc_adhesion_solver_set_heights(struct rc_adhesion_solver *a, const double *h, const double *dent,
+                               struct rc_err *err)
 {
     struct rc_gap *g = &a->gap;
     const double c = a->past.begun ? rc_gap_shift(g) : 0;
@@ -1300,7 +1302,7 @@ rc_adhesion_set_heights(struct rc_adhesion *a, const double *h, const double *de
 }
 
 void
-rc_adhesion_keep_shape(struct rc_adhesion *a, double *h)
+rc_adhesion_solver_keep_shape(struct rc_adhesion_solver *a, double *h)
 {
     struct rc_gap *g = &a->gap;
     bool dented = false;

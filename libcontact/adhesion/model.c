@@ -1,5 +1,5 @@
 /*
- * The adhesive model: rc_adhesion along a history of loads or approaches; the approach -INFINITY is a
+ * The model of adhesion: rc_adhesion_solver along a history of loads or approaches; the approach -INFINITY is a
  * retraction to the pull-off load. Keeping a point adds its plastic dents to the shape.
  */
 #include "adhesion.h"
@@ -10,23 +10,24 @@
 #include "libcontact/memory.h"
 #include "libcontact/model/row.h"
 
-struct adhesive {
+struct adhesion {
     struct rc_model base;
     struct rc_adhesion_problem problem;
     size_t n;
-    double *h;                /* m: present heights                                               */
-    double *dent;             /* m: present minus undeformed heights; NULL: no dents */
-    struct rc_adhesion *path; /* NULL: no point so far                                            */
+    double *h;    /* m: present heights                                               */
+    double *dent; /* m: present minus undeformed heights; NULL: no dents */
+    struct rc_adhesion_solver
+        *path;    /* NULL: no point so far                                            */
     bool started; /* the path was stepped on this grid: its pressure belongs to a state */
     bool pulls;   /* the point is a retraction                                        */
     bool again;   /* a state was read: the next step sets the point                   */
     bool returns; /* the state at the last kept point is being read                   */
-    struct rc_adhesive_figures figures;
+    struct rc_adhesion_figures figures;
 };
 
 static const struct rc_figure_set sets[] = {
-    {rc_figures_contact, offsetof(struct adhesive, figures.contact)},
-    {rc_figures_adhesion, offsetof(struct adhesive, figures.adhesion)},
+    {rc_figures_contact, offsetof(struct adhesion, figures.contact)},
+    {rc_figures_adhesion, offsetof(struct adhesion, figures.state)},
     {NULL, 0},
 };
 
@@ -45,31 +46,31 @@ static const struct rc_frame_kind frames[] = {
 
 /* Gives the path the present heights. The errors of the dents stay. */
 static enum rc_status
-pass_heights(struct adhesive *a, struct rc_err *err)
+pass_heights(struct adhesion *a, struct rc_err *err)
 {
-    struct rc_adhesion_past past;
+    struct rc_adhesion_solver_past past;
 
     if (a->path == NULL)
         return RC_OK;
-    past = *rc_adhesion_past(a->path);
-    if (rc_adhesion_set_heights(a->path, a->h, a->dent, err) != RC_OK)
+    past = *rc_adhesion_solver_past(a->path);
+    if (rc_adhesion_solver_set_heights(a->path, a->h, a->dent, err) != RC_OK)
         return RC_FAIL;
-    *rc_adhesion_past(a->path) = past;
+    *rc_adhesion_solver_past(a->path) = past;
     return RC_OK;
 }
 
 static enum rc_status
-make_path(struct adhesive *a, struct rc_err *err)
+make_path(struct adhesion *a, struct rc_err *err)
 {
     if (a->path != NULL)
         return RC_OK;
-    if ((a->path = rc_adhesion_new(&a->base.shape, a->h, &a->problem, err)) == NULL)
+    if ((a->path = rc_adhesion_solver_new(&a->base.shape, a->h, &a->problem, err)) == NULL)
         return RC_FAIL;
     return a->dent != NULL ? pass_heights(a, err) : RC_OK;
 }
 
 static enum rc_status
-set_point(struct adhesive *a, struct rc_err *err)
+set_point(struct adhesion *a, struct rc_err *err)
 {
     const struct rc_point *to = &a->base.to;
 
@@ -77,16 +78,16 @@ set_point(struct adhesive *a, struct rc_err *err)
     if (make_path(a, err) != RC_OK)
         return RC_FAIL;
     a->pulls = rc_point_has(to, RC_APPROACH) && isinf(to->at[RC_APPROACH]);
-    return a->pulls ? rc_adhesion_pull_off(a->path, err)
+    return a->pulls ? rc_adhesion_solver_pull_off(a->path, err)
            : rc_point_has(to, RC_APPROACH)
-               ? rc_adhesion_set_approach(a->path, to->at[RC_APPROACH], err)
-               : rc_adhesion_set_load(a->path, to->at[RC_LOAD], err);
+               ? rc_adhesion_solver_set_approach(a->path, to->at[RC_APPROACH], err)
+               : rc_adhesion_solver_set_load(a->path, to->at[RC_LOAD], err);
 }
 
 static enum rc_status
 go(struct rc_model *m, struct rc_err *err)
 {
-    struct adhesive *a = (struct adhesive *)m;
+    struct adhesion *a = (struct adhesion *)m;
 
     return set_point(a, err);
 }
@@ -94,14 +95,14 @@ go(struct rc_model *m, struct rc_err *err)
 static enum rc_status
 step(struct rc_model *m, struct rc_err *err)
 {
-    struct adhesive *a = (struct adhesive *)m;
-    struct rc_adhesion_progress at;
+    struct adhesion *a = (struct adhesion *)m;
+    struct rc_adhesion_solver_progress at;
     enum rc_status status;
 
     if (a->again && set_point(a, err) != RC_OK)
         return RC_FAIL;
-    status = rc_adhesion_step(a->path, err);
-    rc_adhesion_progress(a->path, &at);
+    status = rc_adhesion_solver_step(a->path, err);
+    rc_adhesion_solver_progress(a->path, &at);
     a->started |= !at.coarser;
     return status;
 }
@@ -109,12 +110,12 @@ step(struct rc_model *m, struct rc_err *err)
 static enum rc_status
 look(struct rc_model *m, struct rc_point *at, struct rc_err *err)
 {
-    struct adhesive *a = (struct adhesive *)m;
-    struct rc_adhesion_figures *f = &a->figures.adhesion;
+    struct adhesion *a = (struct adhesion *)m;
+    struct rc_adhesion_state *f = &a->figures.state;
 
     if (a->path == NULL)
         return rc_err_set(err, "there are no figures before the first point");
-    *f = *rc_adhesion_result(a->path);
+    *f = *rc_adhesion_solver_result(a->path);
     a->figures.contact = (struct rc_contact){.load = f->load,
                                              .mean_pressure = f->mean_pressure,
                                              .max_pressure = f->max_pressure,
@@ -147,16 +148,16 @@ look(struct rc_model *m, struct rc_point *at, struct rc_err *err)
 static enum rc_status
 keep(struct rc_model *m, struct rc_err *err)
 {
-    struct adhesive *a = (struct adhesive *)m;
+    struct adhesion *a = (struct adhesion *)m;
 
     a->pulls = false;
-    if (a->figures.adhesion.plastic_nodes == 0)
+    if (a->figures.state.plastic_nodes == 0)
         return RC_OK;
     if (!rc_store_need(&a->base.own, a->n, &a->dent))
         return rc_err_set(err, "out of memory for the shape after yield");
     for (size_t k = 0; k < a->n; k++)
         a->dent[k] -= a->h[k];
-    rc_adhesion_keep_shape(a->path, a->h);
+    rc_adhesion_solver_keep_shape(a->path, a->h);
     for (size_t k = 0; k < a->n; k++)
         a->dent[k] += a->h[k];
     return RC_OK;
@@ -165,17 +166,17 @@ keep(struct rc_model *m, struct rc_err *err)
 static enum rc_status
 fill(struct rc_model *m, size_t frame, double *to, struct rc_err *err)
 {
-    struct adhesive *a = (struct adhesive *)m;
+    struct adhesion *a = (struct adhesion *)m;
 
     (void)err;
     if (frame == RC_FRAME_PRESSURE)
-        rc_adhesion_pressure(a->path, to);
+        rc_adhesion_solver_pressure(a->path, to);
     else if (frame == RC_FRAME_DISPLACEMENT)
-        rc_adhesion_displacement(a->path, to);
+        rc_adhesion_solver_displacement(a->path, to);
     else if (frame == TRACTION)
-        rc_adhesion_traction(a->path, to);
+        rc_adhesion_solver_traction(a->path, to);
     else
-        rc_adhesion_gap(a->path, to);
+        rc_adhesion_solver_gap(a->path, to);
     for (size_t k = 0; k < a->n && frame == RC_FRAME_CONTACT; k++)
         to[k] = to[k] > 0 ? 0 : 1; /* the net pressure does not determine the contact */
     for (size_t k = 0; k < a->n && frame == SHAPE; k++)
@@ -187,7 +188,7 @@ fill(struct rc_model *m, size_t frame, double *to, struct rc_err *err)
 static enum rc_status
 set_heights(struct rc_model *m, const double *h, struct rc_err *err)
 {
-    struct adhesive *a = (struct adhesive *)m;
+    struct adhesion *a = (struct adhesion *)m;
 
     for (size_t k = 0; k < a->n; k++)
         a->h[k] = h[k] + (a->dent != NULL ? a->dent[k] : 0);
@@ -198,7 +199,7 @@ set_heights(struct rc_model *m, const double *h, struct rc_err *err)
 
 /* Replaces the dents of the shape by those of the state, if these differ. */
 static void
-read_dent(struct adhesive *a, struct rc_state *s, bool some)
+read_dent(struct adhesion *a, struct rc_state *s, bool some)
 {
     const double *now = some ? rc_state_read_map(s, a->n) : NULL;
     bool differ = false;
@@ -220,23 +221,24 @@ read_dent(struct adhesive *a, struct rc_state *s, bool some)
 
 /* The path starts from this net pressure and approach. */
 static void
-read_path(struct adhesive *a, struct rc_state *s, double approach,
-          const struct rc_adhesion_past *past)
+read_path(struct adhesion *a, struct rc_state *s, double approach,
+          const struct rc_adhesion_solver_past *past)
 {
     const double *p = rc_state_read_map(s, a->n);
     struct rc_err err;
 
     if (p == NULL)
         return;
-    if (make_path(a, &err) != RC_OK || rc_adhesion_start(a->path, p, approach, &err) != RC_OK)
+    if (make_path(a, &err) != RC_OK ||
+        rc_adhesion_solver_start(a->path, p, approach, &err) != RC_OK)
         rc_state_refuse(s, err.text);
     else
-        *rc_adhesion_past(a->path) = *past;
+        *rc_adhesion_solver_past(a->path) = *past;
 }
 
 /* Reads the state at the last kept point, from which a retraction or a separation is repeated. */
 static void
-read_start(struct adhesive *a, struct rc_state *s)
+read_start(struct adhesion *a, struct rc_state *s)
 {
     struct rc_err err = {"the state at its start is missing"};
 
@@ -252,9 +254,9 @@ read_start(struct adhesive *a, struct rc_state *s)
 
 /* True on the way to a later point: the iteration may be beyond barriers of the energy. */
 static bool
-goes_on(struct adhesive *a)
+goes_on(struct adhesion *a)
 {
-    return a->base.status == RC_MORE && rc_adhesion_past(a->path)->begun;
+    return a->base.status == RC_MORE && rc_adhesion_solver_past(a->path)->begun;
 }
 
 /* A state holds the dents, the approach and the net pressure. On the way to a later point, and if the bodies
@@ -262,15 +264,15 @@ goes_on(struct adhesive *a)
 static void
 state(struct rc_model *m, struct rc_state *s)
 {
-    struct adhesive *a = (struct adhesive *)m;
-    struct rc_adhesion_past past = {{0, 0}, false};
+    struct adhesion *a = (struct adhesion *)m;
+    struct rc_adhesion_solver_past past = {{0, 0}, false};
     bool started = a->started, dented = a->dent != NULL,
          anew = m->moved && started &&
-                (a->pulls || goes_on(a) || rc_adhesion_result(a->path)->separated);
-    double approach = started ? rc_adhesion_approach(a->path) : 0, *to;
+                (a->pulls || goes_on(a) || rc_adhesion_solver_result(a->path)->separated);
+    double approach = started ? rc_adhesion_solver_approach(a->path) : 0, *to;
 
     if (started)
-        past = *rc_adhesion_past(a->path);
+        past = *rc_adhesion_solver_past(a->path);
     RC_STATE_FLAGS(s, &anew);
     if (rc_state_refused(s))
         return;
@@ -289,7 +291,7 @@ state(struct rc_model *m, struct rc_state *s)
         if (dented)
             rc_state_map(s, a->n, a->dent);
         if (started && (to = rc_state_map(s, a->n, NULL)) != NULL)
-            rc_adhesion_pressure(a->path, to);
+            rc_adhesion_solver_pressure(a->path, to);
         return;
     }
     a->pulls = false;
@@ -298,7 +300,7 @@ state(struct rc_model *m, struct rc_state *s)
     if (started) {
         read_path(a, s, approach, &past);
     } else {
-        rc_adhesion_free(a->path);
+        rc_adhesion_solver_free(a->path);
         a->path = NULL;
     }
     a->started = started;
@@ -308,12 +310,12 @@ state(struct rc_model *m, struct rc_state *s)
 static void
 progress(const struct rc_model *m, struct rc_loops *l)
 {
-    const struct adhesive *a = (const struct adhesive *)m;
-    struct rc_adhesion_progress at;
+    const struct adhesion *a = (const struct adhesion *)m;
+    struct rc_adhesion_solver_progress at;
 
     if (a->path == NULL)
         return;
-    rc_adhesion_progress(a->path, &at);
+    rc_adhesion_solver_progress(a->path, &at);
     if (a->pulls)
         rc_loops_add(l, "state", NULL, (double)at.state, NAN);
     if (isnan(at.load))
@@ -331,19 +333,19 @@ plan(const struct rc_model *m, const struct rc_point *most, struct rc_expected *
      struct rc_err *err)
 {
     (void)most;
-    return rc_adhesion_expect(&m->shape, &((const struct adhesive *)m)->problem, expected, err);
+    return rc_adhesion_expect(&m->shape, &((const struct adhesion *)m)->problem, expected, err);
 }
 
 static void
 release(struct rc_model *m)
 {
-    struct adhesive *a = (struct adhesive *)m;
+    struct adhesion *a = (struct adhesion *)m;
 
-    rc_adhesion_free(a->path);
+    rc_adhesion_solver_free(a->path);
 }
 
-const struct rc_model_row rc_model_adhesive = {
-    .name = "adhesive",
+const struct rc_model_row rc_model_adhesion = {
+    .name = "adhesion",
     .summary = "bodies that attract each other, with a hardness",
     .needs = 1u << RC_LOAD,
     .takes = 1u << RC_LOAD | 1u << RC_APPROACH,
@@ -356,27 +358,27 @@ const struct rc_model_row rc_model_adhesive = {
 };
 
 struct rc_model *
-rc_adhesive_new(const struct rc_shape *shape, const double *h,
+rc_adhesion_new(const struct rc_shape *shape, const double *h,
                 const struct rc_adhesion_problem *problem, struct rc_err *err)
 {
     struct rc_adhesion_scales scales;
     RC_OWN(rc_model, m) = NULL;
-    struct adhesive *a;
+    struct adhesion *a;
 
     if (rc_adhesion_check(shape, problem, &scales, err) != RC_OK ||
-        (m = rc_model_make(&rc_model_adhesive, sizeof *a, shape, err)) == NULL)
+        (m = rc_model_make(&rc_model_adhesion, sizeof *a, shape, err)) == NULL)
         return NULL;
-    a = (struct adhesive *)m;
+    a = (struct adhesion *)m;
     a->problem = *problem;
     a->n = shape->nx * shape->ny;
     a->h = rc_store_copy(&m->own, a->n, sizeof *h, h);
     return rc_model_room(m, err) == RC_OK ? rc_give(&m) : NULL;
 }
 
-const struct rc_adhesive_figures *
-rc_adhesive_result(const struct rc_model *m)
+const struct rc_adhesion_figures *
+rc_adhesion_result(const struct rc_model *m)
 {
-    const struct adhesive *found = (const struct adhesive *)rc_model_find(m, &rc_model_adhesive);
+    const struct adhesion *found = (const struct adhesion *)rc_model_find(m, &rc_model_adhesion);
 
     return found != NULL ? &found->figures : NULL;
 }

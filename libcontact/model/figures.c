@@ -64,10 +64,10 @@ rc_figure_find(const char *name)
         return rc_model_result(m, table);                                                          \
     }
 RESULT(rc_elastic, rc_figures_elastic)
-RESULT(rc_yielding, rc_figures_yielding)
-RESULT(rc_friction, rc_figures_slip)
+RESULT(rc_yield, rc_figures_yield)
+RESULT(rc_friction, rc_figures_friction)
 RESULT(rc_rolling, rc_figures_rolling)
 RESULT(rc_wear, rc_figures_wear)
 RESULT(rc_travel, rc_figures_travel)
-RESULT(rc_slide, rc_figures_slide)
+RESULT(rc_sliding, rc_figures_sliding)
 RESULT(rc_viscoelastic, rc_figures_viscoelastic)

@@ -791,7 +791,7 @@ rc_wear_check(struct rc_wear_problem *law, size_t n, struct rc_err *err)
             return rc_err_set(err, "energy %g J/m2 of node %zu: it must be at least 0 and finite",
                               law->energy[k], k);
     if (law->energy != NULL &&
-        (law->part != NULL || law->track > 0 || law->sliding || law->until_area > 0 ||
+        (law->part != NULL || law->track > 0 || law->two_bodies || law->until_area > 0 ||
          law->until_depth > 0 || law->until_spread > 0))
         return rc_err_set(err, "wear by a given energy has no coefficient of each node, track, "
                                "sliding or condition beside it");
@@ -853,8 +853,8 @@ rc_wear_new(struct rc_model *inner, const double *h, const struct rc_wear_proble
 {
     RC_OWN(rc_model, m) = NULL;
 
-    if (law->sliding)
-        return rc_rubbing_new(inner, h, law, err);
+    if (law->two_bodies)
+        return rc_wear_two_bodies_new(inner, h, law, err);
     m = rc_model_make_outer(&rc_model_wear, sizeof(struct wear), inner, err);
     return m != NULL && make((struct wear *)m, h, law, err) == RC_OK ? rc_give(&m) : NULL;
 }

@@ -1,5 +1,5 @@
 /* What the two models of wear share: the same points stay in contact or a track passes (wear.c), or two rough
- * bodies slide over each other (rubbing.c). */
+ * bodies slide over each other (two_bodies.c). */
 #ifndef RC_WEAR_H
 #define RC_WEAR_H
 
@@ -26,7 +26,7 @@ double rc_wear_first_step(const struct rc_wear_problem *law, const struct rc_sha
 /* The standard deviation of the pressure in contact over its mean. */
 double rc_wear_spread(const double *p, size_t n);
 
-struct rc_model *rc_rubbing_new(struct rc_model *inner, const double *h,
-                                const struct rc_wear_problem *law, struct rc_err *err);
+struct rc_model *rc_wear_two_bodies_new(struct rc_model *inner, const double *h,
+                                        const struct rc_wear_problem *law, struct rc_err *err);
 
 #endif

@@ -11,10 +11,10 @@
 
 static struct rc_err adhesion_err;
 
-static inline struct rc_adhesion *
+static inline struct rc_adhesion_solver *
 adhesion_new(struct rc_shape shape, const double *h, struct rc_adhesion_problem problem)
 {
-    struct rc_adhesion *a = rc_adhesion_new(&shape, h, &problem, &adhesion_err);
+    struct rc_adhesion_solver *a = rc_adhesion_solver_new(&shape, h, &problem, &adhesion_err);
 
     if (a == NULL)
         print_error("%s\n", adhesion_err.text);
@@ -23,37 +23,37 @@ adhesion_new(struct rc_shape shape, const double *h, struct rc_adhesion_problem 
 }
 
 static inline enum rc_status
-adhesion_run(struct rc_adhesion *a)
+adhesion_run(struct rc_adhesion_solver *a)
 {
     enum rc_status status;
 
-    while ((status = rc_adhesion_step(a, &adhesion_err)) == RC_MORE)
+    while ((status = rc_adhesion_solver_step(a, &adhesion_err)) == RC_MORE)
         ;
     return status;
 }
 
-static inline const struct rc_adhesion_figures *
-adhesion_to_approach(struct rc_adhesion *a, double approach)
+static inline const struct rc_adhesion_state *
+adhesion_to_approach(struct rc_adhesion_solver *a, double approach)
 {
-    assert_int_equal(rc_adhesion_set_approach(a, approach, &adhesion_err), RC_OK);
+    assert_int_equal(rc_adhesion_solver_set_approach(a, approach, &adhesion_err), RC_OK);
     (void)adhesion_run(a);
-    return rc_adhesion_result(a);
+    return rc_adhesion_solver_result(a);
 }
 
-static inline const struct rc_adhesion_figures *
-adhesion_to_load(struct rc_adhesion *a, double load)
+static inline const struct rc_adhesion_state *
+adhesion_to_load(struct rc_adhesion_solver *a, double load)
 {
-    assert_int_equal(rc_adhesion_set_load(a, load, &adhesion_err), RC_OK);
+    assert_int_equal(rc_adhesion_solver_set_load(a, load, &adhesion_err), RC_OK);
     (void)adhesion_run(a);
-    return rc_adhesion_result(a);
+    return rc_adhesion_solver_result(a);
 }
 
-static inline const struct rc_adhesion_figures *
-adhesion_pull(struct rc_adhesion *a)
+static inline const struct rc_adhesion_state *
+adhesion_pull(struct rc_adhesion_solver *a)
 {
-    assert_int_equal(rc_adhesion_pull_off(a, &adhesion_err), RC_OK);
+    assert_int_equal(rc_adhesion_solver_pull_off(a, &adhesion_err), RC_OK);
     (void)adhesion_run(a);
-    return rc_adhesion_result(a);
+    return rc_adhesion_solver_result(a);
 }
 
 /* Relative L1 distance of a from b. */

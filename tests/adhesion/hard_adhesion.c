@@ -21,7 +21,7 @@ refused(struct rc_shape shape, struct rc_adhesion_problem problem, const char *w
     struct rc_err err = {0}, other = {0};
 
     assert_non_null(h);
-    assert_null(rc_adhesion_new(&shape, h, &problem, &err));
+    assert_null(rc_adhesion_solver_new(&shape, h, &problem, &err));
     if (strstr(err.text, word) == NULL)
         print_error("'%s' is not in: %s\n", word, err.text);
     assert_non_null(strstr(err.text, word));
@@ -39,7 +39,7 @@ requests(void **state)
     const struct rc_adhesion_problem good = {
         .contact = {.pair.estar = estar}, .work = 0.05, .range = 3e-7};
     struct rc_adhesion_problem bad;
-    struct rc_adhesion *a;
+    struct rc_adhesion_solver *a;
     double h[32 * 32] = {0}, p[32 * 32] = {0};
     struct rc_err err;
 
@@ -77,37 +77,37 @@ requests(void **state)
     assert_int_equal(rc_adhesion_check(&shape, &bad, &(struct rc_adhesion_scales){0}, &err), RC_OK);
 
     a = adhesion_new(shape, h, good);
-    assert_int_equal(rc_adhesion_step(a, &err), RC_FAIL);
-    assert_int_equal(rc_adhesion_pull_off(a, &err), RC_FAIL);
-    assert_int_equal(rc_adhesion_set_load(a, NAN, &err), RC_FAIL);
-    assert_int_equal(rc_adhesion_set_approach(a, INFINITY, &err), RC_FAIL);
+    assert_int_equal(rc_adhesion_solver_step(a, &err), RC_FAIL);
+    assert_int_equal(rc_adhesion_solver_pull_off(a, &err), RC_FAIL);
+    assert_int_equal(rc_adhesion_solver_set_load(a, NAN, &err), RC_FAIL);
+    assert_int_equal(rc_adhesion_solver_set_approach(a, INFINITY, &err), RC_FAIL);
     p[7] = INFINITY;
-    assert_int_equal(rc_adhesion_start(a, p, 0, &err), RC_FAIL);
-    assert_int_equal(rc_adhesion_start(a, h, NAN, &err), RC_FAIL);
-    rc_adhesion_free(a);
+    assert_int_equal(rc_adhesion_solver_start(a, p, 0, &err), RC_FAIL);
+    assert_int_equal(rc_adhesion_solver_start(a, h, NAN, &err), RC_FAIL);
+    rc_adhesion_solver_free(a);
     h[9] = NAN;
-    assert_null(rc_adhesion_new(&shape, h, &good, &err));
+    assert_null(rc_adhesion_solver_new(&shape, h, &good, &err));
     assert_non_null(strstr(err.text, "height 9"));
     h[9] = 0;
     bad = good;
     bad.contact.boundary = RC_PERIODIC;
     a = adhesion_new(shape, h, bad);
-    assert_int_equal(rc_adhesion_set_approach(a, 1e-7, &err), RC_FAIL);
+    assert_int_equal(rc_adhesion_solver_set_approach(a, 1e-7, &err), RC_FAIL);
     assert_non_null(strstr(err.text, "mean gap"));
-    rc_adhesion_free(a);
+    rc_adhesion_solver_free(a);
     bad = good;
     bad.contact.hardness = 1e6; /* at this gap the traction is 1e6 - 0.05/3e-7 Pa */
     a = adhesion_new(shape, h, bad);
-    assert_int_equal(rc_adhesion_set_load(a, 0.9 * 1e6 * 1024e-12, &err), RC_FAIL);
+    assert_int_equal(rc_adhesion_solver_set_load(a, 0.9 * 1e6 * 1024e-12, &err), RC_FAIL);
     assert_non_null(strstr(err.text, "the map carries only"));
-    assert_int_equal(rc_adhesion_set_load(a, 0.8 * 1e6 * 1024e-12, &err), RC_OK);
-    rc_adhesion_free(a);
+    assert_int_equal(rc_adhesion_solver_set_load(a, 0.8 * 1e6 * 1024e-12, &err), RC_OK);
+    rc_adhesion_solver_free(a);
     bad.contact.hardness = 1; /* the attraction pulls a yielding node in */
     a = adhesion_new(shape, h, bad);
-    assert_int_equal(rc_adhesion_set_load(a, 1e-20, &err), RC_FAIL);
-    assert_int_equal(rc_adhesion_set_load(a, -1e-6, &err), RC_OK);
-    rc_adhesion_free(a);
-    rc_adhesion_free(NULL);
+    assert_int_equal(rc_adhesion_solver_set_load(a, 1e-20, &err), RC_FAIL);
+    assert_int_equal(rc_adhesion_solver_set_load(a, -1e-6, &err), RC_OK);
+    rc_adhesion_solver_free(a);
+    rc_adhesion_solver_free(NULL);
     for (size_t k = 0; rc_adhesion_law_info(k) != NULL; k++)
         assert_true(strlen(rc_adhesion_law_info(k)->summary) > 0);
 }
@@ -150,7 +150,7 @@ static void
 saddles(void **state)
 {
     struct sphere s = sphere_of(LARGE, 2);
-    struct rc_adhesion *a = adhesion_new(s.shape, h, s.problem);
+    struct rc_adhesion_solver *a = adhesion_new(s.shape, h, s.problem);
     double lowest = 0, last = 0;
     size_t jumps = 0, falling = 0, rising = 0;
     bool held = true;
@@ -158,8 +158,8 @@ saddles(void **state)
     (void)state;
     (void)adhesion_to_approach(a, 0);
     for (int k = 1; k <= 30; k++) {
-        const struct rc_adhesion_figures *f = adhesion_to_approach(a, -0.05 * k * s.approach);
-        struct rc_adhesion *b;
+        const struct rc_adhesion_state *f = adhesion_to_approach(a, -0.05 * k * s.approach);
+        struct rc_adhesion_solver *b;
         double load = f->load;
 
         assert_true(f->converged && f->stable);
@@ -170,22 +170,22 @@ saddles(void **state)
             assert_int_equal(f->jumps, 0);
         }
         held = f->contact_nodes > 0;
-        rc_adhesion_pressure(a, p);
+        rc_adhesion_solver_pressure(a, p);
         if (f->jumps == 0 && k % 3 == 0 && f->contact_nodes > 0) {
             b = adhesion_new(s.shape, h, s.problem);
-            assert_int_equal(rc_adhesion_start(b, p, f->approach, &adhesion_err), RC_OK);
+            assert_int_equal(rc_adhesion_solver_start(b, p, f->approach, &adhesion_err), RC_OK);
             f = adhesion_to_load(b, load);
             if (load > last + 0.01 * s.load) { /* beyond the lowest load there is no stable state */
                 assert_true(f->jumps > 0);
                 assert_true(f->separated || f->stable);
-                assert_int_equal(rc_adhesion_step(b, &adhesion_err),
+                assert_int_equal(rc_adhesion_solver_step(b, &adhesion_err),
                                  f->separated ? RC_SHORT : RC_OK);
                 rising++;
             } else if (load < last - 0.01 * s.load) {
                 assert_true(f->converged && f->stable && f->jumps == 0);
                 falling++;
             }
-            rc_adhesion_free(b);
+            rc_adhesion_solver_free(b);
         }
         last = load;
         lowest = fmin(lowest, load);
@@ -194,7 +194,7 @@ saddles(void **state)
                   jumps, rising, falling);
     assert_int_equal(jumps, 1);
     assert_true(falling > 0 && rising > 0);
-    rc_adhesion_free(a);
+    rc_adhesion_solver_free(a);
 }
 
 /* A load below pull-off separates the bodies, and the figures say so; above it they stay in contact. */
@@ -202,8 +202,8 @@ static void
 parting(void **state)
 {
     struct sphere s = sphere_of(N, 1);
-    struct rc_adhesion *a = adhesion_new(s.shape, h, s.problem);
-    const struct rc_adhesion_figures *f = adhesion_to_load(a, 0);
+    struct rc_adhesion_solver *a = adhesion_new(s.shape, h, s.problem);
+    const struct rc_adhesion_state *f = adhesion_to_load(a, 0);
     double lowest;
 
     (void)state;
@@ -217,14 +217,14 @@ parting(void **state)
     f = adhesion_to_load(a, 0.98 * lowest);
     assert_true(f->converged && f->stable && !f->separated);
     assert_true(fabs(f->load - 0.98 * lowest) <= 1e-5 * -lowest);
-    assert_int_equal(rc_adhesion_set_load(a, 1.02 * lowest, &adhesion_err), RC_OK);
+    assert_int_equal(rc_adhesion_solver_set_load(a, 1.02 * lowest, &adhesion_err), RC_OK);
     assert_int_equal(adhesion_run(a), RC_SHORT);
-    f = rc_adhesion_result(a);
+    f = rc_adhesion_solver_result(a);
     assert_true(f->separated && !f->converged && f->contact_nodes == 0);
     /* and the path continues from there */
     f = adhesion_to_load(a, 0.1 * s.load);
     assert_true(f->converged && f->contact_nodes > 0);
-    rc_adhesion_free(a);
+    rc_adhesion_solver_free(a);
 }
 
 /* The lowest load is the same from 6 steps as from 25. */
@@ -232,7 +232,7 @@ static void
 pull_off_by_hand(void **state)
 {
     struct sphere s = sphere_of(N, 1);
-    struct rc_adhesion *a = adhesion_new(s.shape, h, s.problem);
+    struct rc_adhesion_solver *a = adhesion_new(s.shape, h, s.problem);
     double lowest = 0, is;
 
     (void)state;
@@ -243,7 +243,7 @@ pull_off_by_hand(void **state)
         lowest = fmin(lowest, adhesion_to_approach(a, s.approach * (1 - 0.02 * k))->load);
     print_message("lowest load %.5f, by a hundred steps %.5f\n", is / s.load, lowest / s.load);
     assert_true(fabs(is - lowest) <= 1e-3 * -lowest);
-    rc_adhesion_free(a);
+    rc_adhesion_solver_free(a);
 }
 
 /* The frames of a pull-off on a periodic map belong to its load. */
@@ -256,7 +256,7 @@ pull_off_of_periodic(void **state)
     const struct rc_adhesion_problem problem = {
         .contact = {.pair.estar = 1e9, .boundary = RC_PERIODIC}, .work = 0.05};
     static double pressure[32 * 32];
-    struct rc_adhesion *a;
+    struct rc_adhesion_solver *a;
     double load, sum = 0;
 
     (void)state;
@@ -264,12 +264,12 @@ pull_off_of_periodic(void **state)
     a = adhesion_new(shape, h, problem);
     (void)adhesion_to_approach(a, 5e-8);
     load = adhesion_pull(a)->load;
-    rc_adhesion_pressure(a, pressure);
+    rc_adhesion_solver_pressure(a, pressure);
     for (size_t k = 0; k < 32 * 32; k++)
         sum += pressure[k] * shape.dx * shape.dy;
     print_message("pull-off at %.6e N, the pressures sum to %.6e N\n", load, sum);
     assert_true(load < 0 && fabs(sum - load) <= 1e-9 * -load);
-    rc_adhesion_free(a);
+    rc_adhesion_solver_free(a);
 }
 
 /* A rough ball separates spot by spot: its load against approach has several local minima, with jumps between
@@ -292,8 +292,8 @@ pull_off_of_rough(void **state)
                                             .seed = 3,
                                             .rms_height = heights[k]};
         static double ball[96 * 96];
-        const struct rc_adhesion_figures *f;
-        struct rc_adhesion *a;
+        const struct rc_adhesion_state *f;
+        struct rc_adhesion_solver *a;
         double start, lowest = 0, is, spread;
 
         assert_int_equal(rc_synth_selfaffine(&shape, &rough, h, &adhesion_err), RC_OK);
@@ -317,7 +317,7 @@ pull_off_of_rough(void **state)
         assert_true(is <= lowest + 1e-3 * fabs(lowest));
         assert_true(is >= lowest * 1.03); /* between two steps the load may be lower */
         assert_true(spread >= 0 && spread <= 2e-3 * fabs(is));
-        rc_adhesion_free(a);
+        rc_adhesion_solver_free(a);
     }
 }
 
@@ -380,8 +380,8 @@ pull_off_has_spread(void **state)
             .law = cases[k].law,
             .range = cases[k].range};
         const size_t n = shape.nx * shape.ny;
-        const struct rc_adhesion_figures *f;
-        struct rc_adhesion *a;
+        const struct rc_adhesion_state *f;
+        struct rc_adhesion_solver *a;
         double first = -INFINITY, last, lowest = 0, is, spread;
 
         assert_int_equal(rc_synth_selfaffine(&shape, &cases[k].rough, h, &adhesion_err), RC_OK);
@@ -395,13 +395,13 @@ pull_off_has_spread(void **state)
         spread = f->pull_off_spread;
         last = f->pull_off_approach - 0.1 * (first - f->pull_off_approach);
         assert_true(f->converged);
-        rc_adhesion_free(a);
+        rc_adhesion_solver_free(a);
         a = adhesion_new(shape, h, problem);
         for (int i = 0; i <= 400; i++) {
             f = adhesion_to_approach(a, first - i * (first - last) / 400);
             lowest = fmin(lowest, f->load);
         }
-        rc_adhesion_free(a);
+        rc_adhesion_solver_free(a);
         print_message("pull-off at %.5f, spread %.1e of it, in small steps %.5f\n", is,
                       spread / -is, lowest);
         assert_true(is <= lowest + spread);
@@ -414,8 +414,8 @@ static void
 pull_off_at_start(void **state)
 {
     struct sphere s = sphere_of(N, 1);
-    struct rc_adhesion *a = adhesion_new(s.shape, h, s.problem);
-    const struct rc_adhesion_figures *f;
+    struct rc_adhesion_solver *a = adhesion_new(s.shape, h, s.problem);
+    const struct rc_adhesion_state *f;
     double load;
 
     (void)state;
@@ -427,7 +427,7 @@ pull_off_at_start(void **state)
     assert_true(fabs(f->pull_off_load - load) <= 1e-4 * -load);
     assert_true(f->pull_off_spread <= 0.02 * -load);
     assert_true(fabs(f->pull_off_approach + 1.2 * s.approach) <= 1e-6 * s.approach);
-    rc_adhesion_free(a);
+    rc_adhesion_solver_free(a);
 }
 
 /* ---- maps ---- */
@@ -448,8 +448,8 @@ maps(void **state)
                                                               .pair.estar = estar,
                                                               .tol = 1e-6},
                                                   .work = 0.02};
-            struct rc_adhesion *a;
-            const struct rc_adhesion_figures *f;
+            struct rc_adhesion_solver *a;
+            const struct rc_adhesion_state *f;
             struct rc_conv *conv;
             const struct rc_conv_options options = {.boundary = problem.contact.boundary};
             double worst = 0, size = 0;
@@ -464,8 +464,8 @@ maps(void **state)
                 print_error("%zu x %zu, %d: error %g\n", s.nx, s.ny, b, f->pressure_error);
             assert_true(f->converged && f->stable);
             assert_true(f->attractive_load > 0);
-            rc_adhesion_pressure(a, p);
-            rc_adhesion_displacement(a, gap);
+            rc_adhesion_solver_pressure(a, p);
+            rc_adhesion_solver_displacement(a, gap);
             conv = rc_conv_new(&s, &problem.contact.pair, &options, &adhesion_err);
             assert_non_null(conv);
             rc_conv_apply(conv, p, h);
@@ -478,7 +478,7 @@ maps(void **state)
                             size);
             assert_true(worst <= 1e-5 * size + 1e-25);
             rc_conv_free(conv);
-            rc_adhesion_free(a);
+            rc_adhesion_solver_free(a);
         }
 }
 
@@ -493,8 +493,8 @@ hardness(void **state)
     struct sphere s = sphere_of(N, 1);
     double strength = s.problem.work / s.problem.range, hard = 1.5 * strength, load, volume = 0;
     static double sigma[N * N], before[N * N];
-    struct rc_adhesion *a;
-    const struct rc_adhesion_figures *f;
+    struct rc_adhesion_solver *a;
+    const struct rc_adhesion_state *f;
 
     (void)state;
     memcpy(before, h, sizeof before);
@@ -506,9 +506,9 @@ hardness(void **state)
     assert_true(f->converged && f->stable && f->plastic_nodes > 10);
     print_message("hardness: %zu of %zu nodes, %zu steps\n", f->plastic_nodes, f->contact_nodes,
                   f->iterations);
-    rc_adhesion_pressure(a, p);
-    rc_adhesion_gap(a, gap);
-    rc_adhesion_traction(a, sigma);
+    rc_adhesion_solver_pressure(a, p);
+    rc_adhesion_solver_gap(a, gap);
+    rc_adhesion_solver_traction(a, sigma);
     for (size_t k = 0; k < N * N; k++) {
         double is = p[k] + sigma[k];
         assert_true(is >= -1e-6 * hard && is <= hard * (1 + 1e-6));
@@ -516,18 +516,18 @@ hardness(void **state)
             assert_true(fabs(is - hard) <= 1e-6 * hard);
         volume += fmin(gap[k], 0);
     }
-    rc_adhesion_keep_shape(a, h);
+    rc_adhesion_solver_keep_shape(a, h);
     for (size_t k = 0; k < N * N; k++)
         volume += before[k] - h[k];
     assert_true(fabs(volume) <= 1e-12 * radius);
     f = adhesion_to_approach(a, 2.5 * s.approach);
     assert_true(f->converged && fabs(f->load - load) <= 1e-5 * fabs(load));
-    rc_adhesion_gap(a, gap);
+    rc_adhesion_solver_gap(a, gap);
     for (size_t k = 0; k < N * N; k++)
         assert_true(gap[k] >= -1e-6 * s.approach);
     f = adhesion_pull(a);
     assert_true(f->converged && f->pull_off_load < 0);
-    rc_adhesion_free(a);
+    rc_adhesion_solver_free(a);
 
     /* a hardness that is never reached, as a number or as a map, changes nothing */
     memcpy(h, before, sizeof before);
@@ -536,15 +536,15 @@ hardness(void **state)
     s.problem.contact.hardness = 0;
     a = adhesion_new(s.shape, h, s.problem);
     (void)adhesion_to_approach(a, 2.5 * s.approach);
-    rc_adhesion_pressure(a, before);
-    rc_adhesion_free(a);
+    rc_adhesion_solver_pressure(a, before);
+    rc_adhesion_solver_free(a);
     s.problem.contact.hardness_map = sigma;
     a = adhesion_new(s.shape, h, s.problem);
     f = adhesion_to_approach(a, 2.5 * s.approach);
     assert_true(f->converged && f->plastic_nodes == 0);
-    rc_adhesion_pressure(a, p);
+    rc_adhesion_solver_pressure(a, p);
     assert_true(adhesion_distance(N * N, p, before) <= 1e-6);
-    rc_adhesion_free(a);
+    rc_adhesion_solver_free(a);
 }
 
 /* ---- no node apart ---- */
@@ -567,8 +567,8 @@ closed_by_a_load(void **state)
                                           .seed = seed};
             struct rc_adhesion_problem problem = {
                 .contact = {.pair.estar = 10e6, .tol = 1e-6}, .work = 0.05, .range = 5e-8};
-            const struct rc_adhesion_figures *f;
-            struct rc_adhesion *a, *again;
+            const struct rc_adhesion_state *f;
+            struct rc_adhesion_solver *a, *again;
             double area = N * N * 1e-12, c;
 
             assert_int_equal(rc_synth_selfaffine(&shape, &rough, h, &adhesion_err), RC_OK);
@@ -580,8 +580,8 @@ closed_by_a_load(void **state)
             again = adhesion_new(shape, h, problem);
             f = adhesion_to_approach(again, c); /* the same state, by its approach */
             assert_true(f->converged && fabs(f->load / (load[k] * area) - 1) < 1e-5);
-            rc_adhesion_free(a);
-            rc_adhesion_free(again);
+            rc_adhesion_solver_free(a);
+            rc_adhesion_solver_free(again);
         }
 }
 
@@ -599,8 +599,8 @@ planes(void **state)
             .contact = {.pair.estar = 1e9, .boundary = RC_PERIODIC, .tol = 1e-6},
             .work = 0.05,
             .range = 20e-9};
-        const struct rc_adhesion_figures *f;
-        struct rc_adhesion *a;
+        const struct rc_adhesion_state *f;
+        struct rc_adhesion_solver *a;
 
         for (size_t i = 0; i < 48; i++)
             h[i] = 3.7e-6;
@@ -609,7 +609,7 @@ planes(void **state)
         assert_true(f->converged && f->stable && f->contact_nodes == 0);
         assert_true(fabs(f->mean_gap / away[k] - 1) < 1e-9);
         assert_true(fabs(-f->mean_pressure / (0.05 / 20e-9 * exp(-away[k] / 20e-9)) - 1) < 1e-9);
-        rc_adhesion_free(a);
+        rc_adhesion_solver_free(a);
     }
 }
 
@@ -630,9 +630,9 @@ coatings(void **state)
             struct rc_adhesion_problem problem = s.problem;
             const struct rc_conv_options options = {.boundary = b ? RC_PERIODIC : RC_FREE};
             static double bare[N * N], u[N * N], ku[N * N];
-            struct rc_adhesion *a;
+            struct rc_adhesion_solver *a;
             struct rc_conv *conv;
-            const struct rc_adhesion_figures *f;
+            const struct rc_adhesion_state *f;
             double worst = 0, size = 0;
 
             problem.contact.boundary = options.boundary;
@@ -641,8 +641,8 @@ coatings(void **state)
             if (k == 0) {
                 a = adhesion_new(s.shape, h, problem);
                 (void)adhesion_to_approach(a, 0);
-                rc_adhesion_pressure(a, bare);
-                rc_adhesion_free(a);
+                rc_adhesion_solver_pressure(a, bare);
+                rc_adhesion_solver_free(a);
             }
             problem.contact.pair.one.layers = 1;
             problem.contact.pair.one.layer = &layer;
@@ -651,8 +651,8 @@ coatings(void **state)
             assert_true(f->converged && f->stable && f->kkt_residual < 1e-6);
             print_message("layer %g times as stiff: %zu steps, %.0f convolutions, stability %.2g\n",
                           ratio[k], f->iterations, f->convolutions, f->stability);
-            rc_adhesion_pressure(a, p);
-            rc_adhesion_displacement(a, u);
+            rc_adhesion_solver_pressure(a, p);
+            rc_adhesion_solver_displacement(a, u);
             conv = rc_conv_new(&s.shape, &problem.contact.pair, &options, &adhesion_err);
             assert_non_null(conv);
             rc_conv_apply(conv, p, ku);
@@ -664,7 +664,7 @@ coatings(void **state)
             assert_true(worst <= 1e-8 * size);
             if (k == 0)
                 assert_true(adhesion_distance(N * N, p, bare) <= 1e-5);
-            rc_adhesion_free(a);
+            rc_adhesion_solver_free(a);
         }
 }
 

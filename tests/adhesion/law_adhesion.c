@@ -81,20 +81,20 @@ errors_are_known(void **state)
                                : depth(nodes) * (0.3 + 0.25 * (double)(k / 12 % 3));
         struct rc_adhesion_problem problem =
             law_of(boundary, strength, ell, k / 2 % 3 == 0 ? tols[0] : tols[1]);
-        struct rc_adhesion *a = adhesion_new(shape, h, problem);
-        const struct rc_adhesion_figures *f = adhesion_to_approach(a, approach);
+        struct rc_adhesion_solver *a = adhesion_new(shape, h, problem);
+        const struct rc_adhesion_state *f = adhesion_to_approach(a, approach);
         double told = f->pressure_error;
 
         assert_true(f->converged && f->stable);
-        rc_adhesion_pressure(a, p);
-        rc_adhesion_free(a);
+        rc_adhesion_solver_pressure(a, p);
+        rc_adhesion_solver_free(a);
         problem.contact.tol = 1e-11;
         a = adhesion_new(shape, h, problem);
         f = adhesion_to_approach(a, approach);
         assert_true(f->converged && f->stable);
         assert_true(f->kkt_residual < 1e-10);
-        rc_adhesion_pressure(a, exact);
-        rc_adhesion_free(a);
+        rc_adhesion_solver_pressure(a, exact);
+        rc_adhesion_solver_free(a);
         part[n++] = told / adhesion_distance(nodes * nodes, p, exact);
     }
     qsort(part, n, sizeof *part, by_size);
@@ -123,20 +123,20 @@ errors_of_dents_are_known(void **state)
         double down = depth(SIDE);
         for (int tight = 0; tight < 2; tight++) {
             struct rc_adhesion_problem problem = law_of(RC_PERIODIC, 0.05, 3, tight ? 1e-7 : 1e-3);
-            struct rc_adhesion *a;
+            struct rc_adhesion_solver *a;
             problem.contact.hardness = 0.12;
             a = adhesion_new(shape, h, problem);
             for (size_t k = 0; k < STATES; k++) {
-                const struct rc_adhesion_figures *f = adhesion_to_approach(a, away[k] * down);
+                const struct rc_adhesion_state *f = adhesion_to_approach(a, away[k] * down);
                 assert_true(f->converged);
                 if (!tight)
                     told[k] = f->pressure_error;
                 assert_true(tight || (f->inherited_error > 0) == (k > 0));
-                rc_adhesion_pressure(a, path[tight][k]);
+                rc_adhesion_solver_pressure(a, path[tight][k]);
                 assert_true(f->plastic_nodes > 0 || k > 0);
-                rc_adhesion_keep_shape(a, NULL);
+                rc_adhesion_solver_keep_shape(a, NULL);
             }
-            rc_adhesion_free(a);
+            rc_adhesion_solver_free(a);
         }
         for (size_t k = 0; k < STATES; k++)
             worst = fmin(worst, told[k] / adhesion_distance(SIDE * SIDE, path[0][k], path[1][k]));
@@ -159,20 +159,20 @@ soft_modes_are_seen(void **state)
         .contact = {.boundary = RC_PERIODIC, .pair.estar = 1e9, .tol = 1e-3},
         .work = 0.8691683072247443,
         .law = "jkr"};
-    const struct rc_adhesion_figures *f = NULL;
+    const struct rc_adhesion_state *f = NULL;
     double told[2];
 
     (void)state;
     assert_int_equal(rc_synth_selfaffine(&shape, &what, h, &adhesion_err), RC_OK);
     for (int tight = 0; tight < 2; tight++) {
-        struct rc_adhesion *a = adhesion_new(shape, h, problem);
+        struct rc_adhesion_solver *a = adhesion_new(shape, h, problem);
         for (size_t k = 0; k < 2; k++)
             f = adhesion_to_approach(a, approaches[k]);
         assert_true(f->converged && f->contact_nodes == 9);
         assert_true(f->stability < 0.3);
-        rc_adhesion_pressure(a, tight ? exact : p);
+        rc_adhesion_solver_pressure(a, tight ? exact : p);
         told[tight] = f->pressure_error;
-        rc_adhesion_free(a);
+        rc_adhesion_solver_free(a);
         problem.contact.tol = 1e-8;
     }
     print_message("a soft mode: error %.1e, told %.1e\n", adhesion_distance(18, p, exact), told[0]);
@@ -255,8 +255,8 @@ jumps_are_seen(void **state)
         double told[3], start = 0;
         for (int stage = 0; stage < 3; stage++) {
             struct rc_adhesion_problem problem = cases[k].problem;
-            const struct rc_adhesion_figures *f;
-            struct rc_adhesion *a;
+            const struct rc_adhesion_state *f;
+            struct rc_adhesion_solver *a;
             if (stage == 0)
                 assert_int_equal(
                     rc_synth_selfaffine(&cases[k].shape, &cases[k].rough, h, &adhesion_err), RC_OK);
@@ -265,12 +265,12 @@ jumps_are_seen(void **state)
             for (size_t s = 0; stage == 0 && s < cases[k].steps; s++)
                 (void)adhesion_to_approach(a, cases[k].from + (double)s * cases[k].step);
             if (stage > 0)
-                assert_int_equal(rc_adhesion_start(a, p, start, &adhesion_err), RC_OK);
+                assert_int_equal(rc_adhesion_solver_start(a, p, start, &adhesion_err), RC_OK);
             start = stage == 0 ? cases[k].before : cases[k].at;
             f = adhesion_to_approach(a, start);
             told[stage] = f->pressure_error;
-            rc_adhesion_pressure(a, stage == 2 ? exact : p);
-            rc_adhesion_free(a);
+            rc_adhesion_solver_pressure(a, stage == 2 ? exact : p);
+            rc_adhesion_solver_free(a);
         }
         print_message("behind a jump: error %.1e, told %.1e\n",
                       adhesion_distance(cases[k].shape.nx * cases[k].shape.ny, p, exact), told[1]);
@@ -282,22 +282,22 @@ static void
 complete_contact_has_rounding(void **state)
 {
     struct rc_shape shape = rough(32, 7, false);
-    struct rc_adhesion *a = adhesion_new(shape, h, law_of(RC_PERIODIC, 0.05, 3, 1e-4));
-    const struct rc_adhesion_figures *f = adhesion_to_load(a, 0.5 * 1024);
+    struct rc_adhesion_solver *a = adhesion_new(shape, h, law_of(RC_PERIODIC, 0.05, 3, 1e-4));
+    const struct rc_adhesion_state *f = adhesion_to_load(a, 0.5 * 1024);
     struct rc_problem problem = {
         .boundary = RC_PERIODIC, .pair.estar = 1, .load = 0.5 * 1024, .tol = 1e-10};
     struct rc_solver *s = rc_solver_new(&shape, h, &problem, &adhesion_err);
 
     (void)state;
     assert_true(f->converged && f->contact_nodes == 1024);
-    rc_adhesion_pressure(a, p);
+    rc_adhesion_solver_pressure(a, p);
     assert_non_null(s);
     while (rc_solver_step(s) == RC_MORE) /* the solution without adhesion, for comparison */
         ;
     assert_true(f->pressure_error > 0 && f->pressure_error < 1e-6);
     assert_true(adhesion_distance(1024, p, rc_solver_pressure(s)) <= 1e-10 + f->pressure_error);
     rc_solver_free(s);
-    rc_adhesion_free(a);
+    rc_adhesion_solver_free(a);
 }
 
 /* ---- laws ---- */
@@ -367,19 +367,19 @@ paths_are_stable(void **state)
         bool dome = k % 2 == 1;
         size_t nodes = 32;
         struct rc_shape shape = rough(nodes, 7 + k, dome);
-        struct rc_adhesion *a = adhesion_new(
+        struct rc_adhesion_solver *a = adhesion_new(
             shape, h, law_of(dome ? RC_FREE : RC_PERIODIC, 0.1, k < 5 ? 3 : 1.5, 1e-4));
         double from = -1, to = dome ? 1 : 0.7 * depth(nodes);
 
         for (int s = 0; s <= 16; s++) {
-            const struct rc_adhesion_figures *f =
+            const struct rc_adhesion_state *f =
                 adhesion_to_approach(a, from + (to - from) * (s <= 8 ? s : 16 - s) / 8);
             assert_true(f->converged && f->stable && f->stability > 0);
             least = fmin(least, f->stability);
             jumps += f->jumps;
             states++;
         }
-        rc_adhesion_free(a);
+        rc_adhesion_solver_free(a);
     }
     print_message("%zu states, least eigenvalue %.2g, %zu jumps\n", states, least, jumps);
     assert_true(jumps > 0);
@@ -425,12 +425,12 @@ steps_may_be_large(void **state)
             h[i] = ways[k].sum ? height * (x + y) / 2 : height * x * y;
         }
         for (int small = 0; small < 2; small++) {
-            struct rc_adhesion *a = adhesion_new(shape, h, problem);
+            struct rc_adhesion_solver *a = adhesion_new(shape, h, problem);
             for (int s = 0; s <= 2 * STEPS; s++) {
                 double at = s <= STEPS
                                 ? first + (ways[k].from - first) * s / STEPS
                                 : ways[k].from + (ways[k].to - ways[k].from) * (s - STEPS) / STEPS;
-                const struct rc_adhesion_figures *f;
+                const struct rc_adhesion_state *f;
                 if (!small && s > STEPS && s < 2 * STEPS)
                     continue;
                 f = load ? adhesion_to_load(a, unit * at) : adhesion_to_approach(a, unit * at);
@@ -438,8 +438,8 @@ steps_may_be_large(void **state)
                 jumps[small] += s > STEPS ? (double)f->jumps : 0;
                 counts[small] += s > STEPS ? f->convolutions : 0;
             }
-            rc_adhesion_pressure(a, small ? exact : p);
-            rc_adhesion_free(a);
+            rc_adhesion_solver_pressure(a, small ? exact : p);
+            rc_adhesion_solver_free(a);
         }
         print_message("%s %g to %g: %.1e from small steps, %g and %g jumps, %.0f and %.0f "
                       "convolutions\n",
@@ -474,15 +474,16 @@ eigenvalues_are_right(void **state)
             double y = 2 * exact_pi * ((double)(i / SIDE) + 0.1) / SIDE;
             h[i] = 0.4 * (cos(x) + cos(y) + 0.4 * cos(2 * x + y + (double)k));
         }
-        struct rc_adhesion *a = adhesion_new(shape, h, law_of(RC_PERIODIC, strength, ell, 1e-10));
-        const struct rc_adhesion_figures *f =
+        struct rc_adhesion_solver *a =
+            adhesion_new(shape, h, law_of(RC_PERIODIC, strength, ell, 1e-10));
+        const struct rc_adhesion_state *f =
             adhesion_to_approach(a, depth(SIDE) * (0.1 + 0.2 * (double)k));
         struct rc_conv *conv = rc_conv_new(&shape, &pair, &options, &adhesion_err);
         size_t at[NODES], n = 0;
         double low, high;
 
         assert_non_null(conv);
-        rc_adhesion_gap(a, gap);
+        rc_adhesion_solver_gap(a, gap);
         for (size_t i = 0; i < NODES; i++)
             if (gap[i] > 0)
                 at[n++] = i;
@@ -574,7 +575,7 @@ eigenvalues_are_right(void **state)
         print_message("%zu nodes apart: %.4f, dense %.4f\n", n, f->stability, is);
         /* an upper bound, reported when its error bound is below a fifth */
         assert_true(f->stability > is - 1e-4 && 0.8 * f->stability < is + 1e-4);
-        rc_adhesion_free(a);
+        rc_adhesion_solver_free(a);
     }
 }
 
@@ -599,31 +600,31 @@ convolutions_to_levels(struct rc_shape shape, struct rc_adhesion_problem problem
                        double at[3])
 {
     const size_t n = shape.nx * shape.ny;
-    struct rc_adhesion *a;
+    struct rc_adhesion_solver *a;
     enum rc_status status;
 
     problem.contact.tol = 1e-11;
     a = adhesion_new(shape, h, problem);
     assert_true(adhesion_to_approach(a, approach)->converged);
-    rc_adhesion_pressure(a, exact);
-    rc_adhesion_free(a);
+    rc_adhesion_solver_pressure(a, exact);
+    rc_adhesion_solver_free(a);
     a = adhesion_new(shape, h, problem);
-    assert_int_equal(rc_adhesion_set_approach(a, approach, &adhesion_err), RC_OK);
+    assert_int_equal(rc_adhesion_solver_set_approach(a, approach, &adhesion_err), RC_OK);
     at[0] = at[1] = at[2] = 0;
     do {
-        struct rc_adhesion_progress progress;
+        struct rc_adhesion_solver_progress progress;
         double error, is;
-        status = rc_adhesion_step(a, &adhesion_err);
-        rc_adhesion_pressure(a, p);
+        status = rc_adhesion_solver_step(a, &adhesion_err);
+        rc_adhesion_solver_pressure(a, p);
         error = adhesion_distance(n, p, exact);
-        rc_adhesion_progress(a, &progress);
+        rc_adhesion_solver_progress(a, &progress);
         is = progress.convolutions;
         for (size_t q = 0; q < 3; q++)
             at[q] = error >= levels[q] ? 0 : at[q] > 0 ? at[q] : is;
         if (at[2] > 0 && at[2] < is)
             break;
     } while (status == RC_MORE);
-    rc_adhesion_free(a);
+    rc_adhesion_solver_free(a);
 }
 
 /* On a large map spots close one after another. The first state starts from coarser grids, where this is
@@ -656,17 +657,17 @@ first_states_are_those_of_loading(void **state)
     for (uint64_t seed = 21; seed < 24; seed++) {
         struct rc_shape shape = rough(SIDE, seed, true);
         struct rc_adhesion_problem problem = law_of(RC_FREE, 0.1, seed % 2 ? 4 : 2, 1e-5);
-        struct rc_adhesion *a = adhesion_new(shape, h, problem);
+        struct rc_adhesion_solver *a = adhesion_new(shape, h, problem);
         double from = -3 * problem.range, to = 0.02 * SIDE * (double)(1 + seed % 3);
 
         for (int k = 0; k <= STEPS; k++)
             assert_true(adhesion_to_approach(a, from + (to - from) * k / STEPS)->converged);
-        rc_adhesion_pressure(a, exact);
-        rc_adhesion_free(a);
+        rc_adhesion_solver_pressure(a, exact);
+        rc_adhesion_solver_free(a);
         a = adhesion_new(shape, h, problem);
         assert_true(adhesion_to_approach(a, to)->converged);
-        rc_adhesion_pressure(a, p);
-        rc_adhesion_free(a);
+        rc_adhesion_solver_pressure(a, p);
+        rc_adhesion_solver_free(a);
         assert_true(adhesion_distance(SIDE * SIDE, p, exact) <= 2e-5);
     }
 }
@@ -712,14 +713,14 @@ costs_are_known(void **state)
         double low = 0, high = depth(n) * 0.999, approach = 0, at[3];
         struct rc_adhesion_problem problem =
             law_of(RC_PERIODIC, costs[k].strength, costs[k].ell, 1e-3);
-        struct rc_adhesion *a;
+        struct rc_adhesion_solver *a;
 
         for (int half = 0; half < 12; half++) {
             double is;
             approach = (low + high) / 2;
             a = adhesion_new(shape, h, problem);
             is = adhesion_to_approach(a, approach)->contact_fraction;
-            rc_adhesion_free(a);
+            rc_adhesion_solver_free(a);
             if (fabs(is - costs[k].contact) < 0.01)
                 break;
             if (is < costs[k].contact)
@@ -748,18 +749,18 @@ sums_agree(void **state)
     for (int dome = 0; dome < 2; dome++) {
         enum rc_boundary boundary = dome ? RC_FREE : RC_PERIODIC;
         struct rc_shape shape = rough(n, 5, dome);
-        struct rc_adhesion *a = adhesion_new(shape, h, law_of(boundary, 0.1, 3, 1e-9));
-        const struct rc_adhesion_figures *f = adhesion_to_approach(a, dome ? 0.5 : 0.5 * depth(n));
+        struct rc_adhesion_solver *a = adhesion_new(shape, h, law_of(boundary, 0.1, 3, 1e-9));
+        const struct rc_adhesion_state *f = adhesion_to_approach(a, dome ? 0.5 : 0.5 * depth(n));
         const struct rc_pair pair = {.estar = 1};
         const struct rc_conv_options options = {.boundary = boundary};
         struct rc_conv *conv = rc_conv_new(&shape, &pair, &options, &adhesion_err);
         double top = -INFINITY, worst = 0, size = 0, repulsive = 0, load;
 
         assert_non_null(conv);
-        rc_adhesion_pressure(a, p);
-        rc_adhesion_gap(a, gap);
-        rc_adhesion_displacement(a, u);
-        rc_adhesion_traction(a, s);
+        rc_adhesion_solver_pressure(a, p);
+        rc_adhesion_solver_gap(a, gap);
+        rc_adhesion_solver_displacement(a, u);
+        rc_adhesion_solver_traction(a, s);
         rc_conv_apply(conv, p, ku);
         rc_conv_free(conv);
         for (size_t k = 0; k < n * n; k++)
@@ -784,11 +785,11 @@ sums_agree(void **state)
         /* the same state by its load, if it is stable under this load too */
         memcpy(exact, p, sizeof p);
         f = adhesion_to_load(a, load);
-        rc_adhesion_pressure(a, p);
+        rc_adhesion_solver_pressure(a, p);
         print_message("stability under the load %.3g\n", f->stability);
         if (f->jumps == 0)
             assert_true(adhesion_distance(n * n, p, exact) <= 1e-7);
-        rc_adhesion_free(a);
+        rc_adhesion_solver_free(a);
     }
 }
 
@@ -804,12 +805,12 @@ units_and_mirrors(void **state)
         const double length[] = {1, 1e-9, 1e3}, modulus[] = {1, 1e11, 1e-2};
         struct rc_shape shape = rough(n, 3, true), other = shape;
         struct rc_adhesion_problem problem = law_of(RC_FREE, 0.1, 2, 1e-8);
-        struct rc_adhesion *a = adhesion_new(shape, h, problem);
-        const struct rc_adhesion_figures *f = adhesion_to_approach(a, 0.3);
+        struct rc_adhesion_solver *a = adhesion_new(shape, h, problem);
+        const struct rc_adhesion_state *f = adhesion_to_approach(a, 0.3);
 
         assert_true(f->converged);
-        rc_adhesion_pressure(a, p);
-        rc_adhesion_free(a);
+        rc_adhesion_solver_pressure(a, p);
+        rc_adhesion_solver_free(a);
         for (size_t k = 0; k < n * n; k++)
             scaled[k] = h[k / n * n + (c > 0 ? n - 1 - k % n : k % n)] * length[c];
         other.dx = other.dy = length[c];
@@ -820,8 +821,8 @@ units_and_mirrors(void **state)
         a = adhesion_new(other, scaled, problem);
         f = adhesion_to_approach(a, 0.3 * length[c]);
         assert_true(f->converged);
-        rc_adhesion_pressure(a, q);
-        rc_adhesion_free(a);
+        rc_adhesion_solver_pressure(a, q);
+        rc_adhesion_solver_free(a);
         for (size_t k = 0; k < n * n; k++)
             scaled[k] = q[k / n * n + (c > 0 ? n - 1 - k % n : k % n)] / modulus[c];
         if (c == 0)
@@ -849,23 +850,25 @@ heights_change(void **state)
         for (size_t k = 0; k < n * n; k++) /* the highest parts are worn off */
             other[k] = fmin(h[k], top - 0.05 * depth(n)) + 0.01 * depth(n) * sin((double)k);
         for (int begun = 0; begun < 2; begun++) {
-            struct rc_adhesion *a = adhesion_new(shape, h, problem),
-                               *b = adhesion_new(shape, other, problem);
+            struct rc_adhesion_solver *a = adhesion_new(shape, h, problem),
+                                      *b = adhesion_new(shape, other, problem);
             double was = other[5];
             if (begun)
                 (void)adhesion_to_approach(a, deep / 2);
             other[5] = NAN;
-            assert_int_equal(rc_adhesion_set_heights(a, other, NULL, &adhesion_err), RC_FAIL);
+            assert_int_equal(rc_adhesion_solver_set_heights(a, other, NULL, &adhesion_err),
+                             RC_FAIL);
             other[5] = was;
-            assert_int_equal(rc_adhesion_set_heights(a, other, NULL, &adhesion_err), RC_OK);
-            assert_int_equal(rc_adhesion_step(a, &adhesion_err), RC_FAIL); /* no load is set */
+            assert_int_equal(rc_adhesion_solver_set_heights(a, other, NULL, &adhesion_err), RC_OK);
+            assert_int_equal(rc_adhesion_solver_step(a, &adhesion_err),
+                             RC_FAIL); /* no load is set */
             assert_true(adhesion_to_approach(a, deep)->converged);
             (void)adhesion_to_approach(b, deep);
-            rc_adhesion_pressure(a, p);
-            rc_adhesion_pressure(b, exact);
+            rc_adhesion_solver_pressure(a, p);
+            rc_adhesion_solver_pressure(b, exact);
             assert_true(adhesion_distance(n * n, p, exact) <= 1e-6);
-            rc_adhesion_free(a);
-            rc_adhesion_free(b);
+            rc_adhesion_solver_free(a);
+            rc_adhesion_solver_free(b);
         }
     }
 }
@@ -879,21 +882,22 @@ paths_resume(void **state)
     for (int dome = 0; dome < 2; dome++) {
         struct rc_shape shape = rough(n, 11, dome);
         struct rc_adhesion_problem problem = law_of(dome ? RC_FREE : RC_PERIODIC, 0.1, 3, 1e-8);
-        struct rc_adhesion *a = adhesion_new(shape, h, problem),
-                           *b = adhesion_new(shape, h, problem);
+        struct rc_adhesion_solver *a = adhesion_new(shape, h, problem),
+                                  *b = adhesion_new(shape, h, problem);
         double deep = dome ? 0.8 : 0.7 * depth(n);
 
         (void)adhesion_to_approach(a, deep);
-        rc_adhesion_pressure(a, exact);
-        assert_int_equal(
-            rc_adhesion_start(b, exact, rc_adhesion_result(a)->approach, &adhesion_err), RC_OK);
+        rc_adhesion_solver_pressure(a, exact);
+        assert_int_equal(rc_adhesion_solver_start(b, exact, rc_adhesion_solver_result(a)->approach,
+                                                  &adhesion_err),
+                         RC_OK);
         (void)adhesion_to_approach(a, deep / 2);
         (void)adhesion_to_approach(b, deep / 2);
-        rc_adhesion_pressure(a, exact);
-        rc_adhesion_pressure(b, p);
+        rc_adhesion_solver_pressure(a, exact);
+        rc_adhesion_solver_pressure(b, p);
         assert_true(adhesion_distance(n * n, p, exact) <= 1e-6);
-        rc_adhesion_free(a);
-        rc_adhesion_free(b);
+        rc_adhesion_solver_free(a);
+        rc_adhesion_solver_free(b);
     }
 }
 

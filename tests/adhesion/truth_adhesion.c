@@ -67,9 +67,8 @@ sphere_of_maugis(void **state)
                                                     .work = s.work,
                                                     .law = "dugdale",
                                                     .range = s.work / strength};
-        struct rc_adhesion *path = adhesion_new(s.shape, s.h, problem);
-        const struct rc_adhesion_figures *f =
-            adhesion_to_approach(path, none.approach * s.approach);
+        struct rc_adhesion_solver *path = adhesion_new(s.shape, s.h, problem);
+        const struct rc_adhesion_state *f = adhesion_to_approach(path, none.approach * s.approach);
 
         assert_true(f->converged && f->stable);
         is = f->load / s.load;
@@ -87,7 +86,7 @@ sphere_of_maugis(void **state)
         assert_true(f->converged);
         assert_true(fabs(is / lowest - 1) <= rows[k].pull_off);
         assert_true(f->pull_off_spread <= 0.01 * fabs(f->pull_off_load));
-        rc_adhesion_free(path);
+        rc_adhesion_solver_free(path);
         free(s.h);
     }
 }
@@ -115,13 +114,13 @@ spread_holds_the_saw(void **state)
                                                     .work = s.work,
                                                     .law = "dugdale",
                                                     .range = s.work / strength};
-        struct rc_adhesion *path;
+        struct rc_adhesion_solver *path;
 
         rc_synth_paraboloid(&s.shape, apex, radius, radius, 0, s.h);
         path = adhesion_new(s.shape, s.h, problem);
         (void)adhesion_to_approach(path, 0);
         found = adhesion_pull(path)->pull_off_load;
-        spread = rc_adhesion_result(path)->pull_off_spread;
+        spread = rc_adhesion_solver_result(path)->pull_off_spread;
         (void)adhesion_to_approach(path, 0);
         for (int step = 0; step <= 30; step++) {
             double load = adhesion_to_approach(path, -(0.4 + 0.006 * step) * s.approach)->load;
@@ -132,7 +131,7 @@ spread_holds_the_saw(void **state)
                       lowest / s.load);
         assert_true(lowest < 0 && found <= lowest + spread && found >= lowest - spread);
         assert_true(spread < 0.03 * -lowest);
-        rc_adhesion_free(path);
+        rc_adhesion_solver_free(path);
         free(s.h);
     }
 }
@@ -150,7 +149,7 @@ sphere_of_jkr(void **state)
         struct sphere s = sphere_of(n, (double)n * 0.4);
         const struct rc_adhesion_problem problem = {
             .contact = {.pair.estar = estar, .tol = 1e-4}, .work = s.work, .law = "jkr"};
-        struct rc_adhesion *path = adhesion_new(s.shape, s.h, problem);
+        struct rc_adhesion_solver *path = adhesion_new(s.shape, s.h, problem);
         struct rc_adhesion_scales scales;
         double tabor, off;
 
@@ -161,7 +160,7 @@ sphere_of_jkr(void **state)
         print_message("jkr, Tabor %.2f: %+.4f\n", tabor, off);
         assert_true(off > -2e-3 && off < last);
         last = off;
-        rc_adhesion_free(path);
+        rc_adhesion_solver_free(path);
         free(s.h);
     }
     assert_true(last < (thorough(true, false) ? 0.05 : 0.06));
@@ -178,7 +177,7 @@ sphere_of_bradley(void **state)
     struct rc_place apex = {0.25e-6, 0.1e-6};
     struct rc_adhesion_problem problem = {.contact = {.pair.estar = estar, .tol = 1e-6},
                                           .law = "compact"};
-    struct rc_adhesion *path;
+    struct rc_adhesion_solver *path;
 
     (void)state;
     assert_non_null(h);
@@ -193,11 +192,11 @@ sphere_of_bradley(void **state)
         double lift = 0; /* depth of the highest node below the apex */
         for (size_t i = 0; i < n * n; i++)
             lift = i == 0 ? h[i] : fmax(lift, h[i]);
-        const struct rc_adhesion_figures *f = adhesion_to_approach(path, -d + lift);
+        const struct rc_adhesion_state *f = adhesion_to_approach(path, -d + lift);
         print_message("rigid, clearance %.1f ranges: %+.1e\n", k / 5.0, f->load / exact - 1);
         assert_true(f->converged && fabs(f->load - exact) <= 4e-4 * 2 * exact_pi * work * radius);
     }
-    rc_adhesion_free(path);
+    rc_adhesion_solver_free(path);
     free(h);
 }
 
@@ -238,8 +237,8 @@ wave_of_johnson(void **state)
                 .contact = {.boundary = RC_PERIODIC, .pair = pair, .tol = 1e-5},
                 .work = alphas[k] * alphas[k] * peak * peak * length / (2 * estar),
                 .law = "jkr"};
-            struct rc_adhesion *path = adhesion_new(shape, h, problem);
-            const struct rc_adhesion_figures *f;
+            struct rc_adhesion_solver *path = adhesion_new(shape, h, problem);
+            const struct rc_adhesion_state *f;
 
             for (size_t i = 0; i < WAVE; i++) {
                 p[i] = westergaard(peak, psi, exact_pi * ((double)i - (WAVE - 1) / 2.0) / WAVE);
@@ -247,7 +246,7 @@ wave_of_johnson(void **state)
             }
             rc_conv_apply(conv, p, u);
             c = u[WAVE / 2] - h[WAVE / 2];
-            assert_int_equal(rc_adhesion_start(path, p, c + top, &adhesion_err), RC_OK);
+            assert_int_equal(rc_adhesion_solver_start(path, p, c + top, &adhesion_err), RC_OK);
             f = adhesion_to_approach(path, c + top);
             f = adhesion_to_load(path,
                                  peak * johnson_wave(alphas[k], widths[k][w]) * length * shape.dy);
@@ -256,7 +255,7 @@ wave_of_johnson(void **state)
                           widths[k][w], is, f->iterations, f->stability);
             assert_true(f->converged && f->stable);
             worst = fmax(worst, fabs(is - widths[k][w]));
-            rc_adhesion_free(path);
+            rc_adhesion_solver_free(path);
         }
     assert_true(worst <= 0.006);
     rc_conv_free(conv);
@@ -295,13 +294,13 @@ waves_in_large_steps(void **state)
         .work = alpha * alpha * peak * peak * length / (2 * soft),
         .law = "jkr"};
     double h[SIDE], worst = 0, convolutions = 0;
-    struct rc_adhesion *path;
+    struct rc_adhesion_solver *path;
 
     (void)state;
     rc_synth_wave(&shape, height, length, INFINITY, h);
     path = adhesion_new(shape, h, problem);
     for (size_t k = 0; k < sizeof loads / sizeof *loads; k++) {
-        const struct rc_adhesion_figures *f =
+        const struct rc_adhesion_state *f =
             adhesion_to_load(path, loads[k] * peak * length * shape.dy);
         double off = f->contact_fraction - 2 * johnson_width(alpha, loads[k]);
         assert_true(f->converged && f->stable);
@@ -312,7 +311,7 @@ waves_in_large_steps(void **state)
     print_message("large steps: contact within %.4f of Johnson's, %.0f convolutions\n", worst,
                   convolutions);
     assert_true(worst <= 0.02); /* 2.5 nodes; two of them are the range */
-    rc_adhesion_free(path);
+    rc_adhesion_solver_free(path);
 }
 
 /* ---- another formulation ---- */
@@ -422,7 +421,7 @@ same_as_newton(enum rc_boundary boundary, bool compact, double ell)
     struct rc_adhesion_problem problem = {
         .contact = {.boundary = boundary, .pair.estar = estar, .tol = 1e-11},
         .law = compact ? "compact" : "exponential"};
-    struct rc_adhesion *path;
+    struct rc_adhesion_solver *path;
 
     /* a bump on waves, without symmetry */
     for (size_t k = 0; k < NODES; k++) {
@@ -452,13 +451,13 @@ same_as_newton(enum rc_boundary boundary, bool compact, double ell)
     memset(p, 0, sizeof p);
     for (int k = 0; k < 14; k++) {
         double approach = unit * (-4 + 0.8 * (k < 8 ? k : 14 - k));
-        const struct rc_adhesion_figures *f = adhesion_to_approach(path, approach);
+        const struct rc_adhesion_state *f = adhesion_to_approach(path, approach);
         assert_true(f->converged && f->stable);
         for (int part = 1; part <= PARTS; part++)
             assert_true(
                 newton(h, compact, work, range, last + (approach - last) * part / PARTS - top, p));
         last = approach;
-        rc_adhesion_pressure(path, is);
+        rc_adhesion_solver_pressure(path, is);
         if (f->attractive_load > 0)
             worst = fmax(worst, adhesion_distance(NODES, is, p));
         most = fmax(most, f->contact_fraction);
@@ -468,7 +467,7 @@ same_as_newton(enum rc_boundary boundary, bool compact, double ell)
                   boundary == RC_FREE ? "free" : "periodic", problem.law, worst, most);
     assert_true(most > 0.05 && least < 0);
     assert_true(worst <= 1e-7);
-    rc_adhesion_free(path);
+    rc_adhesion_solver_free(path);
 }
 
 static void

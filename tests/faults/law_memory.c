@@ -327,18 +327,18 @@ done:
     return status;
 }
 
-/* The yielding model: a load, a second load that is discarded half-way, and a larger one. */
+/* The model of yield: a load, a second load that is discarded half-way, and a larger one. */
 static enum rc_status
-yielding_model(double *out, struct rc_err *err)
+yield_model(double *out, struct rc_err *err)
 {
     static const double slabs[] = {.5e-6, .7e-6, 1e-6};
-    struct rc_plastic_problem problem = {
+    struct rc_yield_problem problem = {
         .contact = {.boundary = RC_PERIODIC, .pair = bare, .tol = 0.1, .threads = 1},
-        .yield.stress = bare.one.e / 100,
+        .law.stress = bare.one.e / 100,
         .slabs = 3,
         .thickness = slabs,
         .increments = 4};
-    struct rc_model *m = rc_yielding_new(&shape, rough, &problem, err);
+    struct rc_model *m = rc_yield_new(&shape, rough, &problem, err);
     enum rc_status status = RC_FAIL;
     struct rc_point to = {0};
 
@@ -348,7 +348,7 @@ yielding_model(double *out, struct rc_err *err)
         rc_model_step(m, err) == RC_FAIL || rc_model_run(m, &to, err) == RC_FAIL ||
         rc_model_look(m, NULL, err) != RC_OK || rc_model_frame(m, "residual", out, err) != RC_OK)
         goto done;
-    out[N] = rc_yielding_result(m)->plastic.depth + (double)rc_yielding_result(m)->slabs;
+    out[N] = rc_yield_result(m)->last.depth + (double)rc_yield_result(m)->slabs;
     status = RC_OK;
 done:
     rc_model_free(m);
@@ -362,7 +362,7 @@ friction_model(double *out, struct rc_err *err)
 {
     const struct rc_problem contact = {.boundary = RC_PERIODIC, .pair = bare, .threads = 1};
     struct rc_friction_problem law = {
-        .slip = {.boundary = RC_PERIODIC, .pair = bare, .mu = 0.3, .threads = 1},
+        .law = {.boundary = RC_PERIODIC, .pair = bare, .mu = 0.3, .threads = 1},
         .increments = 2,
         .fewer = 1};
     struct rc_model *m, *other = NULL;
@@ -375,11 +375,11 @@ friction_model(double *out, struct rc_err *err)
     law.inner_of_fewer[0] = rc_elastic_new(&shape, rough, &contact, NULL, err);
     m = rc_friction_new(rc_elastic_new(&shape, rough, &contact, NULL, err), rough, &law, err);
     rc_point_set(&to, RC_LOAD, 1e-3);
-    rc_point_set(&to, RC_SHIFT_X, 1e-9);
-    rc_point_set(&to, RC_SHIFT_Y, 1e-10);
+    rc_point_set(&to, RC_DISPLACEMENT_X, 1e-9);
+    rc_point_set(&to, RC_DISPLACEMENT_Y, 1e-10);
     if (m == NULL || rc_model_run(m, &to, err) == RC_FAIL || rc_model_keep(m, err) != RC_OK)
         goto done;
-    rc_point_set(&to, RC_SHIFT_X, 2e-9);
+    rc_point_set(&to, RC_DISPLACEMENT_X, 2e-9);
     if (rc_model_go(m, &to, err) != RC_MORE || rc_model_step(m, err) == RC_FAIL)
         goto done;
     n = rc_model_state_size(m);
@@ -395,7 +395,7 @@ friction_model(double *out, struct rc_err *err)
         rc_model_frame(other, "traction-x", out, err) != RC_OK)
         goto done;
     out[N] =
-        rc_friction_result(other)->slip.force[0] +
+        rc_friction_result(other)->last.force[0] +
         (double)rc_friction_leg(&law, &(struct rc_leg){0}, &(struct rc_point){0}, &to).increments;
     status = RC_OK;
 done:
@@ -411,7 +411,7 @@ rolling_model_of(bool path, double *out, struct rc_err *err)
 {
     const struct rc_problem contact = {.pair = bare, .tol = 1e-3, .threads = 1};
     const struct rc_rolling_problem law = {
-        .slip = {.pair = bare, .mu = 0.3, .tol = 1e-2, .threads = 1}, .force = true, .path = path};
+        .law = {.pair = bare, .mu = 0.3, .tol = 1e-2, .threads = 1}, .force = true, .path = path};
     struct rc_model *m, *other = NULL;
     enum rc_status status = RC_FAIL;
     double ball[N], *state = NULL;
@@ -427,13 +427,13 @@ rolling_model_of(bool path, double *out, struct rc_err *err)
     }
     m = rc_rolling_new(rc_elastic_new(&shape, ball, &contact, NULL, err), &law, err);
     rc_point_set(&to, RC_LOAD, 1e-3);
-    rc_point_set(&to, RC_FORCE_X, 1e-4);
+    rc_point_set(&to, RC_TANGENTIAL_X, 1e-4);
     rc_point_set(&to, RC_POSITION, 0);
-    rc_point_set(&to, RC_FORCE_Y, 0);
+    rc_point_set(&to, RC_TANGENTIAL_Y, 0);
     if (m == NULL || rc_model_plan(m, &to, &expected, err) != RC_OK ||
         rc_model_run(m, &to, err) == RC_FAIL || rc_model_keep(m, err) != RC_OK)
         goto done;
-    rc_point_set(&to, RC_FORCE_Y, 1e-4);
+    rc_point_set(&to, RC_TANGENTIAL_Y, 1e-4);
     rc_point_set(&to, RC_POSITION, 2e-6);
     if (rc_model_go(m, &to, err) != RC_MORE)
         goto done;
@@ -484,7 +484,7 @@ wear_model_of(bool slides, double *out, struct rc_err *err)
                                         .estar = 1e9,
                                         .tol = 0.3,
                                         .part = slides ? NULL : phase,
-                                        .sliding = slides,
+                                        .two_bodies = slides,
                                         .h2 = rough};
     struct rc_model *m, *other = NULL;
     enum rc_status status = RC_FAIL;
@@ -532,7 +532,7 @@ wear_model(double *out, struct rc_err *err)
 }
 
 static enum rc_status
-rubbing_model(double *out, struct rc_err *err)
+wear_two_bodies_model(double *out, struct rc_err *err)
 {
     return wear_model_of(true, out, err);
 }
@@ -591,15 +591,15 @@ done:
 
 /* ---- adhesion ---- */
 
-/* The adhesive model: a load that dents; on the way to a second point the state goes into another model. The
+/* The model of adhesion: a load that dents; on the way to a second point the state goes into another model. The
  * other one then retracts the bodies. */
 static enum rc_status
-adhesive_model(double *out, struct rc_err *err)
+adhesion_model(double *out, struct rc_err *err)
 {
     const struct rc_adhesion_problem problem = {
         .contact = {.pair = bare, .tol = 1e-3, .threads = 1, .hardness_map = hardness},
         .work = 1e-3};
-    struct rc_model *m = rc_adhesive_new(&shape, rough, &problem, err), *other = NULL;
+    struct rc_model *m = rc_adhesion_new(&shape, rough, &problem, err), *other = NULL;
     struct rc_adhesion_scales scales;
     struct rc_expected expected;
     enum rc_status status = RC_FAIL;
@@ -622,16 +622,16 @@ adhesive_model(double *out, struct rc_err *err)
         goto done;
     }
     rc_model_state(m, state);
-    other = rc_adhesive_new(&shape, rough, &problem, err);
+    other = rc_adhesion_new(&shape, rough, &problem, err);
     if (other == NULL || rc_model_restore(other, state, n, &going, err) != RC_OK ||
         rc_model_run(other, &to, err) == RC_FAIL || rc_model_look(other, NULL, err) != RC_OK ||
         rc_model_frame(other, "adhesion", out, err) != RC_OK || rc_model_keep(other, err) != RC_OK)
         goto done;
-    out[N] = rc_adhesive_result(other)->adhesion.load;
+    out[N] = rc_adhesion_result(other)->state.load;
     rc_point_set(&to, RC_APPROACH, -INFINITY);
     if (rc_model_run(other, &to, err) == RC_FAIL || rc_model_look(other, NULL, err) != RC_OK)
         goto done;
-    out[N + 1] = rc_adhesive_result(other)->adhesion.pull_off_load;
+    out[N + 1] = rc_adhesion_result(other)->state.pull_off_load;
     out[N + 2] = scales.range + rc_adhesion_law_info(0)->ranged;
     status = RC_OK;
 done:
@@ -683,11 +683,11 @@ leaks(double *out, struct rc_err *err)
 static enum rc_status
 may_yield(double *out, struct rc_err *err)
 {
-    const struct rc_plastic_problem problem = {
+    const struct rc_yield_problem problem = {
         .contact = {.boundary = RC_PERIODIC, .pair = bare, .tol = 0.1, .threads = 1},
-        .yield = {.stress = bare.one.e / 100}};
-    double *const strain[RC_PLASTIC_STRAINS] = {out + N};
-    struct rc_model *m = rc_yielding_new(&shape, rough, &problem, err), *other = NULL;
+        .law = {.stress = bare.one.e / 100}};
+    double *const strain[RC_YIELD_STRAINS] = {out + N};
+    struct rc_model *m = rc_yield_new(&shape, rough, &problem, err), *other = NULL;
     enum rc_status status = RC_FAIL;
     struct rc_point to = {0};
     double *state = NULL;
@@ -697,13 +697,13 @@ may_yield(double *out, struct rc_err *err)
     rc_point_set(&to, RC_LOAD, 1e-7);
     if (m == NULL)
         return RC_FAIL;
-    rc_yielding_plan(m, 2, 1e-3);
+    rc_yield_plan(m, 2, 1e-3);
     if (rc_model_run(m, &to, err) == RC_FAIL || rc_model_keep(m, err) != RC_OK)
         goto done;
     rc_point_set(&to, RC_LOAD, 1e-3);
     if (rc_model_go(m, &to, err) != RC_MORE)
         goto done;
-    while (!rc_yielding_strain(m, 0, strain))
+    while (!rc_yield_strain(m, 0, strain))
         if (rc_model_step(m, err) != RC_MORE)
             goto done;
     n = rc_model_state_size(m);
@@ -712,7 +712,7 @@ may_yield(double *out, struct rc_err *err)
         goto done;
     }
     rc_model_state(m, state);
-    if ((other = rc_yielding_new(&shape, rough, &problem, err)) == NULL ||
+    if ((other = rc_yield_new(&shape, rough, &problem, err)) == NULL ||
         rc_model_restore(other, state, n, &going, err) != RC_OK)
         goto done;
     while ((status = rc_model_step(other, err)) == RC_MORE)
@@ -722,8 +722,8 @@ may_yield(double *out, struct rc_err *err)
         goto done;
     }
     memcpy(out, rc_solver_pressure(rc_model_solver(other)), N * sizeof *out);
-    out[N] = (double)rc_yielding_result(other)->slabs;
-    out[N + 1] = rc_yield_stress(&problem.yield, 0);
+    out[N] = (double)rc_yield_result(other)->slabs;
+    out[N + 1] = rc_yield_law_stress(&problem.law, 0);
     status = RC_OK;
 done:
     free(state);
@@ -874,8 +874,8 @@ slide_model(double *out, struct rc_err *err)
 {
     const struct rc_problem contact = {.boundary = RC_PERIODIC, .tol = 1e-3, .threads = 1};
     struct rc_relaxation *r = rc_relaxation_new(1e9, 1, (double[]){4e9}, (double[]){1e-3}, err);
-    const struct rc_slide_problem law = {.material = r};
-    struct rc_model *m = r == NULL ? NULL : rc_slide_new(&shape, rough, &contact, &law, err);
+    const struct rc_sliding_problem law = {.material = r};
+    struct rc_model *m = r == NULL ? NULL : rc_sliding_new(&shape, rough, &contact, &law, err);
     struct rc_model *other = NULL;
     enum rc_status status = RC_FAIL;
     struct rc_expected expected;
@@ -895,7 +895,7 @@ slide_model(double *out, struct rc_err *err)
         goto done;
     }
     rc_model_state(m, state);
-    other = rc_slide_new(&shape, rough, &contact, &law, err);
+    other = rc_sliding_new(&shape, rough, &contact, &law, err);
     if (other == NULL || rc_model_restore(other, state, n, &going, err) != RC_OK)
         goto done;
     while ((status = rc_model_step(other, err)) == RC_MORE)
@@ -904,7 +904,7 @@ slide_model(double *out, struct rc_err *err)
         rc_model_frame(other, "pressure", out, err) != RC_OK)
         status = RC_FAIL;
     else
-        out[N] = rc_slide_result(other)->friction;
+        out[N] = rc_sliding_result(other)->friction;
 done:
     free(state);
     rc_model_free(m);
@@ -1123,15 +1123,15 @@ static const struct {
     {.name = "contact, coated", .use = coated_contact},
     {.name = "contact, free to tilt", .use = free_to_tilt},
     {.name = "the elastic model", .use = elastic_model},
-    {.name = "the yielding model", .use = yielding_model},
+    {.name = "the model of yield", .use = yield_model},
     {.name = "the friction model", .use = friction_model},
     {.name = "rolling", .use = rolling_model},
     {.name = "rolling along a path", .use = rolling_path},
     {.name = "the wear model", .use = wear_model},
-    {.name = "the model of rubbing", .use = rubbing_model},
+    {.name = "the model of wear of two bodies", .use = wear_two_bodies_model},
     {.name = "the travel model", .use = travel_model},
     {.name = "plasticity after elasticity", .use = may_yield},
-    {.name = "the adhesive model", .use = adhesive_model},
+    {.name = "the model of adhesion", .use = adhesion_model},
     {.name = "leakage", .use = leaks},
     {.name = "stress", .use = free_stress},
     {.name = "stress, periodic", .use = periodic_stress},

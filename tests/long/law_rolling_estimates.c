@@ -8,8 +8,8 @@
 #include <cmocka.h>
 #include <math.h>
 
-#include "tests/slip/rolling_case.h"
-#include "tests/slip/slip_case.h"
+#include "tests/rolling/rolling_case.h"
+#include "tests/friction/slip_case.h"
 
 enum {
     TOLS = 3
@@ -53,7 +53,7 @@ random_case(void)
 
     r.shape = ellipse_shape(n, a, cells);
     r.law = (struct rc_rolling_problem){
-        .slip = {
+        .law = {
             .pair.estar = e, .nu = between(0, 0.5), .mu = ratio_between(0.01, 2), .threads = 1}};
     r.p = hertz_ellipse(&r.shape, a, cells, p0);
     for (size_t k = 0; k < n * n; k++) {
@@ -85,8 +85,8 @@ random_case(void)
         free(h);
     }
     if (r.kind == 4)
-        r.law.slip.tau_max = between(0.3, 0.8) * r.law.slip.mu * p0;
-    scale = part * r.law.slip.mu * p0 / e;
+        r.law.law.tau_max = between(0.3, 0.8) * r.law.law.mu * p0;
+    scale = part * r.law.law.mu * p0 / e;
     r.load = rolling_load(&r.shape, r.p);
     r.x = scale * cos(turn);
     r.y = scale * sin(turn);
@@ -102,7 +102,7 @@ solved(const struct rolls *r, double tol, double *q, enum rc_status *status)
     struct rc_rolling_figures f;
     const size_t n = r->shape.nx * r->shape.ny;
 
-    law.slip.tol = tol;
+    law.law.tol = tol;
     m = rolling_new(&r->shape, r->p, law, &err);
     if (m == NULL || (*status = roll(m, r->load, r->x, r->y, r->spin, false, &err)) == RC_FAIL)
         fail_msg("%s", err.text);

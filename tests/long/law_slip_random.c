@@ -8,9 +8,9 @@
 #include <cmocka.h>
 #include <stdio.h>
 
-#include "libcontact/slip/slip.h"
-#include "tests/slip/dense.h"
-#include "tests/slip/slip_case.h"
+#include "libcontact/friction/friction.h"
+#include "tests/friction/dense.h"
+#include "tests/friction/slip_case.h"
 
 enum {
     PROBLEMS = 150,
@@ -88,12 +88,13 @@ struct tally {
 
 /* Relative L1 distance, in the norm of the estimate. */
 static double
-distance_to(const struct rc_slip *slip, size_t n, const double *truth)
+distance_to(const struct rc_friction_solver *slip, size_t n, const double *truth)
 {
     double far = 0, size = 0;
 
     for (size_t k = 0; k < n; k++) {
-        const double x = rc_slip_traction(slip, 0)[k], y = rc_slip_traction(slip, 1)[k];
+        const double x = rc_friction_solver_traction(slip, 0)[k],
+                     y = rc_friction_solver_traction(slip, 1)[k];
         far += hypot(x - truth[k], y - truth[n + k]);
         size += hypot(x, y);
     }
@@ -102,15 +103,16 @@ distance_to(const struct rc_slip *slip, size_t n, const double *truth)
 
 /* Steps to the end. Compares the estimate of each step with the error, down to the error of the truth. */
 static void
-solve(struct rc_slip *slip, size_t n, const double *truth, const char *what, struct tally *t)
+solve(struct rc_friction_solver *slip, size_t n, const double *truth, const char *what,
+      struct tally *t)
 {
-    struct rc_slip_figures f;
+    struct rc_friction_increment f;
     enum rc_status status = RC_MORE;
     double error = 0;
 
     for (size_t step = 0; status == RC_MORE; step++) {
-        status = rc_slip_step(slip, NULL);
-        rc_slip_result(slip, &f);
+        status = rc_friction_solver_step(slip, NULL);
+        rc_friction_solver_result(slip, &f);
         error = distance_to(slip, n, truth);
         if (step == 0 || !(error > noise_of_truth))
             continue;
@@ -150,9 +152,9 @@ increments(uint64_t seed, bool periodic, bool moved, size_t n, struct tally *t)
 {
     static struct dense d;
     struct random r = random_problem(seed, periodic);
-    const struct rc_slip_problem what = {
+    const struct rc_friction_law what = {
         .boundary = r.boundary, .pair.estar = 1, .nu = r.nu, .mu = 0.3, .tol = tight, .threads = 1};
-    struct rc_slip *slip = rc_slip_new(&r.shape, &what, NULL);
+    struct rc_friction_solver *slip = rc_friction_solver_new(&r.shape, &what, NULL);
     double q[2 * DENSE_MOST] = {0}, delta[2] = {0, 0}, origin[2 * DENSE_MOST] = {0};
     const double far = pow(10, draw(&r, -2, 1));
 
@@ -170,15 +172,16 @@ increments(uint64_t seed, bool periodic, bool moved, size_t n, struct tally *t)
         memcpy(d.w, origin, sizeof origin);
         load[0] = part * limit * cos(angle);
         load[1] = part * limit * sin(angle);
-        assert_int_equal(rc_slip_set_pressure(slip, p, NULL, NULL), RC_OK);
+        assert_int_equal(rc_friction_solver_set_pressure(slip, p, NULL, NULL), RC_OK);
         if (moved) {
             delta[0] += far * draw(&r, -0.5, 0.5);
             delta[1] += far * draw(&r, -0.5, 0.5);
             relax(&d, delta, q);
-            assert_int_equal(rc_slip_set_displacement(slip, delta[0], delta[1], NULL), RC_OK);
+            assert_int_equal(rc_friction_solver_set_displacement(slip, delta[0], delta[1], NULL),
+                             RC_OK);
         } else {
             off = carry(&d, load, delta, q);
-            assert_int_equal(rc_slip_set_force(slip, load[0], load[1], NULL), RC_OK);
+            assert_int_equal(rc_friction_solver_set_force(slip, load[0], load[1], NULL), RC_OK);
         }
         snprintf(name, sizeof name, "seed %d, %zu x %zu, dx/dy %.3g, %s, nu %.2f", (int)seed,
                  r.shape.nx, r.shape.ny, r.shape.dx / r.shape.dy, periodic ? "periodic" : "free",
@@ -189,10 +192,10 @@ increments(uint64_t seed, bool periodic, bool moved, size_t n, struct tally *t)
             break;
         }
         solve(slip, r.n, q, name, t);
-        rc_slip_keep(slip);
+        rc_friction_solver_keep(slip);
         keep_dense(&d, delta, q, origin);
     }
-    rc_slip_free(slip);
+    rc_friction_solver_free(slip);
 }
 
 static void

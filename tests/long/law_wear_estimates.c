@@ -136,7 +136,7 @@ model(const struct random_run *r, double tol, double contacts)
                                         .tol = tol,
                                         .part = r->part,
                                         .track = r->track,
-                                        .sliding = r->h2 != NULL,
+                                        .two_bodies = r->h2 != NULL,
                                         .h2 = r->h2};
     struct rc_err err = {""};
     struct rc_model *m =

@@ -33,14 +33,14 @@ static struct rc_model *
 yielding(struct rc_err *err)
 {
     static const double slabs[] = {.5e-6, .6e-6, .8e-6, 1e-6, 1.3e-6, 1.6e-6};
-    static const struct rc_plastic_problem o = {
+    static const struct rc_yield_problem o = {
         .contact = {.pair.one = {0.91e9, 0.3}, .tol = 0.1, .threads = 1},
-        .yield = {.stress = 2e7, .modulus = 1e8},
+        .law = {.stress = 2e7, .modulus = 1e8},
         .slabs = 6,
         .thickness = slabs,
         .increments = 8};
 
-    return rc_yielding_new(&shape, heights, &o, err);
+    return rc_yield_new(&shape, heights, &o, err);
 }
 
 static struct rc_problem problem = {
@@ -60,7 +60,7 @@ static struct rc_model *
 friction(struct rc_err *err)
 {
     static const struct rc_friction_problem law = {
-        .slip = {.pair.estar = 1e9, .nu = 0.3, .mu = 0.3, .tol = 1e-9, .threads = 1},
+        .law = {.pair.estar = 1e9, .nu = 0.3, .mu = 0.3, .tol = 1e-9, .threads = 1},
         .increments = 2,
         .fewer = 1};
 
@@ -74,11 +74,11 @@ coupled(struct rc_err *err)
 {
     static const struct rc_problem contact = {
         .pair.one = {1e9, 0.4}, .pair.two.e = INFINITY, .tol = 1e-10, .threads = 1};
-    struct rc_friction_problem law = {.slip = {.pair.one = {1e9, 0.4},
-                                               .pair.two.e = INFINITY,
-                                               .mu = 0.3,
-                                               .tol = 1e-8,
-                                               .threads = 1},
+    struct rc_friction_problem law = {.law = {.pair.one = {1e9, 0.4},
+                                              .pair.two.e = INFINITY,
+                                              .mu = 0.3,
+                                              .tol = 1e-8,
+                                              .threads = 1},
                                       .increments = 2,
                                       .fewer = 1};
 
@@ -95,7 +95,7 @@ roller(bool path, struct rc_err *err)
     static const struct rc_problem contact = {
         .pair.estar = 1e9, .hardness = 4e7, .tol = 1e-9, .history_part = 0.05, .threads = 1};
     const struct rc_rolling_problem law = {
-        .slip = {.pair.estar = 1e9, .nu = 0.3, .mu = 0.3, .tol = 1e-8, .threads = 1}, .path = path};
+        .law = {.pair.estar = 1e9, .nu = 0.3, .mu = 0.3, .tol = 1e-8, .threads = 1}, .path = path};
     static double ball[N];
 
     for (size_t k = 0; k < N; k++) {
@@ -127,7 +127,7 @@ dented(struct rc_err *err)
     attraction.contact.hardness = 1e8;
     attraction.contact.tol = 1e-6;
     attraction.work = 0.02;
-    return rc_adhesive_new(&shape, heights, &attraction, err);
+    return rc_adhesion_new(&shape, heights, &attraction, err);
 }
 
 /* And bodies that are drawn apart in the end. */
@@ -137,7 +137,7 @@ retracted(struct rc_err *err)
     attraction.contact.hardness = 0;
     attraction.contact.tol = 1e-5;
     attraction.work = 0.3;
-    return rc_adhesive_new(&shape, heights, &attraction, err);
+    return rc_adhesion_new(&shape, heights, &attraction, err);
 }
 
 /* Both bodies wear, at first on a shape that is dented. */
@@ -153,12 +153,12 @@ wearing(struct rc_err *err)
 
 /* A smooth body 2 slides over a rough one that wears. */
 static struct rc_model *
-rubbing(struct rc_err *err)
+two_bodies(struct rc_err *err)
 {
     static const struct rc_problem contact = {
         .boundary = RC_PERIODIC, .pair.estar = 1e9, .tol = 1e-9, .threads = 1};
     static const struct rc_wear_problem law = {
-        .k = {1e-15, 0}, .estar = 1e9, .tol = 0.3, .sliding = true};
+        .k = {1e-15, 0}, .estar = 1e9, .tol = 0.3, .two_bodies = true};
 
     return rc_wear_new(rc_elastic_new(&shape, heights, &contact, NULL, err), heights, &law, err);
 }
@@ -189,12 +189,12 @@ sliding(struct rc_err *err)
 {
     static struct rc_relaxation *material;
     const struct rc_problem contact = {.boundary = RC_PERIODIC, .tol = 1e-9, .threads = 1};
-    struct rc_slide_problem law = {.along_y = true};
+    struct rc_sliding_problem law = {.along_y = true};
 
     if (material == NULL)
         material = rc_relaxation_new(1e8, 1, (double[]){9e8}, (double[]){1e-3}, err);
     law.material = material;
-    return rc_slide_new(&shape, heights, &contact, &law, err);
+    return rc_sliding_new(&shape, heights, &contact, &law, err);
 }
 
 /* Terms of three kinds: one follows at once, one takes time, and one flows. */
@@ -235,16 +235,16 @@ static const struct kind {
     bool exact; /* the bits are the same after it */
 } kinds[] = {
     {"elastic", elastic, {RC_LOAD}, {{2e-3}, {0}, {3e-3}}, 1e-6, false},
-    {"yielding", yielding, {RC_LOAD}, {{2e-3}, {0}, {3e-3}}, 1e-3, false},
+    {"yield", yielding, {RC_LOAD}, {{2e-3}, {0}, {3e-3}}, 1e-3, false},
     {"friction",
      friction,
-     {RC_LOAD, RC_FORCE_X, RC_FORCE_Y},
+     {RC_LOAD, RC_TANGENTIAL_X, RC_TANGENTIAL_Y},
      {{2e-3, 4e-4, 1e-4}, {1e-3, -1e-4, 1e-4}, {3e-3, 1e-4, 5e-4}},
      1e-6,
      true},
     {"friction",
      coupled,
-     {RC_LOAD, RC_SHIFT_X, RC_SHIFT_Y},
+     {RC_LOAD, RC_DISPLACEMENT_X, RC_DISPLACEMENT_Y},
      {{2e-3, 1e-8, 2e-9}, {1e-3, -1e-8, 5e-9}, {3e-3, 1e-9, 2e-8}},
      1e-6,
      false},
@@ -260,11 +260,11 @@ static const struct kind {
      {{2e-3, 2e-3, 0, 0}, {1e-3, -4e-3, 5e-4, 5e-7}, {3e-3, 1e-2, 5e-3, 1e-6}},
      1e-6,
      true},
-    {"adhesive", dented, {RC_LOAD}, {{4e-3}, {1e-3}, {3e-3}}, 1e-5, false},
-    {"adhesive", retracted, {RC_APPROACH}, {{2e-8}, {0}, {-INFINITY}}, 1e-4, false},
+    {"adhesion", dented, {RC_LOAD}, {{4e-3}, {1e-3}, {3e-3}}, 1e-5, false},
+    {"adhesion", retracted, {RC_APPROACH}, {{2e-8}, {0}, {-INFINITY}}, 1e-4, false},
     {"wear", wearing, {RC_LOAD, RC_DISTANCE}, {{2e-3, 0}, {1e-3, 2e-3}, {2e-3, 9e-3}}, 1e-5, true},
-    {"rubbing",
-     rubbing,
+    {"wear_two_bodies",
+     two_bodies,
      {RC_LOAD, RC_DISTANCE},
      {{2e-3, 0}, {1e-3, 2e-3}, {2e-3, 9e-3}},
      1e-5,

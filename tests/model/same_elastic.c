@@ -9,7 +9,7 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "libcontact/plastic/plastic.h"
+#include "libcontact/yield/yield.h"
 
 enum {
     NX = 40,
@@ -164,36 +164,36 @@ all(void **state)
 static void
 yielding(void **state)
 {
-    struct rc_plastic_problem problem = {
+    struct rc_yield_problem problem = {
         .contact = {.pair.one = {0.91e9, 0.3}, .tol = 0.05, .threads = 1},
-        .yield = {.stress = 2e7, .modulus = 1e8},
+        .law = {.stress = 2e7, .modulus = 1e8},
         .increments = 8};
     const double loads[] = {1e-6, 3e-3, 0, 2e-3};
     struct rc_err err = {""};
-    struct rc_model *m = rc_yielding_new(&shape, h, &problem, &err);
-    const struct rc_yielding_figures *found = rc_yielding_result(m);
-    struct rc_plastic *plastic = NULL;
+    struct rc_model *m = rc_yield_new(&shape, h, &problem, &err);
+    const struct rc_yield_figures *found = rc_yield_result(m);
+    struct rc_yield_solver *plastic = NULL;
 
     (void)state;
     for (int k = 0; k < 4; k++) {
-        double *const e[RC_PLASTIC_STRAINS] = {[RC_PEEQ] = p};
+        double *const e[RC_YIELD_STRAINS] = {[RC_PEEQ] = p};
         struct rc_point to = {0};
         rc_point_set(&to, RC_LOAD, loads[k]);
         assert_int_equal(rc_model_run(m, &to, &err), RC_OK);
         assert_int_equal(rc_model_look(m, NULL, &err), RC_OK);
         assert_int_equal(found->yielded, k > 0); /* the first load is too small */
-        assert_int_equal(rc_yielding_strain(m, 0, e), k > 0);
+        assert_int_equal(rc_yield_strain(m, 0, e), k > 0);
         assert_true(k > 0 || rc_model_number(m, "plastic_volume") == 0);
         if (k == 1) { /* the settings that the model chose */
             problem.slabs = found->slabs;
             problem.thickness = found->thickness;
             problem.contact.tol = 1e-4;
             problem.lag = 0.02;
-            assert_non_null(plastic = rc_plastic_new(&shape, h, &problem, &err));
+            assert_non_null(plastic = rc_yield_solver_new(&shape, h, &problem, &err));
         }
         if (k > 0) {
-            assert_int_equal(rc_plastic_set_load(plastic, loads[k], &err), RC_OK);
-            while (rc_plastic_step(plastic, &err) == RC_MORE)
+            assert_int_equal(rc_yield_solver_set_load(plastic, loads[k], &err), RC_OK);
+            while (rc_yield_solver_step(plastic, &err) == RC_MORE)
                 ;
             assert_true(rc_model_number(m, "plastic_volume") == plastic->figures.volume);
             assert_int_equal(rc_model_frame(m, "residual", p, &err), RC_OK);
@@ -205,9 +205,9 @@ yielding(void **state)
         }
         assert_int_equal(rc_model_keep(m, &err), RC_OK);
     }
-    assert_true(found->plastic.work > 0 && rc_elastic_result(m) == NULL);
+    assert_true(found->last.work > 0 && rc_elastic_result(m) == NULL);
     assert_int_equal(rc_model_set_heights(m, h, &err), RC_OK);
-    rc_plastic_free(plastic);
+    rc_yield_solver_free(plastic);
     rc_model_free(m);
 }
 

@@ -17,11 +17,11 @@ strip() { # NODES DX DY CURVATURE MIDDLE: writes the heights of a cylinder
 steel="--E1 209.92GPa --nu1 0.28 --E2 209.92GPa --nu2 0.28"
 strip 55 4e-5 0.2 1 26.25 | rc-solve --quiet --load 35780N --tol 1e-9 $steel -o carter.rcg
 rc-slip --mu 0.3 --creep 2.4e-4,0 --steady --tol 1e-7 --quiet --report carter.tsv -o rolled.rcg carter.rcg
-near "$(number "$(column force_x carter.tsv) / $(column limit carter.tsv)")" 0.6480 1e-4 "Carter's cylinder has the force of CONTACT"
+near "$(number "$(column tangential_x carter.tsv) / $(column limit carter.tsv)")" 0.6480 1e-4 "Carter's cylinder has the force of CONTACT"
 near "$(paste -d ' ' <(values rolled.rcg traction-x | tr ',' '\n') <(values rolled.rcg slip-x | tr ',' '\n') | awk '{ w -= $1 * $2 * 30 * 4e-5 * 0.2 } END { printf "%.12g", w }')" \
     47.62 1e-4 "  and its friction power, of the tractions at the end of a step"
 claim "  and its nodes that stick and slip" test "$(column stick_nodes carter.tsv) $(column slip_nodes carter.tsv)" = "30 20"
-near "$(column power carter.tsv)" "$(number "2.4e-4 * $(column force_x carter.tsv)")" 1e-9 "power is force times creepage"
+near "$(column power carter.tsv)" "$(number "2.4e-4 * $(column tangential_x carter.tsv)")" 1e-9 "power is force times creepage"
 near "$(column power_slip carter.tsv)" "$(column power carter.tsv)" 1e-9 "  which friction dissipates, without a loss by the grid"
 
 # ---- bentall: aluminium on steel; rolls freely, driven and braked ----
@@ -44,15 +44,15 @@ ball 64 10um ball.rcg
 rc-slip --mu 100 --creep 1e-5,2e-5,0.03 --steady --quiet --report small.tsv -o x.rcg ball.rcg
 # C11 4.12, C22 3.67, C23 1.47 at nu = 0.25; a^3 = 3 P R/(4 E*), G = 84 GPa
 kalker() { awk "BEGIN { a = (3 * 240 * 7.5e-3 / (4 * 112e9)) ^ (1 / 3); print 84e9 * a ^ 2 * ($1) }"; }
-near "$(column extrapolated_force_x small.tsv)" "$(kalker '4.12 * 1e-5')" 2e-2 "small creepages give the force of Kalker's linear theory along x"
-near "$(column extrapolated_force_y small.tsv)" "$(kalker '3.67 * 2e-5 + 1.47 * a * 0.03')" 2e-2 "  and with spin along y"
-near "$(column kalker_force_y small.tsv)" "$(kalker '3.67 * 2e-5 + 1.47 * a * 0.03')" 2e-2 "  which the report has beside it"
+near "$(column extrapolated_tangential_x small.tsv)" "$(kalker '4.12 * 1e-5')" 2e-2 "small creepages give the force of Kalker's linear theory along x"
+near "$(column extrapolated_tangential_y small.tsv)" "$(kalker '3.67 * 2e-5 + 1.47 * a * 0.03')" 2e-2 "  and with spin along y"
+near "$(column kalker_tangential_y small.tsv)" "$(kalker '3.67 * 2e-5 + 1.47 * a * 0.03')" 2e-2 "  which the report has beside it"
 rc-slip --mu 0.3 --creep 1e-3,-5e-4,2 --steady --tol 1e-6 --report both.tsv -o both.rcg ball.rcg
-for c in x:traction-x:force_x y:traction-y:force_y; do
+for c in x:traction-x:tangential_x y:traction-y:tangential_y; do
     field=${c#*:}
     near "$(values both.rcg "${field%:*}" | tr ',' '\n' | awk '{ f += $1 * 1e-10 } END { printf "%.12g", f }')" "$(column "${field#*:}" both.tsv)" 1e-9 "the tractions along ${c%%:*} add up to the force"
 done
-near "$(number "1e-3 * $(column force_x both.tsv) - 5e-4 * $(column force_y both.tsv) + 2 * $(column moment both.tsv)")" \
+near "$(number "1e-3 * $(column tangential_x both.tsv) - 5e-4 * $(column tangential_y both.tsv) + 2 * $(column moment both.tsv)")" \
     "$(column power both.tsv)" 1e-9 "power is force times creepage plus moment times spin"
 paste -d ' ' <(values both.rcg pressure | tr ',' '\n') <(values both.rcg traction-x | tr ',' '\n') <(values both.rcg traction-y | tr ',' '\n') \
     <(values both.rcg slip-x | tr ',' '\n') <(values both.rcg slip-y | tr ',' '\n') >five.txt
@@ -61,9 +61,9 @@ claim "tractions are at most mu p, and slip is opposite to them and 0 below this
     { if (NF != 5) exit bad = 1; q = sqrt($2 ^ 2 + $3 ^ 2); s = sqrt($4 ^ 2 + $5 ^ 2); if (q > 0.3 * $1 * (1 + 1e-9)) exit bad = 1
       if (q < 0.3 * $1 * (1 - 1e-6) && s != 0) exit bad = 1; if (s > 0) { n++; if ($2 * $4 + $3 * $5 > 0) exit bad = 1 } }
     END { exit bad || NR != 4096 || n < 100 }' five.txt
-rc-slip --mu 0.3 --creep-force "$(column force_x both.tsv),$(column force_y both.tsv)" --steady --tol 1e-6 --report back.tsv -o back.rcg ball.rcg
+rc-slip --mu 0.3 --creep-force "$(column tangential_x both.tsv),$(column tangential_y both.tsv)" --steady --tol 1e-6 --report back.tsv -o back.rcg ball.rcg
 rc-slip --mu 0.3 --creep "$(column creep_x back.tsv),$(column creep_y back.tsv)" --steady --tol 1e-6 --report again.tsv -o again.rcg ball.rcg
-near "$(column force_x again.tsv)" "$(column force_x both.tsv)" 1e-4 "the creepages that a force finds give this force"
+near "$(column tangential_x again.tsv)" "$(column tangential_x both.tsv)" 1e-4 "the creepages that a force finds give this force"
 claim "frames have the creepages and the force" says 'creep_x=0.001.*creep_y=-0.0005.*spin=2.*tangential_x=[0-9.]+' bash -c "rc-info both.rcg | tr '\\n' ' '"
 claim "--dry-run tells the work" says 'steady rolling +about 135 convolutions' rc-slip --mu 0.3 --creep 1e-3,0 --steady --dry-run ball.rcg
 ball 36 20um coarse.rcg
@@ -104,10 +104,10 @@ travel="--radius 7.5mm --load 60N --E1 210GPa --nu1 0.3 --E2 210GPa --nu2 0.3 --
 roll="--mu 0.3 --creep 2e-3,5e-4,3 --tol 1e-4 --quiet"
 rc-solve $travel rough.rcg | rc-slip $roll --report whole.tsv -o x.rcg
 rc-solve $travel --window 50x40 rough.rcg | rc-slip $roll --report window.tsv -o x.rcg
-for f in force_x force_y moment power_slip; do
+for f in tangential_x tangential_y moment power_slip; do
     near "$(column $f window.tsv 13)" "$(column $f whole.tsv 13)" 1e-3 "a ball that travels: $f in a window is that on the whole map"
 done
-claim "  and rolls on from case to case" test "$(number "$(column force_x whole.tsv 13) > 2 * $(column force_x whole.tsv 5)")" = 1
+claim "  and rolls on from case to case" test "$(number "$(column tangential_x whole.tsv 13) > 2 * $(column tangential_x whole.tsv 5)")" = 1
 rc-solve $travel --window 16x40 rough.rcg -o narrow.rcg
 refuses 1 'leading edge of the map' "a window that the contact fills" 'rc-slip --mu 0.3 --creep 1e-3,0 -o x.rcg narrow.rcg'
 
@@ -120,7 +120,7 @@ for start in -6 10; do
     rc-solve --quiet --periodic --radius 0.1mm --load 0.2mN $soft --tol 1e-8 --travel=${start}um:$((start + 7))um:8 round-map.rcg |
         rc-slip --mu 0.3 --creep 1e-3,5e-3,2000 --tol 1e-6 --quiet --report "round$start.tsv" -o x.rcg
 done
-for f in force_x force_y moment kalker_force_y; do
+for f in tangential_x tangential_y moment kalker_tangential_y; do
     near "$(column $f round10.tsv 8)" "$(column $f round-6.tsv 8)" 1e-5 "half a period further on, over the end of the map: $f is the same"
 done
 rc-solve --quiet --periodic --radius 0.1mm --load 60mN $soft --travel=0,1um round-map.rcg -o wide.rcg

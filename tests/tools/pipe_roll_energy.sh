@@ -16,9 +16,9 @@ rc-slip --mu 0.3 --creep 1e-3,-5e-4,20 --steady --report spin.json --output $fra
 
 # ---- the energy ----
 
-near "$(number "1e-10 * $(sum rolled.rcg dissipation)")" "$(number "5e-4 * $(report force_x slip.json)")" 1e-9 "the dissipation adds up to force times creepage"
+near "$(number "1e-10 * $(sum rolled.rcg dissipation)")" "$(number "5e-4 * $(report tangential_x slip.json)")" 1e-9 "the dissipation adds up to force times creepage"
 near "$(number "1e-10 * $(sum spin.rcg dissipation)")" \
-    "$(number "1e-3 * $(report force_x spin.json) - 5e-4 * $(report force_y spin.json) + 20 * $(report moment spin.json)")" 1e-9 "  and moment times spin"
+    "$(number "1e-3 * $(report tangential_x spin.json) - 5e-4 * $(report tangential_y spin.json) + 20 * $(report moment spin.json)")" 1e-9 "  and moment times spin"
 paste -d ' ' <(values rolled.rcg state) <(values rolled.rcg dissipation) <(values rolled.rcg slip) <(values rolled.rcg pressure) >four.txt
 claim "  is 0 where nodes stick, and above 0 where they slip" awk '$1 == 2 ? $2 <= 0 : $2 != 0 { exit bad = 1 } END { exit bad || NR != 2304 }' four.txt
 claim "  and is mu times pressure times slip" awk '{ d = 0.3 * $4 * $3 - $2; if (d * d > 1e-18 * $2 * $2) exit bad = 1 } END { exit bad }' four.txt
@@ -28,7 +28,7 @@ claim "  per length rolled" says '^unit=J/m3$' bash -c "head -c 200 energy.rcg |
 # ---- heat ----
 
 rc-heat --rolling 2m/s $steel --report heat.json -o hot.rcg rolled.rcg
-near "$(report heat_power heat.json)" "$(number "2 * 5e-4 * $(report force_x slip.json)")" 1e-9 "the heat is force times creepage times speed"
+near "$(report heat_power heat.json)" "$(number "2 * 5e-4 * $(report tangential_x slip.json)")" 1e-9 "the heat is force times creepage times speed"
 near "$(number "1e-10 * ($(sum hot.rcg heat-1) + $(sum hot.rcg heat-2))")" "$(report heat_power heat.json)" 1e-9 "  into both bodies together"
 near "$(report speed heat.json)" 1e-3 1e-9 "  at the sliding speed of the creepage"
 near "$(report share_1 heat.json)" 0.5 1e-2 "  half into each of two equal bodies"
@@ -48,7 +48,7 @@ refuses 2 'give one of them' "two sources of heat" "rc-heat --rolling 5m/s --mu 
 
 rc-wear --energy 3e-5mm3/J,1e-5mm3/J --cycles 200 --report wear.json -o worn.rcg rolled.rcg
 length=480e-6
-near "$(report wear_volume wear.json)" "$(number "4e-14 * 200 * $length * 5e-4 * $(report force_x slip.json)")" 1e-9 "passes wear the coefficient times their energy"
+near "$(report wear_volume wear.json)" "$(number "4e-14 * 200 * $length * 5e-4 * $(report tangential_x slip.json)")" 1e-9 "passes wear the coefficient times their energy"
 near "$(number "1e-10 * $(sum worn.rcg wear-1)")" "$(number "0.75 * $(report wear_volume wear.json)")" 1e-9 "  of body 1 three quarters"
 claim "  evenly along the rows, which pass through the contact" bash -c "
     rc-pick --channel wear worn.rcg | rc-export --format csv | grep -v '^#' |

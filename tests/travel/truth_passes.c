@@ -31,11 +31,11 @@ contact(double p0_over_k, size_t nx, size_t ny)
     const struct rc_shape s = {nx, ny, node, node};
     const double p0 = p0_over_k * yield / sqrt(3), estar = e1 / (1 - nu * nu), a = HALF * node;
     const double pi = acos(-1), line_load = pi * a * p0 / 2 * node;
-    const struct rc_plastic_problem problem = {
+    const struct rc_yield_problem problem = {
         .contact = {.boundary = RC_PERIODIC,
                     .pair = {.one = {e1, nu}, .two.e = INFINITY},
                     .threads = 1},
-        .yield = {.stress = yield}};
+        .law = {.stress = yield}};
     const struct rc_travel_problem travel = {.track = s,
                                              .h1 = flat,
                                              .repeats = true,
@@ -44,7 +44,7 @@ contact(double p0_over_k, size_t nx, size_t ny)
     struct line line = {.load = ny == 1 ? line_load : pi * a * a * p0 * 2 / 3, .nx = nx, .ny = ny};
     struct rc_err err = {""};
 
-    line.m = rc_travel_new(rc_yielding_new(&s, flat, &problem, &err), &travel, &err);
+    line.m = rc_travel_new(rc_yield_new(&s, flat, &problem, &err), &travel, &err);
     if (line.m == NULL)
         fail_msg("%s", err.text);
     return line;
@@ -68,7 +68,7 @@ move(struct line *line, double nodes)
     if (rc_model_run(line->m, &to, &err) == RC_FAIL ||
         rc_model_look(line->m, NULL, &err) != RC_OK || rc_model_keep(line->m, &err) != RC_OK)
         fail_msg("position %g: %s", nodes, err.text);
-    work = rc_yielding_result(line->m)->plastic.work;
+    work = rc_yield_result(line->m)->last.work;
     assert_true(work >= line->work * (1 - 1e-12));
     line->work = work;
 }
@@ -78,12 +78,12 @@ move(struct line *line, double nodes)
 static double
 pass(struct line *line, double step, double *mean)
 {
-    double peeq[BALL * BALL], *to[RC_PLASTIC_STRAINS] = {NULL}, most = 0;
+    double peeq[BALL * BALL], *to[RC_YIELD_STRAINS] = {NULL}, most = 0;
 
     for (size_t k = 0; (double)k * step < (double)line->nx - 1e-9; k++)
         move(line, (double)k * step - (double)line->nx / 2);
     to[RC_PEEQ] = peeq;
-    for (size_t q = 0; rc_yielding_strain(line->m, q, to); q++)
+    for (size_t q = 0; rc_yield_strain(line->m, q, to); q++)
         for (size_t j = 0; j < line->ny; j++) {
             double *row = &mean[q * line->ny + j], before = *row;
             *row = 0;
@@ -142,9 +142,9 @@ shakedown_of_a_ball(void **state)
 static void
 strain_of(const struct line *line, size_t slab, double *exx)
 {
-    double *to[RC_PLASTIC_STRAINS] = {exx};
+    double *to[RC_YIELD_STRAINS] = {exx};
 
-    assert_true(rc_yielding_strain(line->m, slab, to));
+    assert_true(rc_yield_strain(line->m, slab, to));
 }
 
 static void
@@ -158,7 +158,7 @@ mirror_image(void **state)
         move(&there, x);
         move(&back, -x);
     }
-    for (size_t q = 0; q < rc_yielding_result(there.m)->slabs; q++) {
+    for (size_t q = 0; q < rc_yield_result(there.m)->slabs; q++) {
         strain_of(&there, q, a);
         strain_of(&back, q, b);
         for (size_t k = 0; k < NX; k++) {
@@ -183,7 +183,7 @@ way(double step, double *p, double *error)
     for (double x = -12; x <= 12 + 1e-9; x += step)
         move(&line, x);
     assert_int_equal(rc_model_frame(line.m, "pressure", p, &err), RC_OK);
-    *error = rc_yielding_result(line.m)->plastic.error;
+    *error = rc_yield_result(line.m)->last.error;
     rc_model_free(line.m);
 }
 

@@ -574,7 +574,7 @@ waves_of_each_body_decay(void **state)
     m = pair_that_slides(
         &s, h[0],
         (struct rc_wear_problem){
-            .k = {k_wear / 4, 3 * k_wear / 4}, .tol = 0.05, .sliding = true, .h2 = h[1]});
+            .k = {k_wear / 4, 3 * k_wear / 4}, .tol = 0.05, .two_bodies = true, .h2 = h[1]});
     for (double at = 1; at < 200; at *= 10) {
         const struct rc_wear_figures *f = slide_over(m, mean, at, wear);
         double off = 0, sum = 0;
@@ -600,14 +600,14 @@ a_smooth_body_is_a_track(void **state)
     const struct rc_shape s = {SIDE, SIDE, node, node};
     const struct rc_selfaffine rough = {
         .hurst = 0.8, .rms_slope = 0.1, .short_cut = 8 * node, .seed = 5};
-    struct rc_wear_problem law = {.k = {0, k_wear}, .tol = 0.05, .sliding = true};
+    struct rc_wear_problem law = {.k = {0, k_wear}, .tol = 0.05, .two_bodies = true};
     static double h[N], wear[2][2 * N];
     struct rc_model *m[2];
 
     (void)state;
     assert_int_equal(rc_synth_selfaffine(&s, &rough, h, NULL), RC_OK);
     m[0] = pair_that_slides(&s, h, law);
-    law.sliding = false;
+    law.two_bodies = false;
     law.track = SIDE * node;
     m[1] = pair_that_slides(&s, h, law);
     for (double at = 3; at < 200; at *= 5) {

@@ -35,7 +35,7 @@ static const struct {
     unsigned coarse;
     struct range range;
 } coarser[] = {{8, {2, 2, 1}}, {4, {2, 2, 1}}, {2, {2, 3, 1}}},
-  attracting[] = {{4, {3, 3, 1}}, {2, {3, 4, 1}}, {1, {3, 6, 1}}, {1, {8, 8, 1}}};
+  adhesion[] = {{4, {3, 3, 1}}, {2, {3, 4, 1}}, {1, {3, 6, 1}}, {1, {8, 8, 1}}};
 
 /* The numbers of slabs are half of rc-solve's, as many, and twice as many. */
 static const double stacks[] = {0.5, 1, 2};
@@ -106,7 +106,7 @@ add_elastic(struct cost_case *c, size_t kernels, size_t methods)
 }
 
 static void
-add_yielding(struct cost_case *c)
+add_yield(struct cost_case *c)
 {
     for (size_t k = 0; k < COUNT(stacks) * COUNT(increments); k++) {
         struct cost_trial t = elastic(0, 0);
@@ -120,13 +120,13 @@ add_yielding(struct cost_case *c)
 }
 
 static void
-add_attracting(struct cost_case *c)
+add_adhesion(struct cost_case *c)
 {
     struct cost_trial t = elastic(0, 0);
 
     t.method = "gap";
-    for (size_t k = 0; k < COUNT(attracting); k++)
-        add_range(c, t, attracting[k].coarse, attracting[k].range);
+    for (size_t k = 0; k < COUNT(adhesion); k++)
+        add_range(c, t, adhesion[k].coarse, adhesion[k].range);
 }
 
 static void
@@ -183,9 +183,9 @@ cost_trials(struct cost_case *c, size_t kernels, size_t methods)
     c->reference = c->trial[0];
     c->trials = 0;
     if (c->about & COST_ADHESION)
-        add_attracting(c);
+        add_adhesion(c);
     else if (c->about & COST_YIELD)
-        add_yielding(c);
+        add_yield(c);
     else
         add_elastic(c, kernels, methods);
     c->pressures = c->trials;

@@ -58,7 +58,7 @@ check_steps(struct tool *t, const struct physics *a)
     const char *name = name_of_steps(a);
     bool rises = true;
 
-    for (size_t k = 0; k < steps->n && !a->attracts; k++) {
+    for (size_t k = 0; k < steps->n && !a->adhesion; k++) {
         if (steps->v[k] < 0)
             tool_usage(t, "--%s %s %s: it must be at least 0: a negative %s needs --adhesion", name,
                        rc_number(steps->v[k]),

@@ -20,7 +20,7 @@ struct physics {
     double relaxes;         /* Pa: instantaneous modulus of a viscoelastic body; 0: there is none */
     size_t relaxing_layers; /* layers that have this modulus, instead of body 1                 */
     bool travels;           /* the sphere is not part of the map, but moves over it             */
-    bool attracts;          /* loads and approaches may be negative or 0                        */
+    bool adhesion;          /* loads and approaches may be negative or 0                        */
     bool history;           /* each load acts on the shape that earlier ones left, and may be 0 */
 };
 

@@ -5,10 +5,10 @@
 #ifndef RC_TOOL_PROBLEM_H
 #define RC_TOOL_PROBLEM_H
 
-#include "attracts.h"
+#include "adhesion.h"
 #include "errors.h"
 #include "physics.h"
-#include "relaxes.h"
-#include "yields.h"
+#include "relaxation.h"
+#include "yield.h"
 
 #endif

@@ -111,7 +111,7 @@ set_keys(struct drive *d, const struct rc_model *m, struct rc_grid *g)
 {
     struct slip_run *run = (struct slip_run *)(void *)d;
     const struct slip_state *s = &run->state;
-    const struct rc_slip_figures *f = &s->figures.slip;
+    const struct rc_friction_increment *f = &s->figures.last;
     bool apart = f->stick_nodes + f->slip_nodes == 0;
 
     (void)m;
@@ -145,7 +145,7 @@ find_state(struct slip_run *run, const struct rc_model *m, struct slip_state *s)
     s->corner = &run->corner[run->d.at];
     *f = *rc_friction_result(m);
     f->approach = approach_of(run, s);
-    s->dissipated_total += f->slip.dissipated;
+    s->dissipated_total += f->last.dissipated;
     s->errors = (struct error_parts){.told = true,
                                      .increment = f->increment_error,
                                      .inherited = f->inherited_error,
@@ -175,7 +175,7 @@ static struct rc_model *
 new_model(struct slip_run *run)
 {
     struct rc_friction_problem law = run->law;
-    const double tol = law.slip.tol;
+    const double tol = law.law.tol;
 
     for (size_t j = 0; j < law.fewer && run->alternates; j++)
         law.inner_of_fewer[j] =

@@ -166,8 +166,8 @@ slip_point(const struct slip_corner *c)
     struct rc_point p = {0};
 
     rc_point_set(&p, RC_LOAD, c->load);
-    rc_point_set(&p, c->moved ? RC_SHIFT_X : RC_FORCE_X, c->to[0]);
-    rc_point_set(&p, c->moved ? RC_SHIFT_Y : RC_FORCE_Y, c->to[1]);
+    rc_point_set(&p, c->moved ? RC_DISPLACEMENT_X : RC_TANGENTIAL_X, c->to[0]);
+    rc_point_set(&p, c->moved ? RC_DISPLACEMENT_Y : RC_TANGENTIAL_Y, c->to[1]);
     return p;
 }
 
@@ -188,12 +188,12 @@ slip_law(const struct slip_run *run)
 {
     const struct slip_args *a = run->args;
 
-    return (struct rc_friction_problem){.slip = {.boundary = run->boundary,
-                                                 .pair = run->bodies.pair,
-                                                 .nu = run->bodies.nu,
-                                                 .mu = a->mu,
-                                                 .tau_max = isnan(a->tau_max) ? 0 : a->tau_max,
-                                                 .threads = run->d.t.threads},
+    return (struct rc_friction_problem){.law = {.boundary = run->boundary,
+                                                .pair = run->bodies.pair,
+                                                .nu = run->bodies.nu,
+                                                .mu = a->mu,
+                                                .tau_max = isnan(a->tau_max) ? 0 : a->tau_max,
+                                                .threads = run->d.t.threads},
                                         .coupling = run->coupling,
                                         .increments = run->increments,
                                         .dissipation = a->output >> SLIP_DISSIPATION & 1,
@@ -239,5 +239,5 @@ slip_plan_path(struct slip_run *run)
     run->law = slip_law(run);
     for (size_t k = 0; k < run->corners; k++)
         plan_leg(run, k == 0 ? &start : &run->corner[k - 1], &run->corner[k]);
-    run->law.slip.tol = tolerance(run);
+    run->law.law.tol = tolerance(run);
 }

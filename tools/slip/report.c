@@ -32,10 +32,10 @@ slip_report(struct drive *d, const struct rc_model *m)
     struct report *r = &d->report;
     struct rc_friction_figures f = s->figures;
     const struct figures from[] = {
-        {rc_figures("slip"), &f}, {rc_figures("rolling"), rc_rolling_result(m)}, {NULL, NULL}};
+        {rc_figures("friction"), &f}, {rc_figures("rolling"), rc_rolling_result(m)}, {NULL, NULL}};
 
-    if (f.slip.stick_nodes + f.slip.slip_nodes == 0)
-        f.slip.displacement[0] = f.slip.displacement[1] = NAN;
+    if (f.last.stick_nodes + f.last.slip_nodes == 0)
+        f.last.displacement[0] = f.last.displacement[1] = NAN;
     report_map(r, run->p, run->number);
     report_text(r, "boundary", run->boundary == RC_PERIODIC ? "periodic" : "free");
     report_count(r, "threads", run->d.t.threads, NULL);
@@ -46,10 +46,10 @@ slip_report(struct drive *d, const struct rc_model *m)
     if (run->rolls) {
         report_number(r, "position", run->position, "m");
         report_named(r, from + 1,
-                     "load limit creep_x creep_y spin force_x force_y moment stick_nodes "
+                     "load limit creep_x creep_y spin tangential_x tangential_y moment stick_nodes "
                      "slip_nodes stick_fraction power power_slip extrapolated_creep_x "
-                     "extrapolated_creep_y extrapolated_force_x extrapolated_force_y "
-                     "extrapolated_moment kalker_force_x kalker_force_y steps convolutions "
+                     "extrapolated_creep_y extrapolated_tangential_x extrapolated_tangential_y "
+                     "extrapolated_moment kalker_tangential_x kalker_tangential_y steps convolutions "
                      "traction_error_estimate discretization_error");
         end_row(d, d->status == RC_OK);
         return;
@@ -148,7 +148,7 @@ slip_judge_plan(struct slip_run *run)
 void
 slip_judge(struct slip_run *run, const struct slip_state *s)
 {
-    const struct rc_slip_figures *f = &s->figures.slip;
+    const struct rc_friction_increment *f = &s->figures.last;
     double force = hypot(f->force[0], f->force[1]);
     char where[320];
     const char *frame = tool_where(&run->d.t, run->p);

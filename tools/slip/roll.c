@@ -46,7 +46,7 @@ static struct rc_point
 point_of(const struct slip_run *run)
 {
     const struct numbers *v = forced(run) ? &run->args->creep_force : &run->args->creep;
-    const enum rc_axis x = forced(run) ? RC_FORCE_X : RC_CREEP_X;
+    const enum rc_axis x = forced(run) ? RC_TANGENTIAL_X : RC_CREEP_X;
     struct rc_point to = {0};
 
     rc_point_set(&to, RC_LOAD, run->load);
@@ -113,7 +113,7 @@ new_model(struct slip_run *run)
 {
     const struct rc_problem contact = {
         .boundary = run->boundary, .pair = run->bodies.pair, .threads = run->d.t.threads};
-    const struct rc_rolling_problem law = {.slip = run->law.slip,
+    const struct rc_rolling_problem law = {.law = run->law.law,
                                            .force = forced(run),
                                            .path = !run->args->steady,
                                            .known = &run->known};
@@ -162,8 +162,8 @@ slip_roll(struct slip_run *run)
     to = point_of(run);
     run->coupled = run->bodies.beta != 0 && run->coupling == RC_COUPLING_GOODMAN;
     run->law = slip_law(run);
-    run->law.slip.uncoupled = !run->coupled;
-    run->law.slip.tol = isnan(run->args->tol) ? 0 : run->args->tol;
+    run->law.law.uncoupled = !run->coupled;
+    run->law.law.tol = isnan(run->args->tol) ? 0 : run->args->tol;
     if (run->path == NULL)
         slip_judge_plan(run);
     m = model_of(run);

@@ -36,7 +36,7 @@ adhesion_read(struct run *run)
         tool_usage(&run->d.t, "--output adhesion needs --adhesion");
     if (!a->wanted)
         return;
-    if (attraction_read(&a->law, args->adhesion, &run->d.t.err) != RC_OK)
+    if (adhesion_law_read(&a->law, args->adhesion, &run->d.t.err) != RC_OK)
         tool_usage(&run->d.t, "--adhesion %s: %s", args->adhesion, run->d.t.err.text);
     refuse(run, args->yield != NULL, "--yield",
            "plasticity in the volume supports pressures only, no attraction");
@@ -73,7 +73,7 @@ adhesion_model(struct run *run, const struct rc_grid *g, const struct rc_problem
     struct rc_model *m = NULL;
 
     if (rc_adhesion_check(&shape, &problem, &run->adhering.scales, &run->d.t.err) == RC_OK)
-        m = rc_adhesive_new(&shape, g->v, &problem, &run->d.t.err);
+        m = rc_adhesion_new(&shape, g->v, &problem, &run->d.t.err);
     if (m == NULL)
         tool_refuse(&run->d.t, g, "%s", run->d.t.err.text);
     return m;
@@ -142,7 +142,7 @@ warn_of_jkr(struct run *run, const struct rc_grid *g, const char *where)
 }
 
 static void
-warn_of_state(struct run *run, const char *where, const struct rc_adhesion_figures *f)
+warn_of_state(struct run *run, const char *where, const struct rc_adhesion_state *f)
 {
     const double estar = run->args->physics.surface_estar;
 
@@ -175,7 +175,7 @@ warn_of_state(struct run *run, const char *where, const struct rc_adhesion_figur
 }
 
 static void
-tell(struct run *run, const char *where, const struct rc_adhesion_figures *f, bool pulled)
+tell(struct run *run, const char *where, const struct rc_adhesion_state *f, bool pulled)
 {
     if (pulled)
         tool_note(&run->d.t,
@@ -198,7 +198,7 @@ tell(struct run *run, const char *where, const struct rc_adhesion_figures *f, bo
 void
 adhesion_judge(struct run *run, const struct rc_grid *g, const struct solution *s)
 {
-    const struct rc_adhesion_figures *f = run->adhering.figures;
+    const struct rc_adhesion_state *f = run->adhering.figures;
     char where[512];
 
     solve_where(run, g, where, sizeof where);
@@ -267,7 +267,7 @@ void
 adhesion_report(struct report *r, const struct run *run)
 {
     const struct adhering *a = &run->adhering;
-    const struct rc_adhesion_figures *f = a->figures;
+    const struct rc_adhesion_state *f = a->figures;
     const bool on = f != NULL;
     const struct figures from[] = {{rc_figures("adhesion"), f}, {NULL, NULL}};
 

@@ -70,7 +70,7 @@ set_keys(struct drive *d, const struct rc_model *m, struct rc_grid *g)
 {
     struct run *run = (struct run *)(void *)d;
     const struct rc_contact *c = &run->solution.contact;
-    const struct rc_yield *law = &run->yielding.law;
+    const struct rc_yield_law *law = &run->yielding.law;
     const bool yields = run->yielding.on;
 
     (void)m;
@@ -89,7 +89,7 @@ set_keys(struct drive *d, const struct rc_model *m, struct rc_grid *g)
     tool_set_number(&d->t, g, "approach", c->approach);
     /* slabs: a reader of the stream then expects the frames of plastic strain */
     tool_set_number(&d->t, g, "slabs", yields ? (double)run->yielding.found->slabs : NAN);
-    tool_set_number(&d->t, g, "yield", yields ? rc_yield_stress(law, 0) : NAN);
+    tool_set_number(&d->t, g, "yield", yields ? rc_yield_law_stress(law, 0) : NAN);
     tool_set_number(&d->t, g, "hardening", yields ? yield_law_hardening(law) : NAN);
     adhesion_set_key(run, g, c);
     travel_set_keys(run, g);
@@ -193,14 +193,14 @@ static void
 look_at_model(struct run *run, const struct rc_grid *g, struct rc_model *m, struct solution *s)
 {
     const struct rc_elastic_figures *elastic = rc_elastic_result(m);
-    const struct rc_adhesive_figures *adhesive = rc_adhesive_result(m);
+    const struct rc_adhesion_figures *adhesive = rc_adhesion_result(m);
 
     yield_found(run, m);
-    run->adhering.figures = adhesive != NULL ? &adhesive->adhesion : NULL;
+    run->adhering.figures = adhesive != NULL ? &adhesive->state : NULL;
     s->contact = run->relaxing.wanted ? run->relaxing.found->contact
                  : elastic != NULL    ? elastic->contact
                  : adhesive != NULL   ? adhesive->contact
-                                      : rc_yielding_result(m)->contact;
+                                      : rc_yield_result(m)->contact;
     slide_look(run, m, &s->contact);
     if (adhesive != NULL || (run->sliding.wanted && !run->apart))
         look_at_closed_gap(run, g, m, s);

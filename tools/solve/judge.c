@@ -188,7 +188,7 @@ tell(struct run *run, const char *where, const struct solution *s)
 void
 solve_warn_of_limits(struct run *run, const char *where)
 {
-    const struct rc_adhesion_figures *f = run->adhering.figures;
+    const struct rc_adhesion_state *f = run->adhering.figures;
     const bool holds = f != NULL && f->stable && f->converged && !f->separated;
     const struct drive_advice advice[] = {
         {"edge_load_fraction", NULL}, /* solve_judge has its own warning */

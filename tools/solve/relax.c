@@ -132,9 +132,9 @@ relax_check(struct run *run)
         char *end;
         x->increments = strtoul(args->increments, &end, 10);
         if (*end != '\0' || args->increments[0] == '-' || x->increments < 2 ||
-            x->increments > RC_YIELDING_INCREMENTS)
+            x->increments > RC_YIELD_INCREMENTS)
             tool_usage(&run->d.t, "--increments %s: it must be auto or a number from 2 to %d",
-                       args->increments, RC_YIELDING_INCREMENTS);
+                       args->increments, RC_YIELD_INCREMENTS);
     }
 }
 

@@ -118,14 +118,14 @@ struct rc_model *
 slide_model(struct run *run, const struct rc_problem *problem)
 {
     const struct physics *a = &run->args->physics;
-    const struct rc_slide_problem law = {
+    const struct rc_sliding_problem law = {
         .material = run->sliding.material,
         .compliance = fmax(1 / a->surface_estar - (1 - a->nu1 * a->nu1) / a->e1, 0),
         .along_y = slides_along_y(run),
         .repeats = repeats(run)};
 
     return tool_made(&run->d.t, run->g,
-                     rc_slide_new(rc_shape_of(run->g), run->g->v, problem, &law, &run->d.t.err));
+                     rc_sliding_new(rc_shape_of(run->g), run->g->v, problem, &law, &run->d.t.err));
 }
 
 /* ---- results ---- */
@@ -133,7 +133,7 @@ slide_model(struct run *run, const struct rc_problem *problem)
 void
 slide_look(struct run *run, const struct rc_model *m, struct rc_contact *c)
 {
-    const struct rc_slide_figures *f = run->sliding.found = rc_slide_result(m);
+    const struct rc_sliding_figures *f = run->sliding.found = rc_sliding_result(m);
 
     if (f == NULL)
         return;
@@ -180,7 +180,7 @@ slide_warn(struct run *run, const char *where)
 void
 slide_report(struct report *r, const struct run *run)
 {
-    const struct figures from[] = {{rc_figures("slide"), run->sliding.found}, {NULL, NULL}};
+    const struct figures from[] = {{rc_figures("sliding"), run->sliding.found}, {NULL, NULL}};
 
     report_named(r, from,
                  "speed friction friction_force friction_error_estimate dissipated_power track "

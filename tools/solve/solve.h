@@ -58,13 +58,13 @@ extern const struct opt solve_contact_options[]; /* for a struct solve_args */
 struct yielding {
     bool wanted;
     struct yield_law read;
-    struct rc_yield law;
+    struct rc_yield_law law;
     size_t asked;        /* increments of a load on the command line; 0: auto */
     bool companion;      /* a second run with half of them estimates their error */
     size_t slab_count;   /* slabs on the command line; 0: auto */
     struct numbers list; /* or thicknesses                                                */
     bool on;             /* something has yielded                                       */
-    const struct rc_yielding_figures *found; /* NULL: no load was solved yet */
+    const struct rc_yield_figures *found; /* NULL: no load was solved yet */
     size_t worst; /* the case with the largest error of increments, and its number of increments */
     size_t worst_increments;
     double worst_error;
@@ -73,10 +73,10 @@ struct yielding {
 /* --adhesion: the bodies attract each other. */
 struct adhering {
     bool wanted;
-    struct attraction law;
-    struct rc_adhesion_scales scales;          /* scales of the law on this grid */
-    const struct rc_adhesion_figures *figures; /* figures of the current point; NULL: none */
-    bool pulling;                              /* this case is the pull-off */
+    struct adhesion_law law;
+    struct rc_adhesion_scales scales;        /* scales of the law on this grid */
+    const struct rc_adhesion_state *figures; /* figures of the current point; NULL: none */
+    bool pulling;                            /* this case is the pull-off */
 };
 
 /* --travel: the contact travels over the map. */
@@ -104,7 +104,7 @@ struct relaxing {
 struct sliding {
     bool wanted;
     struct rc_relaxation *material; /* of E/(1 - nu^2) */
-    const struct rc_slide_figures *found;
+    const struct rc_sliding_figures *found;
 };
 
 /* The figures of a solution. */

@@ -196,7 +196,7 @@ find_gain(struct run *run, const struct rc_model *m)
     struct travelling *w = &run->travelling;
     const struct rc_grid *g = run->g;
     const size_t rows = run->yielding.found->slabs * g->ny;
-    double *to[RC_PLASTIC_STRAINS] = {NULL}, *peeq, *row;
+    double *to[RC_YIELD_STRAINS] = {NULL}, *peeq, *row;
 
     w->gain = 0;
     if (!run->yielding.on)
@@ -206,7 +206,7 @@ find_gain(struct run *run, const struct rc_model *m)
     to[RC_PEEQ] = peeq;
     for (size_t q = 0; q < rows; q++) {
         if (q % g->ny == 0)
-            (void)rc_yielding_strain(m, q / g->ny, to);
+            (void)rc_yield_strain(m, q / g->ny, to);
         for (size_t i = 0; i < g->nx; i++)
             row[q] += peeq[q % g->ny * g->nx + i] / (double)g->nx;
         w->gain = fmax(w->gain, row[q] - (w->rows > 0 ? w->row[q] : 0));

@@ -30,13 +30,13 @@ read_count(struct run *run, const char *name, const char *text, size_t *count,
     if (text == NULL || strcmp(text, "auto") == 0)
         return;
     n = strtoul(text, &end, 10);
-    if (end != text && *end == '\0' && n > 0 && n <= RC_YIELDING_INCREMENTS && text[0] != '-') {
+    if (end != text && *end == '\0' && n > 0 && n <= RC_YIELD_INCREMENTS && text[0] != '-') {
         *count = n;
         return;
     }
     if (lengths == NULL || (end != text && *end == '\0'))
         tool_usage(&run->d.t, "--%s %s: it must be auto%s or a number from 1 to %d", name, text,
-                   lengths == NULL ? "" : ", a list of thicknesses", RC_YIELDING_INCREMENTS);
+                   lengths == NULL ? "" : ", a list of thicknesses", RC_YIELD_INCREMENTS);
     if (unit_numbers(text, UNIT_M, lengths, &run->d.t.err) != RC_OK)
         tool_usage(&run->d.t, "--%s %s: %s", name, text, run->d.t.err.text);
     for (size_t k = 0; k < lengths->n; k++)
@@ -132,14 +132,14 @@ struct rc_model *
 yield_model(struct run *run, const struct rc_grid *g, const struct rc_problem *contact)
 {
     struct yielding *y = &run->yielding;
-    const struct rc_plastic_problem problem = {.contact = *contact,
-                                               .yield = y->law,
-                                               .slabs = y->list.n > 0 ? y->list.n : y->slab_count,
-                                               .thickness = y->list.n > 0 ? y->list.v : NULL,
-                                               .increments = y->asked,
-                                               .companion = y->companion};
+    const struct rc_yield_problem problem = {.contact = *contact,
+                                             .law = y->law,
+                                             .slabs = y->list.n > 0 ? y->list.n : y->slab_count,
+                                             .thickness = y->list.n > 0 ? y->list.v : NULL,
+                                             .increments = y->asked,
+                                             .companion = y->companion};
 
-    return tool_made(&run->d.t, g, rc_yielding_new(rc_shape_of(g), g->v, &problem, &run->d.t.err));
+    return tool_made(&run->d.t, g, rc_yield_new(rc_shape_of(g), g->v, &problem, &run->d.t.err));
 }
 
 void
@@ -153,7 +153,7 @@ yield_plan(struct run *run, struct rc_model *m, double load)
     for (size_t k = run->step; k < run->steps->n; k++)
         most = fmax(most, v[k]);
     if (!run->yielding.on && load > 0)
-        rc_yielding_plan(m, run->steps->n - run->step, deeper * most * load / v[run->step]);
+        rc_yield_plan(m, run->steps->n - run->step, deeper * most * load / v[run->step]);
 }
 
 double
@@ -188,7 +188,7 @@ yield_found(struct run *run, const struct rc_model *m)
 {
     struct yielding *y = &run->yielding;
 
-    y->found = rc_yielding_result(m);
+    y->found = rc_yield_result(m);
     y->on = y->found != NULL && y->found->yielded;
 }
 
@@ -208,7 +208,7 @@ void
 yield_look(struct run *run, struct solution *s)
 {
     struct yielding *y = &run->yielding;
-    const struct rc_plastic_figures *f;
+    const struct rc_yield_load *f;
     struct rc_contact *c = &s->contact;
 
     if (is_unknown(run)) { /* the error of the elastic contact is then no estimate */
@@ -217,7 +217,7 @@ yield_look(struct run *run, struct solution *s)
     }
     if (!y->on)
         return;
-    f = &y->found->plastic;
+    f = &y->found->last;
     c->convolutions = NAN; /* nearly all of the work is in the volume */
     s->errors = (struct error_parts){
         true,          f->increment_error, f->inherited_error, f->iteration_error, f->contact_error,
@@ -243,11 +243,11 @@ yield_peak(const struct run *run, double max_pressure, const char **name)
         10; /* with hardening below so many times the yield stress, nodes alternate */
     const struct yielding *y = &run->yielding;
     const bool alternates =
-        y->on && yield_law_hardening(&y->law) < soft * rc_yield_stress(&y->law, 0);
+        y->on && yield_law_hardening(&y->law) < soft * rc_yield_law_stress(&y->law, 0);
 
     if (name != NULL)
         *name = alternates ? "largest pressure over 2 x 2 nodes" : "largest pressure";
-    return alternates ? y->found->plastic.max_pressure_mean4 : max_pressure;
+    return alternates ? y->found->last.max_pressure_mean4 : max_pressure;
 }
 
 /* ---- strain ---- */
@@ -256,17 +256,16 @@ static void
 put_slab(struct run *run, const struct rc_model *m, struct rc_grid *frame, size_t slab,
          double depth, double *buffer)
 {
-    static const char *const names[RC_PLASTIC_STRAINS] = {"exx", "eyy", "exy",
-                                                          "exz", "eyz", "peeq"};
+    static const char *const names[RC_YIELD_STRAINS] = {"exx", "eyy", "exy", "exz", "eyz", "peeq"};
     const struct yielding *y = &run->yielding;
 
     tool_set_number(&run->d.t, frame, "depth", depth);
     tool_set_number(&run->d.t, frame, "thickness", y->found->thickness[slab]);
-    for (size_t c = 0; c < RC_PLASTIC_STRAINS; c++) {
-        double *to[RC_PLASTIC_STRAINS] = {NULL};
+    for (size_t c = 0; c < RC_YIELD_STRAINS; c++) {
+        double *to[RC_YIELD_STRAINS] = {NULL};
         struct rc_grid as = *frame; /* the frame in the output stream */
         to[c] = buffer;
-        (void)rc_yielding_strain(m, slab, to);
+        (void)rc_yield_strain(m, slab, to);
         as.channel = (char *)names[c]; /* tool_write only reads these strings */
         as.unit = (char *)"1";
         as.v = buffer;
@@ -291,7 +290,7 @@ yield_put_strain(struct run *run, const struct rc_model *m, const struct rc_grid
 }
 
 static void
-warn_of_slabs(struct run *run, const char *where, const struct rc_plastic_figures *f)
+warn_of_slabs(struct run *run, const char *where, const struct rc_yield_load *f)
 {
     const struct yielding *y = &run->yielding;
     double bottom = 0, above = 0;
@@ -319,7 +318,7 @@ static void
 warn_of_part(struct run *run, const char *where, const struct solution *s)
 {
     const struct yielding *y = &run->yielding;
-    const struct rc_plastic_figures *f = &y->found->plastic;
+    const struct rc_yield_load *f = &y->found->last;
     const struct error_parts *e = &s->errors;
     const double asked = goal(run), off = s->contact.pressure_error / asked;
     const char limit = errors_limited_by(e)[0]; /* first letter of increments, history,
@@ -394,11 +393,11 @@ yield_judge(struct run *run, const char *where, const struct solution *s)
     enum {
         SPOT = 113 /* nodes: 6 in the radius */
     };
-    const struct rc_plastic_figures *f;
+    const struct rc_yield_load *f;
 
     if (!run->yielding.on)
         return;
-    f = &run->yielding.found->plastic;
+    f = &run->yielding.found->last;
     warn_of_slabs(run, where, f);
     if (s->patches.count > 0 && s->contact.contact_nodes < SPOT * s->patches.count)
         course_warn(&run->d.course, "the plastic zone of a contact spot is not resolved",
@@ -410,13 +409,13 @@ yield_judge(struct run *run, const char *where, const struct solution *s)
 void
 yield_tell(const struct run *run, const struct rc_contact *c, char *text, size_t size)
 {
-    const struct rc_plastic_figures *f;
+    const struct rc_yield_load *f;
 
     if (!run->yielding.on) {
         snprintf(text, size, "%zu iterations, %.3g convolutions", c->iterations, c->convolutions);
         return;
     }
-    f = &run->yielding.found->plastic;
+    f = &run->yielding.found->last;
     snprintf(text, size, "%zu increments, %zu applications", f->increments, f->applications);
 }
 
@@ -443,15 +442,15 @@ yield_report(struct report *r, const struct run *run)
 {
     const struct yielding *y = &run->yielding;
     const bool relaxes = run->relaxing.wanted;
-    const struct figures of_steps[] = {{rc_figures(relaxes ? "viscoelastic" : "yielding"),
+    const struct figures of_steps[] = {{rc_figures(relaxes ? "viscoelastic" : "yield"),
                                         relaxes ? (const void *)run->relaxing.found
                                         : y->on ? y->found
                                                 : NULL},
                                        {0}},
-                         of_volume[] = {{rc_figures("yielding"), y->on ? y->found : NULL}, {0}},
-                         of_stress[] = {{rc_figures("yielding"), y->wanted ? y->found : NULL}, {0}};
+                         of_volume[] = {{rc_figures("yield"), y->on ? y->found : NULL}, {0}},
+                         of_stress[] = {{rc_figures("yield"), y->wanted ? y->found : NULL}, {0}};
 
-    report_number(r, "yield", y->wanted ? rc_yield_stress(&y->law, 0) : NAN, "Pa");
+    report_number(r, "yield", y->wanted ? rc_yield_law_stress(&y->law, 0) : NAN, "Pa");
     report_number(r, "hardening", y->wanted && y->law.points == 0 ? y->law.modulus : NAN, "Pa");
     report_named(r, of_steps, "increments");
     report_named(r, of_volume,

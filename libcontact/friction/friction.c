@@ -1,0 +1,484 @@
+/*
+ * Friction in increments, with history.
+ *
+ * While a node with a load sticks, T q + C p - delta keeps its value there. This value is `origin`, a map of
+ * all nodes. A node that comes into contact later keeps the value at its first contact. An increment finds
+ * the tractions of least energy for w = origin - C p. Let the force grow by dF/dP of the load. A node that
+ * comes into contact from the gap g0 has then moved by dF/dP (1 + kap/2) g0 before its contact. This is exact
+ * for kap = 0, where T equals K in both directions.
+ *
+ * The code uses the unit sqrt(dx dy)/E* for displacements and sqrt(dx dy) for lengths. So displacements are
+ * in Pa, and lengths are numbers.
+ */
+#include "friction.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#include "libcontact/memory.h"
+
+struct rc_friction_solver {
+    struct rc_shape shape;
+    size_t n;
+    int threads;
+    struct rc_shear shear; /* Pa */
+    double mu, tau_max, cell;
+    double unit, length; /* m/Pa; m */
+    struct rc_tangential *t;
+    struct rc_discs *discs;
+    bool coupled, asked, begun, done, apart;
+    bool tried; /* this increment was solved before under another pressure, and starts from these
+                   tractions */
+    enum rc_status last;
+    /* history, from the previous increment */
+    double *origin[2], *old[2], *slip[2], *gap_old;
+    unsigned char *touched;
+    double load_old, force_old[2];
+    /* of the present increment */
+    double *gap, *pushed[2]; /* C p */
+    double load, limit, force[2];
+    bool has_gap_old, has_gap;
+    struct rc_store own;
+};
+
+static double
+reach(const struct rc_friction_solver *s, double p)
+{
+    return fmin(s->mu * p, s->tau_max);
+}
+
+/* ---- the request ---- */
+
+enum rc_status
+rc_friction_solver_set_pressure(struct rc_friction_solver *s, const double *p, const double *gap,
+                                struct rc_err *err)
+{
+    struct rc_total load = {0}, limit = {0};
+
+    for (size_t k = 0; k < s->n && p != NULL; k++)
+        if (!(p[k] >= 0) || isinf(p[k]))
+            return rc_err_set(err, "pressure %g Pa at node %zu: it must be finite and not negative",
+                              p[k], k);
+    s->apart = true;
+    for (size_t k = 0; k < s->n; k++) {
+        s->discs->g[k] = p == NULL ? 0 : reach(s, p[k]);
+        rc_total_add(&load, p == NULL ? 0 : p[k]);
+        rc_total_add(&limit, s->discs->g[k]);
+        s->apart = s->apart && s->discs->g[k] == 0;
+    }
+    s->load = rc_total_value(&load) * s->cell;
+    s->limit = rc_total_value(&limit) * s->cell;
+    s->has_gap = gap != NULL;
+    if (gap != NULL)
+        memcpy(s->gap, gap, s->n * sizeof *gap);
+    if (s->coupled && p != NULL)
+        rc_tangential_pressure(s->t, p, s->pushed);
+    else if (s->coupled)
+        for (int c = 0; c < 2; c++)
+            memset(s->pushed[c], 0, s->n * sizeof(double));
+    s->asked = s->begun = s->done = false;
+    return RC_OK;
+}
+
+static enum rc_status
+finite(double x, double y, const char *what, struct rc_err *err)
+{
+    if (isfinite(x) && isfinite(y))
+        return RC_OK;
+    return rc_err_set(err, "%s %g, %g: it must be finite", what, x, y);
+}
+
+enum rc_status
+rc_friction_solver_set_force(struct rc_friction_solver *s, double fx, double fy, struct rc_err *err)
+{
+    static const double nearest = 1 - 1e-9; /* larger forces cannot be distinguished from sliding */
+    double f = hypot(fx, fy);
+
+    if (finite(fx, fy, "tangential force", err) != RC_OK)
+        return RC_FAIL;
+    if (f > 0 && !(f <= nearest * s->limit))
+        return rc_err_set(err,
+                          "tangential force %.9g N: friction carries less than %.9g N, and under a "
+                          "larger force the bodies slide; give a displacement instead",
+                          f, s->limit);
+    s->force[0] = s->discs->asked.sum[0] = fx / s->cell;
+    s->force[1] = s->discs->asked.sum[1] = fy / s->cell;
+    s->discs->asked.given = false;
+    s->asked = true;
+    s->begun = s->done = false;
+    return RC_OK;
+}
+
+enum rc_status
+rc_friction_solver_set_displacement(struct rc_friction_solver *s, double dx, double dy,
+                                    struct rc_err *err)
+{
+    if (finite(dx, dy, "tangential displacement", err) != RC_OK)
+        return RC_FAIL;
+    s->discs->delta[0] = dx / s->unit;
+    s->discs->delta[1] = dy / s->unit;
+    s->discs->asked.given = true;
+    s->asked = true;
+    s->begun = s->done = false;
+    return RC_OK;
+}
+
+/* ---- an increment ---- */
+
+static const double grows = 1e-6; /* relative to the load: smaller changes are rounding */
+
+/* Sets w and the start: the last tractions, and the change of the force in proportion to g. If the increment
+ * was solved under another pressure, it starts from those tractions, with slipping nodes moved to their new
+ * circles. Otherwise these nodes would stick at first and slip again one after another. */
+static void
+pose(struct rc_friction_solver *s)
+{
+    struct rc_discs *d = s->discs;
+    double more[2] = {0, 0}, entry[2] = {0, 0};
+    bool enter = s->has_gap_old && !d->asked.given && s->load > s->load_old * (1 + grows);
+
+    for (int c = 0; c < 2 && !d->asked.given; c++) {
+        if (s->limit > 0)
+            more[c] = (s->force[c] - s->force_old[c]) * s->cell / s->limit;
+        if (enter)
+            entry[c] = (1 + s->shear.kap / 2) * (s->force[c] - s->force_old[c]) * s->cell /
+                       (s->load - s->load_old) / s->unit;
+    }
+#pragma omp parallel for num_threads(s->threads) schedule(static)
+    for (size_t k = 0; k < s->n; k++) {
+        const double size = hypot(d->q[0][k], d->q[1][k]);
+        for (int c = 0; c < 2; c++) {
+            d->w[c][k] = s->origin[c][k] - (s->coupled ? s->pushed[c][k] : 0);
+            if (enter && d->g[k] > 0 && !s->touched[k])
+                d->w[c][k] -= entry[c] * s->gap_old[k];
+            if (!s->tried)
+                d->q[c][k] = s->old[c][k] + more[c] * d->g[k];
+            else if (d->face[k] == RC_FACE_SLIP && size > 0)
+                d->q[c][k] *= d->g[k] / size;
+        }
+    }
+}
+
+enum rc_status
+rc_friction_solver_step(struct rc_friction_solver *s, struct rc_err *err)
+{
+    if (!s->asked)
+        return rc_err_set(err, "neither a force nor a displacement has been set");
+    if (s->done)
+        return s->last;
+    if (s->apart) { /* no node is in contact: the tractions are 0, and the displacement restarts
+                       from 0 */
+        pose(s);
+        for (int c = 0; c < 2; c++) {
+            s->discs->delta[c] = 0;
+            memset(s->discs->q[c], 0, s->n * sizeof(double));
+            memset(s->discs->u[c], 0, s->n * sizeof(double));
+        }
+        s->discs->found.estimate = 0;
+        s->discs->found.stick = s->discs->found.slipping = 0;
+        s->discs->found.slip = s->discs->found.residual = 0;
+        memset(s->discs->face, RC_FACE_OFF, s->n);
+        s->last = RC_OK;
+        s->done = true;
+        return RC_OK;
+    }
+    if (!s->begun) {
+        pose(s);
+        rc_discs_begin(s->discs);
+        s->begun = true;
+        return RC_MORE;
+    }
+    s->last = rc_discs_step(s->discs);
+    s->done = s->last != RC_MORE;
+    s->tried = s->tried || s->done;
+    return s->last;
+}
+
+void
+rc_friction_solver_start(struct rc_friction_solver *s, const double *const q[2])
+{
+    for (int c = 0; c < 2; c++)
+        memmove(s->discs->q[c], q[c], s->n * sizeof(double));
+    memset(s->discs->face, RC_FACE_OFF, s->n);
+    s->tried = true;
+}
+
+void
+rc_friction_solver_history(struct rc_friction_solver *s, struct rc_state *state)
+{
+    double *maps[] = {s->origin[0], s->origin[1], s->old[0], s->old[1],
+                      s->slip[0],   s->slip[1],   s->gap_old};
+
+    RC_STATE_FLAGS(state, &s->has_gap_old, &s->apart);
+    for (size_t k = 0; k < sizeof maps / sizeof *maps; k++)
+        rc_state_finite(state, s->n, maps[k]);
+    for (size_t k = 0; k < s->n; k++) {
+        size_t touched = s->touched[k];
+        rc_state_count(state, &touched, 1);
+        s->touched[k] = (unsigned char)touched;
+    }
+    rc_state_finite(state, 1, &s->load_old);
+    rc_state_finite(state, 2, s->force_old);
+    if (!rc_state_reads(state))
+        return;
+    s->asked = s->begun = s->done = s->tried = false;
+    for (int c = 0; c < 2; c++)
+        memcpy(s->discs->q[c], s->old[c], s->n * sizeof(double));
+    memset(s->discs->face, RC_FACE_OFF, s->n);
+}
+
+void
+rc_friction_solver_increment(struct rc_friction_solver *s, struct rc_state *state)
+{
+    for (int c = 0; c < 2; c++)
+        rc_state_finite(state, s->n, s->discs->q[c]);
+    if (rc_state_reads(state))
+        s->tried = true;
+}
+
+/* The slip of a node in this increment, in units of `unit`. The slip of a sticking node is 0; its residual is
+ * an error. */
+static inline double
+slipped(const struct rc_friction_solver *s, int c, size_t k)
+{
+    const struct rc_discs *d = s->discs;
+
+    return d->face[k] == RC_FACE_SLIP ? d->u[c][k] - d->w[c][k] - d->delta[c] : 0;
+}
+
+void
+rc_friction_solver_keep(struct rc_friction_solver *s)
+{
+    struct rc_discs *d = s->discs;
+
+    if (!s->done)
+        return;
+#pragma omp parallel for num_threads(s->threads) schedule(static)
+    for (size_t k = 0; k < s->n; k++) {
+        for (int c = 0; c < 2; c++) {
+            s->slip[c][k] = s->apart ? 0 : s->slip[c][k] + slipped(s, c, k);
+            s->origin[c][k] = d->u[c][k] + (s->coupled ? s->pushed[c][k] : 0) - d->delta[c];
+            s->old[c][k] = d->q[c][k];
+        }
+        s->touched[k] = d->g[k] > 0;
+    }
+    s->has_gap_old = s->has_gap;
+    if (s->has_gap)
+        memcpy(s->gap_old, s->gap, s->n * sizeof *s->gap);
+    s->load_old = s->load;
+    for (int c = 0; c < 2; c++) {
+        struct rc_total sum = {0};
+        for (size_t k = 0; k < s->n; k++)
+            rc_total_add(&sum, d->q[c][k]);
+        s->force_old[c] = rc_total_value(&sum);
+    }
+    s->asked = s->begun = s->done = s->tried = false;
+}
+
+/* ---- results ---- */
+
+/* Where the load falls, the traction of the increment is the mean of its start and its end. Otherwise the
+ * traction at the end is used, which is exact under a constant load. */
+static double
+dissipated_at(const struct rc_friction_solver *s, int c, size_t k)
+{
+    const double mean = s->load < s->load_old ? 0.5 : 1;
+
+    return -(mean * s->discs->q[c][k] + (1 - mean) * s->old[c][k]) * slipped(s, c, k);
+}
+
+static double
+dissipated(const struct rc_friction_solver *s)
+{
+    struct rc_total sum = {0};
+
+    for (size_t k = 0; k < s->n; k++)
+        for (int c = 0; c < 2; c++)
+            rc_total_add(&sum, dissipated_at(s, c, k));
+    return rc_total_value(&sum) * s->cell * s->unit;
+}
+
+void
+rc_friction_solver_add_dissipation(const struct rc_friction_solver *s, double *to)
+{
+    for (size_t k = 0; k < s->n; k++)
+        to[k] += (dissipated_at(s, 0, k) + dissipated_at(s, 1, k)) * s->unit;
+}
+
+void
+rc_friction_solver_result(struct rc_friction_solver *s, struct rc_friction_increment *f)
+{
+    const struct rc_discs *d = s->discs;
+
+    *f = (struct rc_friction_increment){.load = s->load,
+                                        .limit = s->limit,
+                                        .stick_nodes = d->found.stick,
+                                        .slip_nodes = d->found.slipping,
+                                        .stick_area = (double)d->found.stick * s->cell,
+                                        .slip_area = (double)d->found.slipping * s->cell,
+                                        .stick_fraction = NAN,
+                                        .dissipated = dissipated(s),
+                                        .largest_slip = d->found.slip * s->unit,
+                                        .slip_error = d->found.residual * s->unit,
+                                        .traction_error = d->found.estimate,
+                                        .steps = d->found.steps,
+                                        .convolutions = s->t->convolutions,
+                                        .converged = s->done && s->last == RC_OK};
+    for (int c = 0; c < 2; c++) {
+        struct rc_total sum = {0};
+        for (size_t k = 0; k < s->n; k++)
+            rc_total_add(&sum, d->q[c][k]);
+        f->force[c] = rc_total_value(&sum) * s->cell;
+        f->displacement[c] = d->delta[c] * s->unit;
+    }
+    if (d->found.stick + d->found.slipping > 0)
+        f->stick_fraction = f->stick_area / (f->stick_area + f->slip_area);
+    f->stiffness = hypot(f->force[0], f->force[1]) / hypot(f->displacement[0], f->displacement[1]);
+    /* a force of the order of rounding gives no stiffness */
+    if (!isfinite(f->stiffness) || hypot(f->force[0], f->force[1]) <= 1e-12 * f->limit)
+        f->stiffness = NAN;
+}
+
+const double *
+rc_friction_solver_traction(const struct rc_friction_solver *s, int direction)
+{
+    return s->discs->q[direction];
+}
+
+void
+rc_friction_solver_slip(const struct rc_friction_solver *s, int direction, double *to)
+{
+    for (size_t k = 0; k < s->n; k++)
+        to[k] = s->apart
+                    ? 0
+                    : (s->slip[direction][k] + (s->done ? slipped(s, direction, k) : 0)) * s->unit;
+}
+
+void
+rc_friction_solver_state(const struct rc_friction_solver *s, double *to)
+{
+    for (size_t k = 0; k < s->n; k++)
+        to[k] = s->discs->face[k] == RC_FACE_STICK ? 1 : s->discs->face[k] == RC_FACE_SLIP ? 2 : 0;
+}
+
+void
+rc_friction_solver_normal(struct rc_friction_solver *s, double *uz)
+{
+    memset(uz, 0, s->n * sizeof *uz);
+    if (!s->coupled)
+        return;
+    rc_tangential_normal(s->t, s->discs->q, uz);
+    for (size_t k = 0; k < s->n; k++)
+        uz[k] *= s->unit;
+}
+
+#define FIGURE(member) RC_FIGURE(struct rc_friction_figures, member)
+#define AS(column, member) RC_FIGURE_AS(column, struct rc_friction_figures, member)
+const struct rc_figure rc_figures_friction[] = {
+    {AS("load", last.load), "N", "Load", .says = "sum of the pressure"},
+    {AS("limit", last.limit), "N", "Largest tangential force", .says = "that friction can carry"},
+    {AS("tangential_x", last.force[0]), "N", "Force along x"},
+    {AS("tangential_y", last.force[1]), "N", "Force along y"},
+    {AS("displacement_x", last.displacement[0]), "m", "Displacement along x"},
+    {AS("displacement_y", last.displacement[1]), "m", "Displacement along y"},
+    {FIGURE(approach), "m", "Approach", .says = "of the bodies, from first touch"},
+    {AS("stick_nodes", last.stick_nodes), NULL, "Nodes that stick"},
+    {AS("slip_nodes", last.slip_nodes), NULL, "Nodes that slip"},
+    {AS("stick_area", last.stick_area), "m2", "Area that sticks"},
+    {AS("slip_area", last.slip_area), "m2", "Area that slips"},
+    {AS("stick_fraction", last.stick_fraction), NULL, "Part of the contact that sticks"},
+    {AS("largest_slip", last.largest_slip), "m", "Largest slip", .says = "of the last increment"},
+    {AS("tangential_stiffness", last.stiffness), "N/m", "Tangential stiffness"},
+    {AS("dissipated_energy", last.dissipated), "J", "Dissipated energy"},
+    {FIGURE(passes), NULL, "Passes", .role = RC_FIGURE_COST},
+    {FIGURE(convolutions), NULL, "Convolutions", .role = RC_FIGURE_COST},
+    {AS("iteration_error_estimate", traction_error), NULL, "Error of the iteration",
+     .role = RC_FIGURE_ERROR, .by = "tol"},
+    {AS("inherited_error_estimate", inherited_error), NULL, "Error of earlier loads",
+     .says = "of the increments before", .role = RC_FIGURE_ERROR, .by = "tol"},
+    {AS("contact_error_estimate", contact_error), NULL, "Error of the contacts",
+     .role = RC_FIGURE_ERROR, .by = "tol"},
+    {0},
+};
+
+/* ---- plan ---- */
+
+enum rc_status
+rc_friction_solver_check(const struct rc_shape *shape, const struct rc_friction_law *p,
+                         struct rc_shear *shear, struct rc_err *err)
+{
+    if (rc_shape_check(shape, err) != RC_OK)
+        return RC_FAIL;
+    if (p->ranks != NULL)
+        return rc_err_set(err, "friction cannot share its maps among processes: take one process");
+    if (!(p->mu > 0) || isinf(p->mu))
+        return rc_err_set(err, "coefficient of friction %g: it must be positive and finite", p->mu);
+    if (!(p->tau_max >= 0))
+        return rc_err_set(err, "largest traction %g Pa: it must not be negative", p->tau_max);
+    if (!(p->tol >= 0 && p->tol < 1))
+        return rc_err_set(err, "tolerance %g: it must be below 1 and not negative", p->tol);
+    return rc_pair_shear(&p->pair, p->nu, shear, err);
+}
+
+static bool
+allocate(struct rc_friction_solver *s)
+{
+    double **maps[] = {&s->origin[0], &s->origin[1], &s->old[0], &s->old[1],    &s->slip[0],
+                       &s->slip[1],   &s->gap_old,   &s->gap,    &s->pushed[0], &s->pushed[1]};
+
+    for (size_t k = 0; k < (s->coupled ? 10 : 8); k++)
+        *maps[k] = rc_store_zeros(&s->own, s->n, sizeof **maps[k]);
+    s->touched = rc_store_zeros(&s->own, s->n, 1);
+    return !s->own.failed;
+}
+
+struct rc_friction_solver *
+rc_friction_solver_new(const struct rc_shape *shape, const struct rc_friction_law *p,
+                       struct rc_err *err)
+{
+    static const double usual = 1e-4;
+    struct rc_shear shear, inside;
+    struct rc_shape unit;
+    RC_OWN(rc_friction_solver, s) = NULL;
+
+    if (rc_friction_solver_check(shape, p, &shear, err) != RC_OK)
+        return NULL;
+    if ((s = calloc(1, sizeof *s)) == NULL)
+        return rc_err_null(err, "out of memory for friction");
+    *s = (struct rc_friction_solver){.shape = *shape,
+                                     .n = shape->nx * shape->ny,
+                                     .threads = rc_useful_threads(shape, p->threads),
+                                     .shear = shear,
+                                     .mu = p->mu,
+                                     .tau_max = p->tau_max > 0 ? p->tau_max : INFINITY,
+                                     .cell = shape->dx * shape->dy,
+                                     .length = sqrt(shape->dx) * sqrt(shape->dy),
+                                     .coupled = shear.beta != 0 && !p->uncoupled};
+    s->unit = s->length / shear.estar;
+    unit = (struct rc_shape){shape->nx, shape->ny, shape->dx / s->length, shape->dy / s->length};
+    inside = (struct rc_shear){1, shear.kap, s->coupled ? shear.beta : 0};
+    if (!allocate(s))
+        return rc_err_null(err, "out of memory for the friction of %zu x %zu nodes", shape->nx,
+                           shape->ny);
+    s->t = rc_tangential_new(&unit, p->boundary, &inside, p->threads, err);
+    if (s->t == NULL || (s->discs = rc_discs_new(s->t, err)) == NULL)
+        return NULL;
+    s->discs->asked.tol = p->tol > 0 ? p->tol : usual;
+    if (p->max_steps > 0)
+        s->discs->asked.most = p->max_steps;
+    memset(s->discs->g, 0, s->n * sizeof(double));
+    memset(s->discs->face, RC_FACE_OFF, s->n);
+    s->apart = true;
+    return rc_give(&s);
+}
+
+void
+rc_friction_solver_free(struct rc_friction_solver *s)
+{
+    if (s == NULL)
+        return;
+    rc_discs_free(s->discs);
+    rc_tangential_free(s->t);
+    rc_store_free(&s->own);
+    free(s);
+}

@@ -1,0 +1,957 @@
+/*
+ * The model of rolling: Coulomb's friction in a contact that rolls with creepage (steady.h). The pressure
+ * is that of an inner model, or is known. Tractions do not change it. Each point is a steady state, or
+ * the next step of a path.
+ *
+ * The iteration of a steady state starts on coarser grids. Each has every second node of the next finer
+ * one, the last column included, and the same load. A node of the finer grid starts from the q/g of a
+ * node beside it. The difference of the two finest grids tells the error of the spacing, which is of
+ * first order.
+ *
+ * On each grid the motion over the step from a node to the next one is that in the middle of the step.
+ *
+ * A path begins with the bodies pressed together without friction. A step of it is a projection, so that
+ * errors of the tractions do not grow. The contact forgets them: by a measured factor of 0.14 while it
+ * rolls over its own length. The tolerance of a step is the part of the tolerance that is forgotten until
+ * the next one.
+ */
+#include <stdlib.h>
+#include <string.h>
+
+#include "libcontact/expected.h"
+#include "libcontact/memory.h"
+#include "libcontact/friction/friction.h"
+#include "steady.h"
+
+enum stage {
+    REST,
+    PRESSING, /* the inner model steps            */
+    ROLLING,  /* a grid is solved                 */
+    THERE     /* all grids are solved             */
+};
+enum {
+    LEVELS = 12,
+    RUN = 16 /* nodes of a contact along x that a coarser grid pays for */
+};
+static const double usual_tol[] = {1e-3, 1e-2}; /* of a steady state, of a path */
+static const double forgets = 1.5;      /* at least exp(-forgets) is forgotten over a length */
+static const double coarse_tol = 3e-2;  /* most, of grids that give a start                      */
+static const double told_tol = 1e-3;    /* least, of the grid that tells the error of the spacing */
+static const double most_columns = 1e9; /* from the contact to the map */
+static const double most_motion =
+    1e30; /* of a creepage or spin, far below overflow in single precision */
+static const double caution = 1.5; /* of the difference between the two finest grids         */
+
+/* A grid, the finest first. */
+struct level {
+    struct rc_steady *d;
+    double unit, length; /* m/Pa; m: length of a step         */
+    double x, y;         /* m: first node, from the middle of the contact */
+    double period[2];    /* m; 0: the map does not repeat                 */
+};
+
+struct rolling {
+    struct rc_model base;
+    struct rc_rolling_problem problem;
+    struct rc_shear shear;
+    size_t n, stage, level, levels;
+    struct level at[LEVELS];
+    double *p;
+    double pressure_error, inner_convolutions, convolutions; /* convolutions: until the last go */
+    struct rc_rolling_figures coarse;                        /* of the second finest grid        */
+    double coarse_error;                                     /* N: of the iteration on this grid */
+    bool good;                                               /* the contact has converged */
+    /* of a path */
+    bool rolls;        /* there is a step before this point                              */
+    double dissipates; /* factor of the friction energy of nodes that slip */
+    double x;          /* m: middle of the map at the last point kept                    */
+    double length;     /* m, of this step                                                */
+    double inherited;  /* N: error of the tractions at the last point kept               */
+    double kept;       /* part of it that the contact has not forgotten                  */
+    bool again;        /* a state was read: its contact must be solved again */
+    bool resumes;      /* and the grid of the state starts from its tractions */
+    struct rc_rolling_figures f;
+};
+
+const struct rc_figure rc_figures_rolling[] = {
+#define FIGURE(member) RC_FIGURE(struct rc_rolling_figures, member)
+#define AS(column, member) RC_FIGURE_AS(column, struct rc_rolling_figures, member)
+    {FIGURE(load), "N", "Load", .says = "sum of the pressure"},
+    {FIGURE(limit), "N", "Largest tangential force", .says = "that friction carries"},
+    {AS("creep_x", creep[0]), NULL, "Creepage along x", .says = "of body 2 over body 1"},
+    {AS("creep_y", creep[1]), NULL, "Creepage along y", .says = "of body 2 over body 1"},
+    {FIGURE(spin), "rad/m", "Spin", .says = "of body 2 over body 1"},
+    {AS("tangential_x", force[0]), "N", "Force along x", .says = "of body 2 on body 1"},
+    {AS("tangential_y", force[1]), "N", "Force along y", .says = "of body 2 on body 1"},
+    {FIGURE(moment), "N m", "Moment about the middle of the contact"},
+    {FIGURE(stick_nodes), NULL, "Nodes that stick"},
+    {FIGURE(slip_nodes), NULL, "Nodes that slip"},
+    {FIGURE(stick_fraction), NULL, "Part of the contact that sticks"},
+    {FIGURE(power), "J/m", "Energy per length rolled",
+     .says = "force times creepage, moment times spin"},
+    {FIGURE(power_slip), "J/m", "Friction energy per length rolled",
+     .says = "sum of the frame dissipation: mean traction of a step times slip"},
+    {AS("extrapolated_creep_x", extrapolated_creep[0]), NULL, "Creepage along x, extrapolated",
+     .says = "to a spacing of 0"},
+    {AS("extrapolated_creep_y", extrapolated_creep[1]), NULL, "Creepage along y, extrapolated",
+     .says = "to a spacing of 0"},
+    {AS("extrapolated_tangential_x", extrapolated_force[0]), "N", "Force along x, extrapolated",
+     .says = "to a spacing of 0"},
+    {AS("extrapolated_tangential_y", extrapolated_force[1]), "N", "Force along y, extrapolated",
+     .says = "to a spacing of 0"},
+    {FIGURE(extrapolated_moment), "N m", "Moment, extrapolated", .says = "to a spacing of 0"},
+    {AS("kalker_tangential_x", kalker_force[0]), "N", "Force along x in linear theory",
+     .says = "of the ellipse with the same area and axes"},
+    {AS("kalker_tangential_y", kalker_force[1]), "N", "Force along y in linear theory",
+     .says = "of the ellipse with the same area and axes"},
+    {FIGURE(steps), NULL, "Steps", .role = RC_FIGURE_COST,
+     .says = "of Newton's method, on all grids"},
+    {FIGURE(fallbacks), NULL, "Steps in time", .role = RC_FIGURE_COST,
+     .says = "where no Newton step helped"},
+    {FIGURE(convolutions), NULL, "Convolutions", .role = RC_FIGURE_COST,
+     .says = "with those of the contact, in equivalents of one on the finest grid"},
+    {AS("traction_error_estimate", traction_error), NULL, "Error of the tractions",
+     .says = "estimated relative L1 error", .role = RC_FIGURE_ERROR, .by = "tol"},
+    {FIGURE(discretization_error), NULL, "Error due to the spacing",
+     .says = "estimated relative error of the force, or of the creepage if the force is given",
+     .limit = 0.05, .warning = "the nodes are too far apart for this contact"},
+    {FIGURE(converged), NULL, "Converged",
+     .says = "traction_error_estimate is within the tolerance"},
+    {0},
+};
+static const struct rc_figure_set sets[] = {{rc_figures_rolling, offsetof(struct rolling, f)},
+                                            {NULL, 0}};
+
+static const struct rc_frame_kind frames[] = {
+    RC_SLIP_FRAME_KINDS("1", " per length rolled"),
+    [RC_SLIP_DISSIPATION] = {"dissipation", "J/m3", "Dissipated energy per length rolled"},
+    [RC_SLIP_LENGTH] = {"slip", "1", "Path of slip per length rolled"},
+    {NULL, NULL, NULL}};
+
+/* ---- the motion ---- */
+
+/* Creepage in the units of a grid: the motion of a step. */
+static double
+step_of(const struct level *l)
+{
+    return l->length / l->unit;
+}
+
+static double
+spin_of(const struct rolling *f)
+{
+    return rc_point_has(&f->base.to, RC_SPIN) ? f->base.to.at[RC_SPIN] : 0;
+}
+
+/* m: a point `ahead` of node k, from the middle of the contact. A periodic map has a contact in each period;
+ * the point belongs to the nearest one. */
+static void
+from_middle(const struct level *l, size_t k, double ahead, double at[2])
+{
+    const struct rc_shape *s = &l->d->shape;
+
+    at[0] = l->x + (double)(k % s->nx) * s->dx + ahead;
+    at[1] = l->y + (double)(k / s->nx) * s->dy;
+    for (int c = 0; c < 2 && l->period[0] > 0; c++)
+        at[c] -= l->period[c] * round(at[c] / l->period[c]);
+}
+
+/* The motion of body 2 over body 1 due to the spin, per length rolled, after node k. */
+static void
+spin_at(const struct level *l, double spin, size_t k, double v[2])
+{
+    double at[2];
+
+    from_middle(l, k, 0.5 * l->length, at);
+    v[0] = -spin * at[1];
+    v[1] = spin * at[0];
+}
+
+/* True if the contact, in a step of this length, reaches the line between two periods from both sides, or
+ * crosses it. Distances from the middle jump there. */
+static bool
+spans_period(const struct level *l, double length)
+{
+    const double size[2] = {l->d->shape.dx + length, l->d->shape.dy};
+    bool low[2] = {false, false}, high[2] = {false, false};
+
+    for (size_t k = 0; k < l->d->n && l->period[0] > 0; k++) {
+        double at[2];
+        if (!(l->d->g[k] > 0))
+            continue;
+        from_middle(l, k, 0.5 * length, at);
+        for (int c = 0; c < 2; c++) {
+            const double end = 0.5 * (l->period[c] - size[c]), near = 1e-9 * l->period[c];
+            low[c] |= at[c] < near - end || at[c] > end + near;
+            high[c] |= at[c] > end - near || at[c] < -end - near;
+        }
+    }
+    return (low[0] && high[0]) || (low[1] && high[1]);
+}
+
+/* ---- grids ---- */
+
+/* The node of the finer grid in the place of the first one. */
+static size_t
+first_of(size_t n)
+{
+    return n > 1 ? (n - 1) % 2 : 0;
+}
+
+/* m: the middle of the map, as the position of the contact is counted. */
+static double
+middle_of(const struct rolling *f)
+{
+    return f->problem.known != NULL ? f->problem.known->x : 0;
+}
+
+/* Makes grid l where it is missing, in units in which a cell has the area 1. */
+static enum rc_status
+make_level(struct rolling *f, size_t l, struct rc_err *err)
+{
+    const struct rc_friction_law *o = &f->problem.law;
+    const struct rc_shear inside = {1, f->shear.kap, o->uncoupled ? 0 : f->shear.beta};
+    struct rc_shape shape = f->base.shape;
+    struct level *at = &f->at[l];
+
+    at->x = middle_of(f) - f->base.to.at[RC_POSITION] - (double)(shape.nx - 1) / 2 * shape.dx;
+    at->y = -(double)(shape.ny - 1) / 2 * shape.dy;
+    if (!(fabs(at->x) <= most_columns * shape.dx))
+        return rc_err_set(err,
+                          "position %g m is %g m from the map, more than %g columns: measure "
+                          "positions from the middle of the map",
+                          f->base.to.at[RC_POSITION], fabs(at->x), most_columns);
+    for (size_t k = 0; k < l; k++) {
+        at->x += (double)first_of(shape.nx) * shape.dx;
+        at->y += (double)first_of(shape.ny) * shape.dy;
+        shape = rc_shape_coarser(&shape);
+    }
+    if (o->boundary == RC_PERIODIC) {
+        at->period[0] = (double)shape.nx * shape.dx;
+        at->period[1] = (double)shape.ny * shape.dy;
+    }
+    at->unit = sqrt(shape.dx) * sqrt(shape.dy) / f->shear.estar;
+    at->length = f->problem.path ? f->length : shape.dx;
+    if (at->d != NULL)
+        return RC_OK;
+    at->d = rc_steady_new(&(struct rc_shape){shape.nx, shape.ny, sqrt(shape.dx / shape.dy),
+                                             sqrt(shape.dy / shape.dx)},
+                          o->boundary, &inside, f->problem.force, f->problem.path, o->threads, err);
+    if (at->d == NULL)
+        return RC_FAIL;
+    at->d->shape = shape;
+    at->d->asked.most = o->max_steps > 0 ? o->max_steps : 200;
+    return RC_OK;
+}
+
+/* The pressure of every second node, in proportion to the load of the finer grid. */
+static void
+thin(const struct level *fine, const double *p, struct level *to, double *less)
+{
+    const struct rc_shape *s = &fine->d->shape, *t = &to->d->shape;
+    double all = rc_sum(p, s->nx * s->ny) * s->dx * s->dy, sum;
+
+    for (size_t j = 0; j < t->ny; j++)
+        for (size_t i = 0; i < t->nx; i++)
+            less[j * t->nx + i] = p[(2 * j + first_of(s->ny)) * s->nx + 2 * i + first_of(s->nx)];
+    sum = rc_sum(less, t->nx * t->ny) * t->dx * t->dy;
+    for (size_t k = 0; k < t->nx * t->ny && sum > 0; k++)
+        less[k] *= all / sum;
+}
+
+/* Sets what a grid needs besides q. */
+static void
+pose_level(struct rolling *f, struct level *l, const double *p)
+{
+    const struct rc_friction_law *o = &f->problem.law;
+    const double most = o->tau_max > 0 ? o->tau_max : INFINITY, spin = spin_of(f);
+    struct rc_steady *d = l->d;
+    const bool coupled = d->t->shear.beta != 0, path = f->problem.path;
+    double *const *push = path ? d->way : d->u;
+
+    if (coupled)
+        rc_tangential_pressure(d->t, p, push);
+    for (size_t k = 0; k < d->n; k++)
+        d->g[k] = fmin(o->mu * p[k], most);
+    for (size_t k = 0; k < d->n; k++) {
+        double v[2];
+        spin_at(l, spin, k, v);
+        for (int c = 0; c < 2; c++)
+            d->rigid[c][k] =
+                -v[c] * step_of(l) + (!coupled ? 0
+                                      : path   ? push[c][k]
+                                      : k + 1 < d->n && (d->g[k] > 0 || d->g[k + 1] > 0)
+                                          ? push[c][k] - push[c][k + 1]
+                                          : 0);
+    }
+    for (int c = 0; c < 2; c++)
+        d->asked.sum[c] = f->base.to.at[RC_TANGENTIAL_X + c] / (d->shape.dx * d->shape.dy);
+    d->asked.tol = l == f->at       ? o->tol
+                   : l == f->at + 1 ? fmin(coarse_tol, fmax(o->tol, told_tol))
+                                    : coarse_tol;
+}
+
+/* Loaded nodes one behind the other, on average. */
+static double
+run_of(const struct rc_shape *s, const double *p)
+{
+    size_t loaded = 0, runs = 0;
+
+    for (size_t k = 0; k < s->nx * s->ny; k++) {
+        loaded += p[k] > 0;
+        runs += p[k] > 0 && ((k + 1) % s->nx == 0 || !(p[k + 1] > 0));
+    }
+    return runs > 0 ? (double)loaded / (double)runs : 0;
+}
+
+/* The length of the contact in columns; *end: the column behind its last one. On a periodic map all columns
+ * but the longest row of free ones. */
+static size_t
+columns_of(const struct rc_shape *s, const double *p, bool repeats, size_t *end)
+{
+    size_t first = s->nx, gap = 0;
+
+    *end = 0;
+    for (size_t i = 0; i < s->nx; i++) {
+        size_t j = 0;
+        while (j < s->ny && !(p[j * s->nx + i] > 0))
+            j++;
+        if (j == s->ny)
+            continue;
+        gap = first < i && i - *end > gap ? i - *end : gap;
+        first = i < first ? i : first;
+        *end = i + 1;
+    }
+    gap = first + s->nx - *end > gap ? first + s->nx - *end : gap;
+    return repeats ? s->nx - gap : *end - first;
+}
+
+static enum rc_status
+carries(const struct rolling *f, struct rc_err *err)
+{
+    const double *at = f->base.to.at, size = hypot(at[RC_TANGENTIAL_X], at[RC_TANGENTIAL_Y]);
+    double limit = 0;
+
+    for (size_t k = 0; k < f->n && f->problem.force; k++)
+        limit += f->at->d->g[k] * f->base.shape.dx * f->base.shape.dy;
+    return !f->problem.force || size < limit
+               ? RC_OK
+               : rc_err_set(
+                     err,
+                     "force %g N: friction carries less than %g N, beyond it the bodies slide; "
+                     "give the creepage instead",
+                     size, limit);
+}
+
+/* Poses the next step of a path, in a map that has moved by some columns. */
+static enum rc_status
+pose_step(struct rolling *f, size_t columns, struct rc_err *err)
+{
+    struct level *l = f->at;
+
+    if (make_level(f, 0, err) != RC_OK)
+        return RC_FAIL;
+    pose_level(f, l, f->p);
+    if (spin_of(f) != 0 && spans_period(l, f->length))
+        return rc_err_set(
+            err, "the contact reaches half a period from its middle, where the spin of a periodic "
+                 "map jumps: take a map with a longer period, or the free boundary");
+    f->levels = 1;
+    l->d->asked.tol *= f->rolls ? 1 - f->kept : 1;
+    if (f->resumes && f->stage == THERE) {
+        rc_steady_reach(l->d, columns);
+        return RC_OK;
+    }
+    for (int c = 0; c < 2; c++) {
+        memcpy(l->d->q[c], l->d->last[c], f->n * sizeof *f->p); /* also after a try */
+        if (!f->rolls) /* the bodies are pressed without friction */
+            memcpy(l->d->old[c], l->d->way[c], f->n * sizeof *f->p);
+        l->d->v[c] = f->problem.force ? 0 : f->base.to.at[RC_CREEP_X + c] * step_of(l);
+    }
+    return carries(f, err) == RC_OK ? rc_steady_set_out(l->d, columns, err) : RC_FAIL;
+}
+
+/* Poses all grids for the pressure p, or the next step of a path. */
+static enum rc_status
+pose(struct rolling *f, struct rc_err *err)
+{
+    const struct rc_shape *s = &f->base.shape;
+    const bool path = f->problem.path, free_map = f->problem.law.boundary == RC_FREE;
+    const double *p = f->p, moved = f->rolls ? round((middle_of(f) - f->x) / s->dx) : 0;
+    const size_t come = path ? (size_t)fmax(moved, 0) : 1;
+    size_t end;
+
+    if (!rc_any(p, f->n))
+        return rc_err_set(err, "no node is in contact, so that nothing rolls: give a larger load");
+    if (moved < 0)
+        return rc_err_set(err, "the map moves back by %g columns: rolling is towards +x", -moved);
+    f->kept = exp(-forgets * f->length / ((double)columns_of(s, p, !free_map, &end) * s->dx));
+    if (free_map && end + come > s->nx)
+        return rc_err_set(
+            err,
+            "the contact reaches the leading edge of the map, column %zu of %zu: rolling is "
+            "towards +x, so leave %s there",
+            end - 1, s->nx, come > 1 ? "as many free columns as the map moves" : "free columns");
+    f->levels = 0;
+    if (path)
+        return pose_step(f, (size_t)moved, err);
+    for (bool more = true; more; f->levels++) {
+        struct level *l = &f->at[f->levels];
+        if (make_level(f, f->levels, err) != RC_OK)
+            return RC_FAIL;
+        if (l > f->at) {
+            thin(l - 1, p, l, l->d->old[0]);
+            p = l->d->old[0];
+        }
+        pose_level(f, l, p);
+        more = f->levels + 1 < LEVELS && run_of(&l->d->shape, p) >= RUN;
+    }
+    return carries(f, err);
+}
+
+/* The start of a grid: the q/g of the coarser one. */
+static void
+refine(const struct level *from, struct level *to)
+{
+    const struct rc_shape *s = &from->d->shape, *t = &to->d->shape;
+    const size_t oi = first_of(t->nx), oj = first_of(t->ny);
+
+    for (size_t k = 0; k < to->d->n; k++) {
+        const size_t i = k % t->nx, j = k / t->nx;
+        size_t at = 0;
+        for (size_t up = 0; up < 4; up++) { /* the first neighbour with a load */
+            const size_t a = (i + oi + up % 2) / 2 - oi, b = (j + oj + up / 2) / 2 - oj;
+            at = (b < s->ny ? b : 0) * s->nx + (a < s->nx ? a : 0);
+            if (from->d->g[at] > 0)
+                break;
+        }
+        for (int c = 0; c < 2; c++)
+            to->d->q[c][k] =
+                from->d->g[at] > 0 ? from->d->q[c][at] / from->d->g[at] * to->d->g[k] : 0;
+    }
+    for (int c = 0; c < 2; c++)
+        to->d->v[c] = from->d->v[c] * step_of(to) / step_of(from);
+}
+
+/* Begins a grid: from the coarser one, from the tractions of a state, or anew. */
+static void
+begin(struct rolling *f)
+{
+    struct level *l = &f->at[f->level];
+
+    f->stage = ROLLING;
+    if (f->problem.path) {
+        f->resumes = false;
+        return;
+    }
+    for (int c = 0; c < 2 && !f->problem.force; c++)
+        l->d->v[c] = f->base.to.at[RC_CREEP_X + c] * step_of(l);
+    if (!f->resumes && f->level + 1 == f->levels) {
+        for (int c = 0; c < 2 && f->problem.force; c++)
+            l->d->v[c] = 0;
+        rc_steady_guess(l->d);
+    } else if (!f->resumes) {
+        refine(l + 1, l);
+    }
+    (f->resumes ? rc_steady_begin_again : rc_steady_begin)(l->d);
+    f->resumes = false;
+}
+
+/* ---- figures ---- */
+
+/* N: the sum of the lengths of all tractions. */
+static double
+size_of(const struct level *l)
+{
+    return l->d->found.size * l->d->shape.dx * l->d->shape.dy;
+}
+
+/* The figures of one grid. Second moments of the contact are about its middle. */
+static void
+look_at(const struct rolling *f, const struct level *l, struct rc_rolling_figures *to)
+{
+    const struct rc_steady *d = l->d;
+    const struct rc_shape *s = &d->shape;
+    const double cell = s->dx * s->dy, spin = spin_of(f), none = spans_period(l, 0) ? NAN : 0;
+    double n = 0, m[4] = {0}, kalker[3];
+
+    *to = (struct rc_rolling_figures){.load = f->f.load, .spin = spin};
+    for (int c = 0; c < 2; c++)
+        to->creep[c] = !f->problem.force ? f->base.to.at[RC_CREEP_X + c]
+                       : l->length > 0   ? d->v[c] / step_of(l)
+                                         : NAN;
+    for (size_t k = 0; k < d->n; k++) {
+        double at[2];
+        if (!(d->g[k] > 0))
+            continue;
+        from_middle(l, k, 0, at);
+        to->limit += d->g[k] * cell;
+        to->moment += (at[0] * d->q[1][k] - at[1] * d->q[0][k]) * cell;
+        for (int c = 0; c < 2; c++) {
+            to->force[c] += d->q[c][k] * cell;
+        }
+        n++;
+        for (int c = 0; c < 2; c++) {
+            m[c] += at[c];
+            m[2 + c] += at[c] * at[c];
+        }
+    }
+    to->power = to->force[0] * to->creep[0] + to->force[1] * to->creep[1] + to->moment * spin;
+    to->moment += none;
+    rc_kalker(sqrt((m[2] - m[0] * m[0] / n) / (m[3] - m[1] * m[1] / n)),
+              f->shear.kap / (1 + f->shear.kap), kalker);
+    for (int c = 0; c < 2; c++)
+        to->kalker_force[c] = none + n * cell / RC_PI * f->shear.estar / (1 + f->shear.kap) *
+                                         (kalker[c] * to->creep[c] +
+                                          (c == 1 ? kalker[2] * sqrt(n * cell / RC_PI) * spin : 0));
+    to->stick_nodes = d->found.stick;
+    to->slip_nodes = d->found.slipping;
+    to->stick_fraction = (double)d->found.stick / (double)(d->found.stick + d->found.slipping);
+    to->traction_error = d->found.estimate;
+}
+
+/* Extrapolates from the two finest grids. Relative to the creepage an error of the force counts as much. */
+static void
+extrapolate(const struct rolling *f, struct rc_rolling_figures *to)
+{
+    const struct rc_rolling_figures *c = &f->coarse;
+    const double none = f->levels > 1 ? 0 : NAN;
+    const double *fine = f->problem.force ? to->creep : to->force,
+                 *coarse = f->problem.force ? c->creep : c->force, size = hypot(fine[0], fine[1]);
+    const double iteration = f->coarse_error + to->traction_error * size_of(f->at);
+
+    for (int k = 0; k < 2; k++) {
+        to->extrapolated_force[k] = 2 * to->force[k] - c->force[k] + none;
+        to->extrapolated_creep[k] = 2 * to->creep[k] - c->creep[k] + none;
+    }
+    to->extrapolated_moment = 2 * to->moment - c->moment + none;
+    to->discretization_error =
+        size > 0 ? caution * hypot(fine[0] - coarse[0], fine[1] - coarse[1]) / size +
+                       iteration / (f->problem.force ? to->limit : size) + none
+                 : NAN;
+}
+
+/* Finds the friction energy, and the factor by which that of the nodes that slip becomes all of it. In a steady
+ * state of similar bodies it is the supplied energy. */
+static void
+find_dissipation(struct rolling *f, struct rc_rolling_figures *to)
+{
+    const struct level *l = f->at;
+    const double unit = l->d->shape.dx * l->d->shape.dy / step_of(l);
+    double all = 0, slips = 0;
+
+    for (size_t k = 0; k < f->n; k++) {
+        all += rc_steady_dissipated(l->d, k, true) * unit;
+        slips += rc_steady_dissipated(l->d, k, false) * unit;
+    }
+    if (!f->problem.path && l->d->t->shear.beta == 0)
+        all = to->power;
+    f->dissipates = slips > 0 && all > 0 ? all / slips : 1;
+    to->power_slip = f->dissipates * slips;
+}
+
+static double
+all_convolutions(const struct rolling *f)
+{
+    double sum = f->inner_convolutions;
+
+    for (size_t k = 0; k < LEVELS && f->at[k].d != NULL; k++)
+        sum += f->at[k].d->t->convolutions * (double)f->at[k].d->n / (double)f->n;
+    return sum;
+}
+
+static void
+find_figures(struct rolling *f)
+{
+    struct rc_rolling_figures *to = &f->f;
+
+    to->load = rc_sum(f->p, f->n) * f->base.shape.dx * f->base.shape.dy;
+    if (f->at->d == NULL || f->stage < ROLLING || f->again)
+        return;
+    for (size_t k = f->level; k > 0; k--) /* the best so far */
+        refine(&f->at[k], &f->at[k - 1]);
+    look_at(f, f->at, to);
+    find_dissipation(f, to);
+    extrapolate(f, to);
+    for (size_t k = f->level; k < f->levels; k++) {
+        to->steps += f->at[k].d->found.steps;
+        to->fallbacks += f->at[k].d->found.fallbacks;
+    }
+    to->convolutions = all_convolutions(f) - f->convolutions;
+    if (f->level > 0)
+        to->traction_error = INFINITY;
+    if (size_of(f->at) > 0)
+        to->traction_error += f->pressure_error * to->limit / size_of(f->at);
+    if (f->problem.path && size_of(f->at) > 0)
+        to->traction_error += f->kept * f->inherited / size_of(f->at);
+    to->converged = f->stage == THERE && f->good && to->traction_error <= f->problem.law.tol;
+}
+
+/* ---- verbs ---- */
+
+static bool
+has_both(const struct rolling *f, enum rc_axis x)
+{
+    return rc_point_has(&f->base.to, x) && rc_point_has(&f->base.to, x + 1);
+}
+
+/* Sends the inner model to its point, unless its pressure is known. */
+static enum rc_status
+press(struct rolling *f, struct rc_err *err)
+{
+    const struct rc_rolling_problem *o = &f->problem;
+    struct rc_point to = rc_point_for(f->base.inner, &f->base.to);
+
+    f->stage = PRESSING;
+    f->good = true;
+    f->pressure_error = 0;
+    return o->known == NULL ? rc_model_go(f->base.inner, &to, err) : RC_MORE;
+}
+
+static enum rc_status
+go(struct rc_model *m, struct rc_err *err)
+{
+    struct rolling *f = (struct rolling *)m;
+    const bool force = f->problem.force;
+
+    if (!has_both(f, force ? RC_TANGENTIAL_X : RC_CREEP_X))
+        return rc_err_set(err, "rolling needs the %s along x and y", force ? "force" : "creepage");
+    if (m->to.given & (force ? 1u << RC_CREEP_X | 1u << RC_CREEP_Y
+                             : 1u << RC_TANGENTIAL_X | 1u << RC_TANGENTIAL_Y))
+        return rc_err_set(err, "this model of rolling finds the %s: give the %s only",
+                          force ? "creepage" : "force", force ? "force" : "creepage");
+    for (enum rc_axis k = RC_CREEP_X; k <= RC_SPIN; k++)
+        if (rc_point_has(&m->to, k) && !(fabs(m->to.at[k]) <= most_motion))
+            return rc_err_set(err, "%s %g: it must be at most %g", rc_axis_info(k)->name,
+                              m->to.at[k], most_motion);
+    if (f->problem.path && !rc_point_has(&m->to, RC_POSITION))
+        return rc_err_set(err, "rolling along a path needs the position");
+    f->length = f->rolls ? m->to.at[RC_POSITION] - m->from.at[RC_POSITION] : 0;
+    if (f->length < 0)
+        return rc_err_set(err, "position %g m after %g m: rolling is towards +x",
+                          m->to.at[RC_POSITION], m->from.at[RC_POSITION]);
+    f->convolutions = all_convolutions(f);
+    f->again = f->resumes = false;
+    return press(f, err) == RC_MORE ? RC_OK : RC_FAIL;
+}
+
+static enum rc_status
+there(struct rolling *f)
+{
+    f->stage = THERE;
+    f->resumes = false;
+    find_figures(f);
+    return f->f.converged ? RC_OK : RC_SHORT;
+}
+
+static enum rc_status
+step_contact(struct rolling *f, struct rc_err *err)
+{
+    struct rc_model *inner = f->base.inner;
+    const enum rc_status status = f->problem.known != NULL ? RC_OK : rc_model_step(inner, err);
+    const size_t level = f->level;
+
+    if (status == RC_MORE || status == RC_FAIL)
+        return status;
+    f->good = status == RC_OK;
+    if (f->problem.known == NULL) {
+        if (rc_model_look(inner, NULL, err) != RC_OK ||
+            rc_model_frame(inner, "pressure", f->p, err) != RC_OK)
+            return RC_FAIL;
+        f->inner_convolutions += f->resumes ? 0 : rc_model_number(inner, "convolutions");
+        f->pressure_error = rc_model_number(inner, "pressure_error_estimate");
+    }
+    if (f->problem.known != NULL)
+        memcpy(f->p, f->problem.known->p, f->n * sizeof *f->p);
+    if (pose(f, err) != RC_OK)
+        return RC_FAIL;
+    if (f->resumes && level >= f->levels)
+        return rc_err_set(err, "the state has %zu coarser grids, and this contact has %zu", level,
+                          f->levels - 1);
+    f->level = f->resumes ? level : f->levels - 1;
+    if (f->resumes && f->problem.path && f->stage == THERE)
+        return there(f);
+    begin(f);
+    return RC_MORE;
+}
+
+static enum rc_status
+step(struct rc_model *m, struct rc_err *err)
+{
+    struct rolling *f = (struct rolling *)m;
+    enum rc_status status;
+
+    if (f->again) {
+        f->again = false;
+        f->resumes = true;
+        f->pressure_error = 0;
+        return step_contact(f, err);
+    }
+    if (f->stage == PRESSING)
+        return step_contact(f, err);
+    status = f->problem.path ? rc_steady_follow(f->at->d) : rc_steady_step(f->at[f->level].d, err);
+    if (status == RC_MORE || status == RC_FAIL)
+        return status;
+    if (f->level > 0) {
+        look_at(f, &f->at[f->level], &f->coarse);
+        f->coarse_error = f->coarse.traction_error * size_of(&f->at[f->level]);
+        f->level--;
+        begin(f);
+        return RC_MORE;
+    }
+    return there(f);
+}
+
+static enum rc_status
+look(struct rc_model *m, struct rc_point *at, struct rc_err *err)
+{
+    struct rolling *f = (struct rolling *)m;
+
+    if (f->again && m->status != RC_MORE) { /* the point of a state, which was reached */
+        enum rc_status status;
+        do
+            status = step(m, err);
+        while (status == RC_MORE);
+        if (status == RC_FAIL || rc_model_look(m->inner, at, err) != RC_OK)
+            return RC_FAIL;
+    }
+    find_figures(f);
+    for (int c = 0; c < 2; c++)
+        at->at[(f->problem.force ? RC_CREEP_X : RC_TANGENTIAL_X) + c] =
+            !f->problem.force      ? f->f.force[c]
+            : isnan(f->f.creep[c]) ? 0
+                                   : f->f.creep[c];
+    return RC_OK;
+}
+
+static enum rc_status
+keep(struct rc_model *m, struct rc_err *err)
+{
+    struct rolling *f = (struct rolling *)m;
+
+    f->stage = REST;
+    if (f->problem.path) {
+        f->inherited = f->f.traction_error * size_of(f->at);
+        f->x = middle_of(f);
+        f->rolls = true;
+        rc_steady_arrive(f->at->d);
+    }
+    return f->problem.known == NULL ? rc_model_keep(m->inner, err) : RC_OK;
+}
+
+/* J/m3: friction energy per area and length rolled. */
+static double
+dissipation(const struct rolling *f, size_t k)
+{
+    const struct rc_steady *d = f->at->d;
+
+    return d == NULL || !(f->at->length > 0)
+               ? 0
+               : f->dissipates * rc_steady_dissipated(d, k, false) / step_of(f->at);
+}
+
+static enum rc_status
+fill(struct rc_model *m, size_t frame, double *to, struct rc_err *err)
+{
+    const struct rolling *f = (const struct rolling *)m;
+    const struct rc_steady *d = f->at->d;
+
+    (void)err;
+    for (size_t k = 0; k < f->n; k++)
+        switch (frame) {
+        case RC_SLIP_PRESSURE:
+            to[k] = f->p[k];
+            break;
+        case RC_SLIP_TRACTION_X:
+        case RC_SLIP_TRACTION_Y:
+            to[k] = d == NULL ? 0 : d->q[frame - RC_SLIP_TRACTION_X][k];
+            break;
+        case RC_SLIP_STATE:
+            to[k] = d == NULL || d->g[k] == 0 ? 0 : d->face[k] == RC_FACE_STICK ? 1 : 2;
+            break;
+        case RC_SLIP_DISSIPATION:
+            to[k] = dissipation(f, k);
+            break;
+        case RC_SLIP_LENGTH:
+            to[k] = d == NULL || d->g[k] == 0 ? 0 : dissipation(f, k) / d->g[k];
+            break;
+        default: /* a node that sticks has none: what is left there is an error */
+            to[k] = d == NULL || d->g[k] == 0 || d->face[k] == RC_FACE_STICK ? 0
+                    : f->at->length > 0 ? d->s[frame - RC_SLIP_SLIP_X][k] / step_of(f->at)
+                                        : 0;
+        }
+    return RC_OK;
+}
+
+static enum rc_status
+set_heights(struct rc_model *m, const double *h, struct rc_err *err)
+{
+    return rc_model_set_heights(m->inner, h, err);
+}
+
+/* ---- states ---- */
+
+static void
+exchange_faces(struct rc_steady *d, struct rc_state *s)
+{
+    RC_STATE_COUNTS(s, &d->found.stick, &d->found.slipping);
+    for (size_t k = 0; k < d->n; k++) {
+        size_t face = d->face[k];
+        rc_state_count(s, &face, RC_FACE_SLIP);
+        d->face[k] = (unsigned char)face;
+    }
+}
+
+static void
+state(struct rc_model *m, struct rc_state *s)
+{
+    struct rolling *f = (struct rolling *)m;
+    const bool path = f->problem.path;
+    struct level *l;
+    bool there;
+
+    rc_state_count(s, &f->stage, THERE);
+    rc_state_count(s, &f->level, LEVELS - 1);
+    RC_STATE_FLAGS(s, &f->rolls);
+    RC_STATE_NUMBERS(s, &f->x, &f->inherited, &f->coarse.moment, &f->coarse_error);
+    rc_state_finite(s, 2, f->coarse.force);
+    rc_state_finite(s, 2, f->coarse.creep);
+    if (rc_state_refused(s))
+        return;
+    if (rc_state_reads(s)) {
+        f->resumes = false;
+        f->again = f->stage == ROLLING || f->stage == THERE;
+        f->convolutions = all_convolutions(f);
+        f->length = f->rolls && path ? m->to.at[RC_POSITION] - m->from.at[RC_POSITION] : 0;
+    }
+    if (f->stage != ROLLING && f->stage != THERE && !(path && f->rolls))
+        return;
+    l = &f->at[f->level];
+    if (rc_state_reads(s)) {
+        struct rc_err err;
+        if (make_level(f, f->level, &err) != RC_OK) {
+            rc_state_refuse(s, "memory is short");
+            return;
+        }
+    }
+    there = path && f->stage == THERE;
+    if (!rc_state_holds(s, (there ? 9 : path ? 4 : 2) * l->d->n + 8))
+        return;
+    rc_state_finite(s, 2, l->d->v);
+    RC_STATE_OPEN(s, &l->d->found.estimate);
+    RC_STATE_SIZES(s, &l->d->found.change);
+    RC_STATE_COUNTS(s, &l->d->found.steps, &l->d->found.fallbacks);
+    for (int c = 0; c < 2; c++) {
+        if (path) { /* a step that has not ended begins again */
+            rc_state_finite(s, l->d->n, l->d->last[c]);
+            rc_state_finite(s, l->d->n, l->d->old[c]);
+        }
+        if (!path || there)
+            rc_state_finite(s, l->d->n, l->d->q[c]);
+        if (there)
+            rc_state_finite(s, l->d->n, l->d->u[c]);
+    }
+    if (there)
+        exchange_faces(l->d, s);
+}
+
+static void
+progress(const struct rc_model *m, struct rc_loops *l)
+{
+    const struct rolling *f = (const struct rolling *)m;
+    const struct rc_steady *d = f->at[f->level].d;
+
+    if (f->stage < ROLLING || d == NULL) {
+        rc_loops_add(l, "grid", NULL, 0, NAN);
+        return;
+    }
+    rc_loops_add(l, "grid", NULL, (double)(f->levels - f->level), (double)f->levels);
+    rc_loops_add(l, "step", NULL, (double)d->found.steps, NAN);
+    l->grid = d->shape;
+    l->error = d->found.estimate;
+    l->tol = d->asked.tol;
+}
+
+/* The bytes are those on 512 x 512 nodes, counted in maps of doubles. */
+static enum rc_status
+plan(const struct rc_model *m, const struct rc_point *most, struct rc_expected *expected,
+     struct rc_err *err)
+{
+    const struct rolling *f = (const struct rolling *)m;
+    const struct rc_rolling_problem *o = &f->problem;
+    const struct rc_point inner = rc_point_for(m->inner, most);
+    const double below = fmax(log10(1e-2 / o->law.tol), 0);
+    const double work = (o->path    ? RC_ROLLING_STEP
+                         : o->force ? RC_ROLLING_FORCE
+                                    : RC_ROLLING_STEADY) *
+                        (1 + below / 2);
+    const double maps = (o->path    ? 53
+                         : o->force ? 72
+                                    : 67) +
+                        (f->shear.beta != 0 && !o->law.uncoupled ? 2 : 0);
+    double each;
+
+    *expected = (struct rc_expected){0, 0, 0};
+    if (o->known == NULL && rc_model_plan(m->inner, &inner, expected, err) != RC_OK)
+        return RC_FAIL;
+    each = rc_conv_seconds(&m->shape, &(struct rc_conv_options){.boundary = o->law.boundary,
+                                                                .threads = o->law.threads});
+    expected->seconds += work * each;
+    expected->convolutions += work;
+    expected->memory += (size_t)(maps * (double)f->n) * sizeof(double);
+    return RC_OK;
+}
+
+static void
+release(struct rc_model *m)
+{
+    struct rolling *f = (struct rolling *)m;
+
+    for (size_t k = 0; k < LEVELS; k++)
+        rc_steady_free(f->at[k].d);
+}
+
+const struct rc_model_row rc_model_rolling = {
+    .name = "rolling",
+    .summary = "rolling with creepage, over an inner model",
+    .takes = 1u << RC_CREEP_X | 1u << RC_CREEP_Y | 1u << RC_SPIN | 1u << RC_TANGENTIAL_X |
+             1u << RC_TANGENTIAL_Y | 1u << RC_POSITION,
+    RC_MODEL_VERBS,
+    .frame = frames,
+    .free = release,
+    .keep = keep,
+    .heights = set_heights,
+    .plan = plan,
+};
+
+/* ---- the maker ---- */
+
+static enum rc_status
+make(struct rolling *f, struct rc_err *err)
+{
+    struct rc_friction_law *o = &f->problem.law;
+
+    if (rc_friction_solver_check(&f->base.shape, o, &f->shear, err) != RC_OK)
+        return RC_FAIL;
+    if (o->boundary != RC_FREE && !f->problem.path)
+        return rc_err_set(
+            err,
+            "steady rolling on a periodic map has no leading edge, where free surface comes in: "
+            "take the free boundary");
+    f->n = f->base.shape.nx * f->base.shape.ny;
+    o->tol = o->tol > 0 ? o->tol : usual_tol[f->problem.path];
+    f->p = rc_store_zeros(&f->base.own, f->n, sizeof *f->p);
+    return rc_model_room(&f->base, err);
+}
+
+struct rc_model *
+rc_rolling_new(struct rc_model *inner, const struct rc_rolling_problem *problem, struct rc_err *err)
+{
+    RC_OWN(rc_model, m) =
+        rc_model_make_outer(&rc_model_rolling, sizeof(struct rolling), inner, err);
+
+    if (m == NULL)
+        return NULL;
+    ((struct rolling *)m)->problem = *problem;
+    return make((struct rolling *)m, err) == RC_OK ? rc_give(&m) : NULL;
+}

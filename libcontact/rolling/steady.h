@@ -1,0 +1,98 @@
+/*
+ * Rolling on one grid, steady or step by step. Internal: never installed.
+ *
+ * The contact rolls towards +x, by one column of nodes in a step. Body 2 moves over body 1 by -rigid + v in a
+ * step. With S the shift by one node, (S f)_i = f_(i+1), the slip of body 1 on body 2 in a step is
+ *
+ *     s = (1 - S) T q + rigid - v,      |q| <= g,   s = 0 where |q| < g, else opposite to q.
+ *
+ * The symmetric part of B = (1 - S) T is positive definite, because q'Bq is the sum of T(k) (1 - cos kx dx)
+ * |q_k|^2. So there is exactly one q. Displacements are in units of the cell over E*, and so in Pa.
+ *
+ * On a path each step has its own pressure and length, and moves the map by any number m of columns:
+ *
+ *     s = T q - S^m before + rigid - v,     before: displacement of the surfaces at the end of the last step.
+ */
+#ifndef RC_STEADY_H
+#define RC_STEADY_H
+
+#include "libcontact/friction/discs.h"
+
+enum {
+    RC_STEADY_STEPS = 8 /* of the linear iteration: its vectors need most of the memory */
+};
+
+struct rc_steady {
+    struct rc_shape shape;
+    size_t n;
+    int threads;
+    struct rc_tangential *t;
+    double self; /* B of a node on itself, the mean of both directions */
+    double run;  /* mean number of loaded nodes one behind the other   */
+    /* The caller sets g (0 in the last column), rigid, v, and q, then calls rc_steady_begin. */
+    double *g, *q[2], *rigid[2], v[2];
+    double *u[2], *s[2];  /* T q or T of a vector; slip     */
+    double *way[2];       /* the correction; on a path, the displacement due to the pressure */
+    double *old[2];       /* q before the correction; on a path, the earlier displacement */
+    double *last[2];      /* on a path, q at the last point kept; else NULL */
+    size_t moved;         /* on a path, columns that the map has moved since then */
+    double *way_of[2][2]; /* if the force is given: corrections due to v, else NULL */
+    float *curve;         /* D of nodes that slip           */
+    float *basis[RC_STEADY_STEPS + 1][2], *z[RC_STEADY_STEPS][2], *frame[2];
+    unsigned char *face, *was; /* enum rc_face; those before the step */
+    struct {
+        bool force; /* v is found                        */
+        bool path;
+        double sum[2]; /* then: of q, Pa                    */
+        double tol;    /* relative L1 error of q            */
+        size_t most;   /* steps                             */
+    } asked;
+    struct {
+        double size;     /* sum of |q|                                                     */
+        double residual; /* relative: change of q by a projected step of length 1/self     */
+        double estimate; /* estimated relative L1 error of q */
+        double sum[2];   /* of q                                                           */
+        double change;   /* sum of |x| of the last step                                    */
+        size_t stick, slipping, steps, fallbacks;
+    } found;
+    struct rc_discs *discs; /* for steps in time; NULL: none was necessary */
+    struct rc_sums rows;
+    struct rc_store own;
+};
+
+/* T in units of the cell over E*. path: for rc_steady_set_out, else for rc_steady_step. NULL when memory is
+ * short. */
+struct rc_steady *rc_steady_new(const struct rc_shape *shape, enum rc_boundary boundary,
+                                const struct rc_shear *shear, bool force, bool path, size_t threads,
+                                struct rc_err *err);
+void rc_steady_free(struct rc_steady *d); /* NULL is allowed */
+RC_OWNER(rc_steady)
+/* A first q, along the motion: half of what friction can carry, or E* times the creepage, about as much
+ * as there is where all nodes stick, if that is less; 0 where the force is given. */
+void rc_steady_guess(struct rc_steady *d);
+/* Starts from q, which is moved to the discs. */
+void rc_steady_begin(struct rc_steady *d);
+/* The same with the q and the estimate, change, steps and fallbacks of an interrupted iteration. */
+void rc_steady_begin_again(struct rc_steady *d);
+/* One step of Newton's method: RC_MORE; RC_OK when the estimate is below tol; RC_SHORT after the most steps;
+ * RC_FAIL when memory is short. */
+enum rc_status rc_steady_step(struct rc_steady *d, struct rc_err *err);
+/* One step of rolling in time from q, which never increases the distance to the solution. */
+enum rc_status rc_steady_roll(struct rc_steady *d, struct rc_err *err);
+/* A step of a path in three calls. The first begins it from q, after the map has moved by these columns. The
+ * second is one iteration, with a status as above. The third makes its end the start of the next step. */
+enum rc_status rc_steady_set_out(struct rc_steady *d, size_t columns, struct rc_err *err);
+enum rc_status rc_steady_follow(struct rc_steady *d);
+void rc_steady_arrive(struct rc_steady *d);
+/* In place of the first two: the end of this step is known, its q, u, v, face, estimate and counts. */
+void rc_steady_reach(struct rc_steady *d, size_t columns);
+/* The friction energy at node k, as q s: the mean traction of a step times its slip. On a path nodes
+ * are points of the surface, and those that leave the contact in the step have a part too. In a steady
+ * state this part belongs to the node in front, where the surface was before. The sum is then that of q
+ * v exactly, without a loss by the grid: the mean traction times the change of T q, summed over the
+ * surface, is the change of the elastic energy. all: with the rest that an iteration has left at nodes
+ * that stick, and with negative values, which the sudden release of a node at a trailing edge can
+ * have. */
+double rc_steady_dissipated(const struct rc_steady *d, size_t k, bool all);
+
+#endif

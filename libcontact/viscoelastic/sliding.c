@@ -1,0 +1,731 @@
+/*
+ * The model of steady sliding over a viscoelastic half-space. Body 2, rigid or elastic, carries the roughness
+ * and slides with the speed v along x over the smooth half-space. In its frame all fields are steady: a wave
+ * of wave number qx along x excites the material with the frequency qx v. The displacement of the half-space
+ * is the elastic one with the complex compliance of that frequency,
+ *
+ *     K(q) = 2/|q| J(qx),    J(qx) = 1/E*(-i qx v) + 1/E2* = |J| exp(i d(qx)).
+ *
+ * J depends on qx only. K is therefore the symmetric operator V = 2/|q| |J(qx)| followed by a filter of the
+ * rows, exp(i d): a change of phase. The pressure is that of a contact: p >= 0, g = K p - h - c >= 0,
+ * p g = 0. It minimises no energy. It is the fixed point of the reflections of Peaceman and Rachford (Lions
+ * and Mercier 1979, SIAM J. Numer. Anal. 16, 964) in the norm of V. Each step is an elastic contact:
+ *
+ *     p(k) is the pressure of the contact with the operator V and the heights H(k) = h - G(k),
+ *     G(k+1) = i tan(d/2) (2 V p(k) + G(k)),    G(0) = 0.
+ *
+ * At the fixed point G = (K - V) p. The reflection at an elastic contact increases no distance in the norm of
+ * V, and the filter multiplies each wave by i tan(d/2). So the error decreases at least by the factor
+ * tan(d/2) of the largest phase: 0.4 at tan d = 1, and 0.6 at tan d = 1.7. The simple iteration G(k+1) =
+ * (K - V) p(k) has the factor 2 sin(d/2), and sin d with |K|/cos d, the best symmetric operator. No step sums
+ * with K itself, and an elastic contact takes few iterations.
+ *
+ * The error of p follows from the elastic contact with the operator V and the heights h - (K - V) p: there p
+ * has the gap of the sliding contact. Its estimate is one for V. K is monotone with the constant cos d in the
+ * norm of V, and the estimate over cos d bounds the error in this norm.
+ *
+ * Waves along y, qx = 0, are the grooves that body 2 leaves. On a periodic map it would meet its own grooves
+ * again, and J(0) would be the relaxed compliance at any speed. For a fresh track J(0) is the mean of J over
+ * the width of this row of waves, |qx| < pi/Lx.
+ *
+ * On a free map K, V and d are those of a padded map (wake.c). The pressure is 0 outside the map, and all of
+ * this holds with them.
+ */
+#include <complex.h>
+#include <math.h>
+#include <omp.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "libcontact/expected.h"
+#include "libcontact/model/row.h"
+#include "libcontact/solver/solver.h"
+#include "libcontact/transform/fourier.h"
+#include "wake.h"
+
+/* The contacts of the iteration are solved to this part of the last error, and at most to this tolerance. */
+static const double of_error = 0.25, loosest = 0.1;
+static const double single_floor = 2e-5; /* above this tolerance single precision is enough */
+static const double of_filter = 0.5;     /* work of a filter, in convolutions */
+static const double of_wake = 1.2;       /* the same on a free map */
+static const double usual_tol = 1e-3;
+static const double most_tan = 3, most_repeated = 10;
+enum {
+    MOST_CONTACTS = 200
+};
+
+/* A wave number along x. */
+struct wave {
+    double factor;        /* |J| E of the inner model                      */
+    double complex phase; /* exp(i d) - 1                                  */
+    double complex half;  /* i tan(d/2)                                    */
+};
+
+struct slide {
+    struct rc_model base;
+    struct rc_problem problem;
+    struct rc_sliding_problem law;
+    struct rc_shape turned; /* shape of the inner model: x is along the motion */
+    size_t n, columns;
+    double *h, *g, *room; /* heights, G, and heights of the inner model */
+    double top;
+    struct wave *wave;
+    struct rc_along along;
+    struct rc_line *line;
+    struct rc_wake *wake; /* on a free map, at a speed above 0 */
+    bool loaded;          /* the wake has the pressure       */
+    double complex *row;  /* of each thread */
+    int threads;
+    double steepest; /* largest tan d                                         */
+    double lossy;    /* largest tan delta of the material                     */
+    double tol;      /* of the present elastic contact                        */
+    double estimate; /* relative error of p in the norm of V, times cos d     */
+    size_t contacts, iterations;
+    double convolutions;
+    bool ended; /* the state that was read is that of a last contact     */
+    bool done;
+    struct rc_sliding_figures f;
+};
+
+const struct rc_figure rc_figures_sliding[] = {
+#define FIGURE(member) RC_FIGURE(struct rc_sliding_figures, member)
+#define AS(column, member) RC_FIGURE_AS(column, struct rc_sliding_figures, member)
+    {FIGURE(speed), "m/s", "Speed", .says = "of body 2 over body 1"},
+    {FIGURE(friction), NULL, "Coefficient of friction", .says = "by the losses in the material"},
+    {FIGURE(friction_force), "N", "Friction", .says = "opposite to the motion"},
+    {AS("friction_error_estimate", friction_error), NULL, "Error of the coefficient of friction",
+     .says = "estimated: of the grid, and of the pressure", .role = RC_FIGURE_ERROR, .by = "tol"},
+    {FIGURE(dissipated_power), "W", "Dissipated power",
+     .says = "sum of the losses of all waves, which is the friction times the speed"},
+    {FIGURE(tan_delta_max), NULL, "Largest tan delta", .says = "of the waves of the map"},
+    {FIGURE(track), NULL, "Track"},
+    {FIGURE(contacts), NULL, "Contacts", .role = RC_FIGURE_COST,
+     .says = "elastic contacts of the iteration"},
+    {FIGURE(approach), "m", "Approach", .says = "of the bodies, from first touch"},
+    {FIGURE(iterations), NULL, "Iterations", .role = RC_FIGURE_COST},
+    {FIGURE(convolutions), NULL, "Convolutions", .role = RC_FIGURE_COST,
+     .says = "in equivalents of one in double precision on this grid"},
+    {AS("pressure_error_estimate", pressure_error), NULL, "Error of the pressure",
+     .says = "estimated relative L1 error", .role = RC_FIGURE_ERROR, .by = "tol"},
+    {FIGURE(converged), NULL, "Converged", .says = "the error estimate is within the tolerance"},
+    {AS("elastic_energy", elastic_energy), "J", "Elastic energy", .says = "unknown here"},
+    {0},
+};
+static const struct rc_figure_set sets[] = {{rc_figures_sliding, offsetof(struct slide, f)},
+                                            {NULL, 0}};
+static const struct rc_frame_kind frames[] = {RC_CONTACT_FRAME_KINDS, {NULL, NULL, NULL}};
+
+/* ---- the material ---- */
+
+/* J of column k, with the sign of the imaginary part for a positive speed. */
+static double complex
+compliance(const struct slide *s, size_t k, double speed)
+{
+    const struct rc_relaxation *r = s->law.material;
+    const double first = 2 * RC_PI / ((double)s->turned.nx * s->turned.dx);
+    const double omega = first * (double)k * fabs(speed);
+    double modulus[2], j[2];
+
+    if (k == 0 && !s->law.repeats)
+        return rc_relaxation_mean_compliance(r, first * fabs(speed) / 2) + s->law.compliance;
+    if (!(omega > 0))
+        return 1 / r->relaxed + s->law.compliance;
+    rc_relaxation_dynamic(r, omega, modulus, j);
+    return j[0] + s->law.compliance - I * (2 * k == s->turned.nx ? 0 : j[1]);
+}
+
+static double
+factor_of(const void *of, double qx)
+{
+    const struct slide *s = of;
+    const double k = fabs(qx) * (double)s->turned.nx * s->turned.dx / (2 * RC_PI);
+
+    return s->wave[(size_t)fmin(k + 0.5, (double)s->columns - 1)].factor;
+}
+
+static void
+set_waves(struct slide *s, double speed)
+{
+    /* about the waves of the roughness that the inner model takes for typical */
+    const double typical = cabs(compliance(s, (s->turned.nx + 3) / 4, speed));
+
+    s->steepest = s->lossy = s->along.most = 0;
+    for (size_t k = 0; k < s->columns; k++) {
+        const double complex j = compliance(s, k, speed);
+        const double d = copysign(carg(j), speed);
+        s->wave[k] = (struct wave){cabs(j) / typical, cexp(I * d) - 1, I * tan(d / 2)};
+        s->steepest = s->lossy = fmax(s->steepest, fabs(tan(d)));
+        s->along.most = fmax(s->along.most, s->wave[k].factor);
+    }
+    s->problem.pair = (struct rc_pair){
+        .estar = 1 / typical, .along = s->problem.boundary == RC_PERIODIC ? &s->along : NULL};
+}
+
+/* On a free map: the waves of the padded map. A body at rest has none. */
+static enum rc_status
+set_wake(struct slide *s, double speed, struct rc_err *err)
+{
+    const struct rc_sliding_medium medium = {s->law.material, s->law.compliance, speed,
+                                             1 / s->problem.pair.estar};
+
+    rc_wake_free(s->wake);
+    s->wake = NULL;
+    s->loaded = false;
+    if (s->problem.boundary == RC_PERIODIC || speed == 0)
+        return RC_OK;
+    if ((s->wake = rc_wake_new(&s->turned, &medium, s->problem.threads, err)) == NULL)
+        return RC_FAIL;
+    s->problem.pair.along = &s->wake->along;
+    s->steepest = s->wake->steepest;
+    return RC_OK;
+}
+
+/* ---- filters of rows ---- */
+
+static struct rc_solver *
+solver_of(const struct slide *s)
+{
+    return rc_model_solver(s->base.inner);
+}
+
+enum filter {
+    PHASE, /* K - V */
+    HALF,
+    SLOPE, /* the derivative along x            */
+    TILT   /* the same of K p, from V p         */
+};
+
+static void
+filter_row(const struct slide *s, enum filter which, double *row)
+{
+    double complex *z = s->row + (size_t)omp_get_thread_num() * s->columns;
+    const size_t nx = s->turned.nx;
+
+    rc_line_forward(s->line, row, z);
+    for (size_t k = 0; k < s->columns; k++) {
+        const double q = 2 * k == nx ? 0 : rc_fourier_q(k, nx, s->turned.dx);
+        z[k] *= (which == PHASE  ? s->wave[k].phase
+                 : which == HALF ? s->wave[k].half
+                                 : I * q * (which == TILT ? 1 + s->wave[k].phase : 1)) /
+                (double)nx;
+    }
+    rc_line_backward(s->line, z, row);
+}
+
+/* The derivative of a map that does not repeat, by central differences. */
+static void
+differentiate(const struct slide *s, double *map)
+{
+    const long n = (long)s->turned.nx;
+
+    for (size_t j = 0; j < s->turned.ny; j++) {
+        double *row = map + j * s->turned.nx, last[3] = {row[0], row[0], row[0]};
+        for (long i = 0; i < n; i++) {
+            const double here = row[i];
+            double sum = 0;
+            for (long k = 1; k <= 3; k++)
+                sum += (double[]){45, -9, 1}[k - 1] / 60 *
+                       (row[i + k < n ? i + k : n - 1] - last[k - 1]);
+            row[i] = sum / s->turned.dx;
+            last[2] = last[1];
+            last[1] = last[0];
+            last[0] = here;
+        }
+    }
+}
+
+/* On a free map the wake finds the field of the pressure, except of the slope of the heights. */
+static void
+filter(struct slide *s, enum filter which, double *map)
+{
+    if (s->problem.boundary == RC_FREE && which == SLOPE) {
+        differentiate(s, map);
+        return;
+    }
+    s->convolutions += s->wake != NULL ? of_wake : of_filter;
+    if (s->wake != NULL) {
+        if (!s->loaded)
+            rc_wake_load(s->wake, solver_of(s)->it.p);
+        s->loaded = true;
+        rc_wake_field(s->wake,
+                      which == PHASE  ? RC_WAKE_LAG
+                      : which == HALF ? RC_WAKE_REFLECT
+                                      : RC_WAKE_SLOPE,
+                      map);
+        return;
+    }
+    if (s->problem.boundary == RC_FREE) {
+        memset(map, 0, s->n * sizeof *map);
+        return;
+    }
+#pragma omp parallel for num_threads(s->threads) schedule(static)
+    for (size_t j = 0; j < s->turned.ny; j++)
+        filter_row(s, which, map + j * s->turned.nx);
+}
+
+/* ---- elastic contacts ---- */
+
+/* Gives the solver the heights in `room`, which have the shift of the sliding contact. */
+static enum rc_status
+pose(struct slide *s, struct rc_err *err)
+{
+    struct rc_solver *v = solver_of(s);
+    const struct rc_point *to = &s->base.to;
+
+    s->iterations += v->it.iterations;
+    s->convolutions += rc_solver_convolutions(v);
+    if (rc_point_has(to, RC_APPROACH))
+        v->load.target = fmax(to->at[RC_APPROACH] + rc_highest(s->room, s->n) - s->top,
+                              1e-12 * to->at[RC_APPROACH]);
+    return rc_solver_set_heights(v, s->room, err);
+}
+
+static double
+goal_of(const struct slide *s)
+{
+    return s->problem.tol / hypot(1, s->steepest);
+}
+
+/* Judges the pressure in the sliding contact, from V p in v. Afterwards the solver has the heights
+ * h - (K - V) p, and with them the gap of the sliding contact. */
+static enum rc_status
+judge(struct slide *s, struct rc_err *err)
+{
+    struct rc_solver *v = solver_of(s);
+
+    memcpy(s->room, v->it.v, s->n * sizeof *s->room);
+    filter(s, PHASE, s->room);
+    for (size_t k = 0; k < s->n; k++)
+        s->room[k] = s->h[k] - s->room[k];
+    v->posed.tol = goal_of(s);
+    if (pose(s, err) != RC_OK)
+        return RC_FAIL;
+    for (size_t k = 0; k < s->n; k++)
+        v->it.v[k] -= v->posed.h[k];
+    v->it.known = true;
+    rc_iterate_shift(v);
+    rc_working_set_find(v, false);
+    s->estimate = rc_working_set_estimate(v);
+    return RC_OK;
+}
+
+static enum rc_status
+next_contact(struct slide *s, struct rc_err *err)
+{
+    struct rc_solver *v = solver_of(s);
+
+    s->tol = fmin(loosest, of_error * s->estimate);
+    v->posed.rough = s->tol > single_floor;
+    rc_solver_set_tol(v, s->tol);
+    for (size_t k = 0; k < s->n; k++)
+        s->room[k] = s->h[k] - s->g[k];
+    if (pose(s, err) != RC_OK)
+        return RC_FAIL;
+    s->base.inner->status = RC_MORE;
+    return RC_MORE;
+}
+
+/* Judges the pressure of the last contact by V p in double precision. The result then depends on nothing but
+ * this pressure, and a state needs nothing else to give the same bits. */
+static enum rc_status
+conclude(struct slide *s, struct rc_err *err)
+{
+    struct rc_solver *v = solver_of(s);
+
+    rc_operator_apply(v->op, v->it.p, v->it.v);
+    rc_iterate_count(v, 1);
+    if (judge(s, err) != RC_OK)
+        return RC_FAIL;
+    v->it.fresh = true;
+    s->done = s->estimate <= goal_of(s) && rc_load_reached(v);
+    if (!s->done && s->contacts < MOST_CONTACTS)
+        return next_contact(s, err);
+    rc_iterate_checked(v, s->estimate, 1);
+    v->stage = RC_STAGE_STEPPED;
+    s->base.inner->status = RC_OK;
+    return s->done ? RC_OK : RC_SHORT;
+}
+
+/* After an elastic contact: RC_OK if its pressure solves the sliding contact; otherwise poses the next
+ * one. */
+static enum rc_status
+advance(struct slide *s, struct rc_err *err)
+{
+    struct rc_solver *v = solver_of(s);
+
+    for (size_t k = 0; k < s->n; k++)
+        s->g[k] += 2 * (v->it.v[k] += v->posed.h[k]);
+    filter(s, HALF, s->g);
+    if (judge(s, err) != RC_OK)
+        return RC_FAIL;
+    s->contacts++;
+    return s->estimate <= goal_of(s) || s->contacts >= MOST_CONTACTS ? conclude(s, err)
+                                                                     : next_contact(s, err);
+}
+
+/* ---- verbs ---- */
+
+/* Makes the inner model of this speed. */
+static enum rc_status
+make_inner(struct slide *s, double speed, struct rc_err *err)
+{
+    const struct rc_elastic_asks none = {false, {0, 0}};
+
+    set_waves(s, speed);
+    if (set_wake(s, speed, err) != RC_OK)
+        return RC_FAIL;
+    rc_model_free(s->base.inner);
+    s->base.inner = rc_elastic_new(&s->turned, s->h, &s->problem, &none, err);
+    return s->base.inner != NULL ? RC_OK : RC_FAIL;
+}
+
+static enum rc_status
+go(struct rc_model *m, struct rc_err *err)
+{
+    struct slide *s = (struct slide *)m;
+    const double speed = m->to.at[RC_SPEED];
+    struct rc_point inner;
+
+    if (!(m->to.at[rc_point_has(&m->to, RC_APPROACH) ? RC_APPROACH : RC_LOAD] > 0))
+        return rc_err_set(err, "bodies that slide need a load or an approach above 0");
+    if (make_inner(s, speed, err) != RC_OK)
+        return RC_FAIL;
+    if (s->steepest > most_tan)
+        return rc_err_set(err,
+                          "speed %g m/s: tan delta of the %s reaches %.3g among the waves of the "
+                          "%smap, and above %g the iteration is not reliable",
+                          speed, s->wake != NULL ? "wake" : "material", s->steepest,
+                          s->wake != NULL ? "padded " : "", most_tan);
+    memset(s->g, 0, s->n * sizeof *s->g);
+    s->contacts = s->iterations = 0;
+    s->convolutions = 0;
+    s->tol = loosest;
+    s->estimate = NAN;
+    s->done = s->ended = false;
+    inner = rc_point_for(m->inner, &m->to);
+    m->inner->row->accuracy(m->inner, s->tol / s->problem.tol);
+    if (rc_model_go(m->inner, &inner, err) != RC_MORE)
+        return RC_FAIL;
+    solver_of(s)->posed.rough = true;
+    return RC_OK;
+}
+
+static enum rc_status
+step(struct rc_model *m, struct rc_err *err)
+{
+    struct slide *s = (struct slide *)m;
+    enum rc_status status;
+
+    s->loaded = false;
+    if (s->ended) {
+        s->ended = false;
+        return conclude(s, err);
+    }
+    status = rc_model_step(m->inner, err);
+    return status == RC_MORE || status == RC_FAIL ? status : advance(s, err);
+}
+
+/* The friction by the slopes of u = K p, and by the slopes of h; the largest slope of u in contact. */
+static void
+find_friction(struct slide *s, double force[2], double *steep)
+{
+    const struct rc_solver *v = solver_of(s);
+    const bool open = s->problem.boundary == RC_FREE;
+    struct rc_total sum[2] = {{0}};
+
+    *steep = 0;
+    for (int q = 0; q < 2; q++) {
+        for (size_t k = 0; k < s->n; k++)
+            s->room[k] = q == 0 ? v->it.v[k] + v->posed.h[k] : s->h[k];
+        filter(s, q == 0 ? TILT : SLOPE, s->room);
+        for (size_t k = 0; k < s->n; k++) {
+            rc_total_add(&sum[q], -v->it.p[k] * s->room[k]);
+            *steep = fmax(*steep, v->it.p[k] > 0 && (q == 0 || open) ? fabs(s->room[k]) : 0);
+        }
+        force[q] = (q == 0 && open ? 1 : copysign(1, s->base.to.at[RC_SPEED])) *
+                   rc_total_value(&sum[q]) * s->turned.dx * s->turned.dy;
+    }
+}
+
+/* The power of all waves of the pressure: v qx 2/|q| Im J |p|^2. */
+static enum rc_status
+find_power(struct slide *s, double *power, struct rc_err *err)
+{
+    const struct rc_shape *t = &s->turned;
+    const double speed = s->base.to.at[RC_SPEED], per = (double)s->n * (double)s->n;
+    RC_OWNED double complex *z = rc_alloc(rc_fourier_size(t), sizeof *z);
+    struct rc_total sum = {0};
+
+    if (z == NULL)
+        return rc_err_set(err, "out of memory for the waves of %zu x %zu nodes", t->nx, t->ny);
+    if (rc_fourier_forward(t, solver_of(s)->it.p, z, err) != RC_OK)
+        return RC_FAIL;
+    for (size_t j = 0; j < t->ny; j++)
+        for (size_t k = 1; k < s->columns; k++) {
+            const double qx = rc_fourier_q(k, t->nx, t->dx), qy = rc_fourier_q(j, t->ny, t->dy);
+            const double complex p = z[j * s->columns + k];
+            const double loss = s->wave[k].factor * cimag(s->wave[k].phase) / s->problem.pair.estar;
+            rc_total_add(&sum, 2 * speed * qx * 2 / hypot(qx, qy) * loss *
+                                   (creal(p) * creal(p) + cimag(p) * cimag(p)));
+        }
+    *power = rc_total_value(&sum) / per * t->dx * (double)t->nx * t->dy * (double)t->ny;
+    return RC_OK;
+}
+
+static enum rc_status
+look(struct rc_model *m, struct rc_point *at, struct rc_err *err)
+{
+    struct slide *s = (struct slide *)m;
+    struct rc_solver *v = solver_of(s);
+    struct rc_sliding_figures *f = &s->f;
+    const struct rc_contact *c = &rc_elastic_result(m->inner)->contact;
+    const double spent = s->convolutions;
+    double force[2], steep;
+
+    if (m->looked)
+        goto done;
+    find_friction(s, force, &steep);
+    s->convolutions = spent;
+    f->dissipated_power = force[0] * fabs(s->base.to.at[RC_SPEED]);
+    if (s->problem.boundary == RC_PERIODIC && find_power(s, &f->dissipated_power, err) != RC_OK)
+        return RC_FAIL;
+    f->speed = m->to.at[RC_SPEED];
+    f->friction_force = force[0];
+    f->friction = force[0] / c->load;
+    f->pressure_error = s->estimate * hypot(1, s->steepest);
+    f->friction_error = fabs(force[0] - force[1]) / c->load + f->pressure_error * steep;
+    f->tan_delta_max = s->lossy;
+    f->track = s->law.repeats ? "repeated" : "fresh";
+    f->approach = c->approach - v->posed.top + s->top;
+    f->contacts = s->contacts;
+    f->iterations = s->iterations;
+    f->convolutions = s->convolutions + rc_solver_convolutions(v);
+    f->converged = s->done && c->converged;
+    f->elastic_energy = NAN;
+done:
+    at->at[RC_LOAD] = c->load;
+    at->at[RC_APPROACH] = f->approach;
+    return RC_OK;
+}
+
+/* Copies a map of this shape; `over`: with x and y exchanged. */
+static void
+turn(const struct rc_shape *shape, bool over, const double *from, double *to)
+{
+    const size_t nx = shape->nx, ny = shape->ny;
+
+    for (size_t j = 0; j < ny; j++)
+        for (size_t i = 0; i < nx; i++)
+            to[over ? i * ny + j : j * nx + i] = from[j * nx + i];
+}
+
+static enum rc_status
+fill(struct rc_model *m, size_t frame, double *to, struct rc_err *err)
+{
+    struct slide *s = (struct slide *)m;
+
+    if (rc_model_frame(m->inner, frames[frame].name, s->room, err) != RC_OK)
+        return RC_FAIL;
+    if (frame == RC_FRAME_DISPLACEMENT) {
+        const struct rc_solver *v = solver_of(s);
+        for (size_t k = 0; k < s->n; k++)
+            s->room[k] = v->it.v[k] + v->posed.h[k];
+        filter(s, PHASE, s->room);
+        for (size_t k = 0; k < s->n; k++)
+            s->room[k] += v->it.v[k] + v->posed.h[k];
+    }
+    turn(&s->turned, s->law.along_y, s->room, to);
+    return RC_OK;
+}
+
+static enum rc_status
+keep(struct rc_model *m, struct rc_err *err)
+{
+    return rc_model_keep(m->inner, err);
+}
+
+/* The waves of G fill whole maps, the last one with zeros. */
+static void
+exchange_waves(struct slide *s, struct rc_state *x)
+{
+    const double *from;
+    size_t waves;
+    double *g = rc_wake_waves(s->wake, &waves), *to;
+
+    for (size_t at = 0; at < waves; at += s->n) {
+        const size_t some = waves - at < s->n ? waves - at : s->n;
+        if (rc_state_reads(x)) {
+            if ((from = rc_state_read_map(x, s->n)) != NULL)
+                memcpy(g + at, from, some * sizeof *g);
+        } else if ((to = rc_state_map(x, s->n, NULL)) != NULL) {
+            memcpy(to, g + at, some * sizeof *g);
+            memset(to + some, 0, (s->n - some) * sizeof *g);
+        }
+    }
+}
+
+/* Until the point is kept a state holds G; the pressure is in the state of the inner model. */
+static void
+state(struct rc_model *m, struct rc_state *x)
+{
+    struct slide *s = (struct slide *)m;
+    struct rc_err err;
+
+    if (!m->moved)
+        return;
+    rc_state_count(x, &s->contacts, MOST_CONTACTS);
+    rc_state_count(x, &s->iterations, (size_t)1 << 40);
+    RC_STATE_SIZES(x, &s->convolutions, &s->tol);
+    rc_state_map(x, s->n, s->g);
+    if (rc_state_reads(x) && make_inner(s, m->to.at[RC_SPEED], &err) != RC_OK) {
+        rc_state_refuse(x, err.text);
+        return;
+    }
+    if (s->wake != NULL)
+        exchange_waves(s, x);
+    if (!rc_state_reads(x))
+        return;
+    s->done = false;
+    s->ended = m->status == RC_OK || m->status == RC_SHORT;
+    for (size_t k = 0; k < s->n; k++)
+        s->room[k] = s->h[k] - s->g[k];
+    if (rc_model_set_heights(m->inner, s->room, &err) != RC_OK)
+        rc_state_refuse(x, err.text);
+    else
+        m->inner->row->accuracy(m->inner, s->tol / s->problem.tol);
+}
+
+static void
+progress(const struct rc_model *m, struct rc_loops *l)
+{
+    rc_loops_add(l, "contact", NULL, (double)((const struct slide *)m)->contacts + 1, NAN);
+}
+
+/* The error decreases in each contact by the factor tan(d/2). */
+static enum rc_status
+plan(const struct rc_model *m, const struct rc_point *most, struct rc_expected *expected,
+     struct rc_err *err)
+{
+    const struct slide *s = (const struct slide *)m;
+    const struct rc_point inner = rc_point_for(m->inner, most);
+    const double start = 0.7; /* error of the pressure of the first contact, times tan d */
+    double steepest = 0, contacts;
+
+    if (rc_model_plan(m->inner, &inner, expected, err) != RC_OK)
+        return RC_FAIL;
+    for (size_t k = 1; k < s->columns; k++) {
+        const double complex j = compliance(s, k, most->at[RC_SPEED]);
+        steepest = fmax(steepest, cimag(j) / creal(j));
+    }
+    contacts = fmax(log(s->problem.tol / (start * steepest)) / log(tan(atan(steepest) / 2)), 0);
+    expected->seconds *=
+        RC_SLIDE_PASSES * (1 + contacts * RC_SLIDE_CONTACT / expected->convolutions);
+    expected->convolutions += contacts * RC_SLIDE_CONTACT;
+    /* measured; the plan of the inner model has some of the maps */
+    expected->memory += (s->problem.boundary == RC_PERIODIC ? 1 : 23) * s->n * sizeof(double);
+    return RC_OK;
+}
+
+static void
+release(struct rc_model *m)
+{
+    struct slide *s = (struct slide *)m;
+
+    rc_line_free(s->line);
+    rc_wake_free(s->wake);
+}
+
+const struct rc_model_row rc_model_sliding = {
+    .name = "sliding",
+    .summary = "a rough body that slides over a viscoelastic half-space",
+    .needs = 1u << RC_LOAD | 1u << RC_SPEED,
+    .takes = 1u << RC_LOAD | 1u << RC_APPROACH | 1u << RC_SPEED,
+    .forgets = true,
+    RC_MODEL_VERBS,
+    .frame = frames,
+    .free = release,
+    .keep = keep,
+    .plan = plan,
+};
+
+/* ---- the maker ---- */
+
+static enum rc_status
+check(const struct rc_shape *shape, const struct rc_problem *problem,
+      const struct rc_sliding_problem *law, struct rc_err *err)
+{
+    const struct rc_relaxation *r = law->material;
+    const double ratio = (1 / r->relaxed + law->compliance) / (r->instant + law->compliance);
+
+    if (rc_shape_check(shape, err) != RC_OK)
+        return RC_FAIL;
+    if (problem->boundary != RC_PERIODIC && law->repeats)
+        return rc_err_set(err, "only a periodic map has a repeated track");
+    if (problem->ranks != NULL)
+        return rc_err_set(err, "sliding over a viscoelastic body needs the map in one process");
+    if (problem->tilt_free || (problem->hardness > 0 && !isinf(problem->hardness)) ||
+        problem->hardness_map != NULL)
+        return rc_err_set(err, "sliding over a viscoelastic body with a hardness or a free tilt is "
+                               "not implemented");
+    if (!(law->compliance >= 0) || isinf(law->compliance))
+        return rc_err_set(err, "compliance %g 1/Pa of body 2: it must be at least 0 and finite",
+                          law->compliance);
+    if (!(r->relaxed > 0))
+        return rc_err_set(err,
+                          "the relaxed modulus is 0: such a body sinks without end, and has no "
+                          "steady state of sliding");
+    if (law->repeats && ratio > most_repeated)
+        return rc_err_set(
+            err,
+            "the compliance of the bodies changes by a factor of %.3g: for a repeated "
+            "track it must be at most %g",
+            ratio, most_repeated);
+    return RC_OK;
+}
+
+static enum rc_status
+make_room(struct slide *s, struct rc_err *err)
+{
+    struct rc_store *own = &s->base.own;
+
+    s->h = rc_store_take(own, s->n, sizeof *s->h);
+    s->g = rc_store_take(own, s->n, sizeof *s->g);
+    s->room = rc_store_take(own, s->n, sizeof *s->room);
+    s->wave = rc_store_take(own, s->columns, sizeof *s->wave);
+    s->row = rc_store_take(own, (size_t)s->threads * s->columns, sizeof *s->row);
+    if (rc_model_room(&s->base, err) != RC_OK)
+        return RC_FAIL;
+    s->line = rc_line_new(s->turned.nx, (size_t)s->threads, err);
+    return s->line != NULL ? RC_OK : RC_FAIL;
+}
+
+struct rc_model *
+rc_sliding_new(const struct rc_shape *shape, const double *h, const struct rc_problem *problem,
+               const struct rc_sliding_problem *law, struct rc_err *err)
+{
+    const struct rc_shape other = {shape->ny, shape->nx, shape->dy, shape->dx};
+    RC_OWN(rc_model, m) = NULL;
+    struct slide *s;
+
+    if (check(shape, problem, law, err) != RC_OK ||
+        (m = rc_model_make(&rc_model_sliding, sizeof *s, shape, err)) == NULL)
+        return NULL;
+    s = (struct slide *)m;
+    s->problem = *problem;
+    s->problem.hurry = NULL;
+    if (problem->boundary == RC_FREE)
+        s->problem.engine = "fft"; /* the other engines have no factor of the displacement */
+    s->law = *law;
+    s->turned = law->along_y ? other : *shape;
+    s->n = shape->nx * shape->ny;
+    if (!(problem->tol > 0))
+        s->problem.tol = fmin(usual_tol, pow((double)s->n, -0.75));
+    s->columns = s->turned.nx / 2 + 1;
+    s->along = (struct rc_along){.factor = factor_of, .of = s};
+    s->threads = rc_useful_threads(shape, problem->threads);
+    if (make_room(s, err) != RC_OK)
+        return NULL;
+    turn(shape, law->along_y, h, s->h);
+    s->top = rc_highest(s->h, s->n);
+    return make_inner(s, 0, err) == RC_OK ? rc_give(&m) : NULL;
+}

@@ -1,0 +1,829 @@
+/*
+ * The model of a body that may yield in its volume, along a history of loads. A load is first solved as an
+ * elastic contact. If its stresses stay below the yield stress everywhere, this is the solution, and no voxel
+ * takes memory. Otherwise the body is loaded from 0 in increments, with slabs as deep as the largest planned
+ * load needs. From then on each load continues from the last one.
+ *
+ * If the caller gives no number of increments, a load starts with a few. While their part of the estimated
+ * error is too large, the body returns to the state before the load and takes more increments.
+ */
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "yield.h"
+
+#include "libcontact/expected.h"
+#include "libcontact/memory.h"
+
+enum {
+    FIRST = 8,       /* increments of the first try of a load */
+    MOST_AUTO = 128, /* increments of the last try */
+    TRIES = 3
+};
+static const double deserved = 1e-2;      /* goal of the error that determines the increments */
+static const double contact_most = 1e-4;  /* largest tolerance of each contact */
+static const double contact_least = 1e-6; /* its smallest tolerance, for a smaller goal */
+static const double contact_share = 0.1;  /* part of the goal */
+static const double lag_least = 1e-3;     /* the smallest lag that single precision allows */
+static const double for_later = 0.7;      /* part of the goal for a load that others follow */
+/* The increments of the next try over those of the last one: the first factor times error over goal, within
+ * bounds. The second line is for a third try, whose error is known better. */
+static const struct {
+    double beyond, least, most;
+} second = {1.6, 2, 4}, third = {1.3, 1.2, 4};
+/* Two runs give two errors of the increments, and the estimate is the larger one. The first is `of_terms`
+ * times the error from the terms of second order. The second is `of_change` times the change of the pressure
+ * over ratio - 1. In 367 loads of random lists no estimate was below the error for 8 and 16 or 8 and 24
+ * increments, one for 16 and 32, two for 8 and 32. */
+static const double of_terms = 0.6, of_change = 1.5;
+static const double least_ratio = 2, most_ratio = 4; /* of the increments of the two runs */
+
+enum stage {
+    APART,   /* no load, and nothing has yielded */
+    ELASTIC, /* the elastic contact */
+    DEPTHS,  /* its stresses */
+    LARGEST, /* the elastic contact under the largest load of the plan */
+    MAKE,    /* the next step makes the volume */
+    VOLUME
+};
+
+struct yield {
+    struct rc_model base;
+    struct rc_yield_problem
+        problem; /* as given to the maker                                        */
+    size_t n;
+    double *h;             /* m: undeformed heights                                        */
+    double first_top, top; /* m: highest point of h; highest point of the shape after plastic
+                              strain */
+    struct rc_solver *elastic;
+    struct rc_yield_solver *plastic; /* NULL: no voxel has yielded */
+    double *thickness;               /* thicknesses of the slabs, m */
+    size_t slabs;                /* 0: the elastic stress nowhere exceeds the yield stress     */
+    double load, largest;        /* N: load of the point; largest load of the plan */
+    size_t left, planned;        /* remaining loads of the plan; all of them */
+    size_t increments, try;      /* increments of the present try of the load; number of the try,
+                                    from 0 */
+    struct rc_state_copy before; /* state before the load; empty: there is no further try */
+    struct rc_state_copy half;   /* companion: state of the run with half the increments */
+    double *other;               /* Pa: pressure of the first try; NULL: there was none */
+    size_t than;                 /* its increments; 0: it is not comparable */
+    size_t spent;                /* applications of the tries of this load that were given up */
+    double part;                 /* part of the nodes of the slabs with an elastic stress above the
+                                    yield stress */
+    double most, deepest;        /* the largest elastic Mises stress over the yield stress; its
+                                    depth, m */
+    enum stage stage;
+    enum rc_status reached; /* status of the elastic contact */
+    bool travels, moved;    /* the heights may change; they have changed since the last load */
+    struct rc_yield_figures figures;
+};
+
+const struct rc_figure rc_figures_yield[] = {
+#define FIGURE(member) RC_FIGURE(struct rc_yield_figures, member)
+#define AS(column, member) RC_FIGURE_AS(column, struct rc_yield_figures, member)
+    {AS("increments", last.increments), NULL, "Increments", .role = RC_FIGURE_COST},
+    {AS("applications", last.applications), NULL, "Applications", .role = RC_FIGURE_COST},
+    {FIGURE(slabs), NULL, "Slabs", .says = "layers that may yield"},
+    {AS("plastic_depth", last.depth), "m", "Plastic depth"},
+    {AS("plastic_volume", last.volume), "m3", "Plastic volume"},
+    {AS("max_plastic_strain", last.max_strain), NULL, "Largest plastic strain", .limit = 0.1,
+     .warning = "the plastic strain is beyond the theory of small strains"},
+    {AS("plastic_work", last.work), "J", "Plastic work", .says = "of all loads so far"},
+    {AS("max_pressure_mean4", last.max_pressure_mean4), "Pa", "Largest pressure over 2 x 2 nodes"},
+    {FIGURE(max_mises_over_yield), NULL, "Mises stress over the yield stress",
+     .says = "largest value in a body without yield"},
+    {FIGURE(max_mises_depth), "m", "Depth of the largest Mises stress"},
+    {FIGURE(indentation), "m", "Indentation",
+     .says = "approach from the first touch of the first shape"},
+    {FIGURE(residual_indentation), "m", "Residual indentation",
+     .says =
+         "first touch of the shape after the load, counted from first touch of the first shape"},
+    {AS("increment_error_estimate", last.increment_error), NULL, "Error of the increments",
+     .role = RC_FIGURE_ERROR, .by = "increments"},
+    {AS("inherited_error_estimate", last.inherited_error), NULL, "Error of earlier loads",
+     .role = RC_FIGURE_ERROR, .by = "increments"},
+    {AS("iteration_error_estimate", last.iteration_error), NULL, "Error of the iteration",
+     .role = RC_FIGURE_ERROR, .by = "tol"},
+    {AS("contact_error_estimate", last.contact_error), NULL, "Error of the contacts",
+     .role = RC_FIGURE_ERROR, .by = "tol"},
+    {AS("image_error_estimate", last.image_error), NULL, "Error of the edge of the map",
+     .role = RC_FIGURE_ERROR, .by = "boundary"},
+    {0},
+};
+static const struct rc_figure_set sets[] = {
+    {rc_figures_contact, offsetof(struct yield, figures.contact)},
+    {rc_figures_yield, offsetof(struct yield, figures)},
+    {NULL, 0},
+};
+
+enum {
+    RESIDUAL = RC_CONTACT_FRAMES,
+    SHAPE
+};
+static const struct rc_frame_kind frames[] = {
+    RC_CONTACT_FRAME_KINDS,
+    [RESIDUAL] = {"residual", "m", "Residual displacement"},
+    [SHAPE] = {"plastic", "m", "Height after yield"},
+    {NULL, NULL, NULL},
+};
+
+/* ---- slabs ---- */
+
+/* Finds the slabs from the elastic pressure; y->slabs is 0 if no stress reaches the yield stress. */
+static enum rc_status
+find_slabs(struct yield *y, struct rc_err *err)
+{
+    const struct rc_yield_problem *asked = &y->problem;
+    const double yield = rc_yield_law_stress(&asked->law, 0);
+    struct rc_yield_depths d;
+    const enum rc_status status = rc_yield_depths(&y->base.shape, &asked->contact,
+                                                  rc_solver_pressure(y->elastic), yield, &d, err);
+
+    if (status != RC_OK)
+        return status;
+    y->most = d.most / yield;
+    y->deepest = d.deepest;
+    y->part = d.part;
+    y->slabs = d.slabs == 0 || asked->slabs == 0 ? d.slabs : asked->slabs;
+    free(y->thickness);
+    y->thickness = NULL;
+    if (y->slabs > 0 && (y->thickness = malloc(y->slabs * sizeof *y->thickness)) == NULL)
+        rc_err_set(err, "out of memory for the slabs");
+    else if (y->slabs > 0 && asked->thickness != NULL)
+        memcpy(y->thickness, asked->thickness, y->slabs * sizeof *y->thickness);
+    else if (y->slabs > 0)
+        rc_yield_solver_stack(&d, y->slabs, y->thickness);
+    free(d.thickness);
+    return y->slabs > 0 && y->thickness == NULL ? RC_FAIL : RC_OK;
+}
+
+/* ---- the volume ---- */
+
+/* The allowed relative error of the pressure. */
+static double
+goal(const struct yield *y)
+{
+    return y->problem.contact.tol > 0 ? y->problem.contact.tol : deserved;
+}
+
+static struct rc_yield_problem
+problem_of(const struct yield *y)
+{
+    struct rc_yield_problem problem = y->problem;
+    const double asked = problem.contact.tol > 0 ? problem.contact.tol : 1;
+
+    problem.contact.tol =
+        fmin(fmin(asked, fmax(contact_share * asked, contact_least)), contact_most);
+    problem.slabs = y->slabs;
+    problem.thickness = y->thickness;
+    if (problem.lag == 0)
+        problem.lag = fmax(2 * fmin(goal(y), deserved), lag_least);
+    return problem;
+}
+
+static enum rc_status
+make(struct yield *y, struct rc_err *err)
+{
+    const struct rc_yield_problem problem = problem_of(y);
+
+    rc_solver_free(y->elastic); /* the volume has a solver of its own, and takes its memory */
+    y->elastic = NULL;
+    if ((y->plastic = rc_yield_solver_new(&y->base.shape, y->h, &problem, err)) == NULL)
+        return RC_FAIL;
+    y->plastic->travels = y->travels;
+    y->stage = VOLUME;
+    return RC_OK;
+}
+
+/* Sets the load with the number of increments of the next try. */
+static enum rc_status
+try_load(struct yield *y, struct rc_err *err)
+{
+    y->plastic->thorough = y->try > 0 && !y->problem.companion;
+    rc_yield_solver_set_increments(y->plastic, y->increments);
+    return rc_yield_solver_set_load(y->plastic, y->load, err);
+}
+
+/* Begins the first try of a load. On other heights the same load is one more increment. */
+static enum rc_status
+begin(struct yield *y, struct rc_err *err)
+{
+    const bool follows = y->moved && y->load > 0 && y->load == y->plastic->from;
+
+    y->moved = false;
+    y->than = y->spent = 0;
+    if (follows) {
+        y->increments = 1;
+        y->try = 0;
+        rc_state_forget(&y->before);
+        y->plastic->thorough = false;
+        rc_yield_solver_follow(y->plastic);
+        return rc_yield_solver_set_load(y->plastic, y->load, err);
+    }
+    y->increments = y->problem.increments > 0 ? y->problem.increments : FIRST;
+    y->try = 0;
+    rc_state_forget(&y->before);
+    if ((y->problem.increments == 0 || y->problem.companion) &&
+        rc_state_save(&y->before, rc_yield_solver_exchange, y->plastic) != RC_OK)
+        return rc_err_set(err, "out of memory for the state before a load");
+    if (y->problem.companion)
+        y->increments /= 2;
+    if (y->problem.companion && y->half.n > 0 &&
+        rc_state_load(&y->half, rc_yield_solver_exchange, y->plastic, err) != RC_OK)
+        return RC_FAIL;
+    return try_load(y, err);
+}
+
+/* True if more increments can lower the error of the load to the goal; sets their number. The errors from
+ * images and earlier loads do not depend on it. */
+static bool
+deserves_more(struct yield *y)
+{
+    const struct rc_yield_load *f = &y->plastic->figures;
+    const double wanted = goal(y), own = f->increment_error;
+    const double aim = wanted * (y->left > 0 ? for_later : 1), here = f->error - f->image_error;
+    const size_t most = wanted < deserved ? RC_YIELD_INCREMENTS : MOST_AUTO;
+    const double ratio = y->try == 0
+                             ? fmin(fmax(second.beyond * own / aim, second.least), second.most)
+                             : fmin(fmax(third.beyond * own / aim, third.least), third.most);
+    const double more = ceil((double)y->increments * ratio);
+
+    if (y->before.n == 0 || y->try + 1 == TRIES || y->increments >= most ||
+        own <= wanted / (f->image_error > wanted ? 2 : 4) ||
+        (here <= aim && !(f->error > wanted && own > wanted / 2)))
+        return false;
+    y->increments = more < (double)most ? (size_t)more : most;
+    return true;
+}
+
+/* Estimates the error of the increments again, from the change since the first try. A companion run has its
+ * own history, so that the change contains the errors of earlier loads. */
+static void
+compare_runs(struct yield *y)
+{
+    const struct rc_yield_load *f = &y->plastic->figures;
+    const double ratio = y->than > 0 ? (double)y->increments / (double)y->than : 0;
+    const double *p = rc_solver_pressure(y->plastic->solver);
+    double sum = 0, change = 0, own = of_terms * f->increment_error, before = f->inherited_error;
+
+    if (y->load == 0 || ratio < least_ratio || isnan(f->increment_error))
+        return;
+    for (size_t k = 0; k < y->n; k++) {
+        sum += p[k];
+        change += fabs(p[k] - y->other[k]);
+    }
+    change *= of_change / (fmin(ratio, most_ratio) - 1) / sum;
+    if (!y->problem.companion) {
+        own = fmax(own, change);
+    } else if (change > own + before) {
+        before = own > 0 ? before * change / (own + before) : change;
+        own = own > 0 ? change - before : 0;
+    }
+    rc_yield_solver_judge(y->plastic, own, before);
+}
+
+static bool
+has_other(struct yield *y)
+{
+    if (y->other == NULL)
+        y->other = rc_store_take(&y->base.own, y->n, sizeof *y->other);
+    return y->other != NULL;
+}
+
+/* Keeps the pressure of the first try, and returns to the state before it. */
+static enum rc_status
+try_again(struct yield *y, size_t than, struct rc_err *err)
+{
+    if (!has_other(y))
+        return rc_err_set(err, "out of memory for the pressure of a try");
+    if (y->try == 0) {
+        memcpy(y->other, rc_solver_pressure(y->plastic->solver), y->n * sizeof *y->other);
+        y->than = than;
+    }
+    y->spent += y->plastic->figures.applications;
+    y->try++;
+    if (rc_state_load(&y->before, rc_yield_solver_exchange, y->plastic, err) != RC_OK)
+        return RC_FAIL;
+    return try_load(y, err) == RC_OK ? RC_MORE : RC_FAIL;
+}
+
+static enum rc_status
+press_volume(struct yield *y, struct rc_err *err)
+{
+    const enum rc_status status = rc_yield_solver_step(y->plastic, err);
+    const size_t tried = y->increments;
+
+    if (status == RC_MORE || status == RC_FAIL)
+        return status;
+    compare_runs(y);
+    if (y->problem.companion && y->before.n > 0 && y->try == 0) {
+        rc_state_forget(&y->half);
+        if (rc_state_save(&y->half, rc_yield_solver_exchange, y->plastic) != RC_OK)
+            return rc_err_set(err, "out of memory for the state of the companion run");
+        y->increments = y->problem.increments;
+        return try_again(y, tried, err);
+    }
+    if (!y->problem.companion && deserves_more(y))
+        return try_again(y, tried, err);
+    rc_state_forget(&y->before);
+    return status;
+}
+
+/* ---- memory ---- */
+
+/* Bytes of the volume and of its state, if this part of the voxels yields. */
+static size_t
+volume_bytes(const struct yield *y, size_t slabs, double part)
+{
+    /* bytes a node, measured on 1024 x 1024 nodes: free, periodic */
+    static const double body[] = {122, 96}, slab[] = {92.2, 23.1};
+    const int periodic = y->problem.contact.boundary == RC_PERIODIC;
+    const double voxels = part * sizeof(struct rc_voxel);
+    const bool tries = y->problem.increments == 0 || y->problem.companion;
+
+    /* a state takes at most the memory of the voxels and of a pressure */
+    return (size_t)((double)y->n *
+                    (body[periodic] + (1 + tries) * sizeof(double) +
+                     (double)slabs * (slab[periodic] + (2 + y->problem.companion) * voxels)));
+}
+
+/* The cost of the elastic contact. */
+static enum rc_status
+expect_elastic(const struct yield *y, double load, struct rc_expected *expected, struct rc_err *err)
+{
+    struct rc_problem contact = y->problem.contact;
+
+    contact.load = load;
+    contact.approach = 0;
+    return rc_solver_expect(&y->base.shape, &contact, expected, err);
+}
+
+/* The cost of the elastic contact. Once the body is known to yield, the cost of a first load of the volume is
+ * added, with its own contacts. It was measured on rough contacts of 9 to 23 % contact. */
+static enum rc_status
+plan(const struct rc_model *m, const struct rc_point *most, struct rc_expected *expected,
+     struct rc_err *err)
+{
+    const struct yield *y = (const struct yield *)m;
+    const size_t slabs = y->slabs > 0 ? y->slabs : y->problem.slabs;
+    const size_t volume = slabs > 0 ? volume_bytes(y, slabs, y->part) : 0;
+    const double increments = (double)(y->problem.increments > 0 ? y->problem.increments : FIRST);
+    static const double sums[] = RC_YIELD_SUMS;
+    const double applied = (RC_YIELD_LAST + RC_YIELD_INCREMENT * increments) * (double)y->slabs;
+
+    if (expect_elastic(y, most->at[RC_LOAD], expected, err) != RC_OK)
+        return RC_FAIL;
+    expected->seconds *=
+        1 + applied * sums[y->problem.contact.boundary == RC_PERIODIC] / expected->convolutions;
+    expected->convolutions += RC_YIELD_SLAB * applied;
+    expected->memory = volume > expected->memory ? volume : expected->memory;
+    return RC_OK;
+}
+
+/* Bytes that the volume takes in addition to the memory of the elastic contact. */
+static size_t
+more_bytes(const struct yield *y)
+{
+    const size_t volume = volume_bytes(y, y->slabs, y->part);
+    struct rc_expected elastic = {0};
+
+    (void)expect_elastic(y, fmax(y->load, y->largest), &elastic, NULL);
+    return volume > elastic.memory ? volume - elastic.memory : 0;
+}
+
+/* ---- loads ---- */
+
+static enum rc_status
+set_elastic(struct yield *y, double load, struct rc_err *err)
+{
+    struct rc_problem contact = y->problem.contact;
+
+    if (y->elastic != NULL)
+        return rc_solver_set_load(y->elastic, load, 0, err);
+    contact.load = load;
+    contact.approach = 0;
+    y->elastic = rc_solver_new(&y->base.shape, y->h, &contact, err);
+    return y->elastic != NULL ? RC_OK : RC_FAIL;
+}
+
+static enum rc_status
+set_load(struct yield *y, double load, struct rc_err *err)
+{
+    y->load = load;
+    if (y->stage == VOLUME)
+        return begin(y, err);
+    if (!(load >= 0))
+        return rc_err_set(err, "load %g N: it must be finite and not negative", load);
+    y->stage = load > 0 ? ELASTIC : APART;
+    if (load > 0)
+        y->most = y->deepest = 0;
+    return load > 0 ? set_elastic(y, load, err) : RC_OK;
+}
+
+static enum rc_status
+go(struct rc_model *m, struct rc_err *err)
+{
+    struct yield *y = (struct yield *)m;
+
+    y->left -= y->left > 0;
+    return set_load(y, m->to.at[RC_LOAD], err);
+}
+
+/* Finds the stresses of the elastic contact. Returns RC_MORE if the body yields. */
+static enum rc_status
+look_inside(struct yield *y, struct rc_err *err)
+{
+    const enum rc_status status = find_slabs(y, err);
+
+    if (status != RC_OK) /* RC_MORE: the caller cannot wait */
+        return status;
+    if (y->slabs == 0)
+        return y->reached;
+    y->stage = y->largest > y->load ? LARGEST : MAKE;
+    return y->stage == LARGEST && set_elastic(y, y->largest, err) != RC_OK ? RC_FAIL : RC_MORE;
+}
+
+/* Takes an iteration of the elastic contact. */
+static enum rc_status
+press_elastic(struct yield *y, struct rc_err *err)
+{
+    const enum rc_status status = rc_solver_step(y->elastic);
+    enum rc_status looked = RC_OK;
+
+    if (status == RC_MORE)
+        return RC_MORE;
+    if (y->stage == LARGEST)
+        looked = find_slabs(y, err);
+    if (looked != RC_OK)
+        return looked;
+    y->reached = status;
+    y->stage = y->stage == LARGEST ? MAKE : DEPTHS;
+    return RC_MORE;
+}
+
+static enum rc_status
+step(struct rc_model *m, struct rc_err *err)
+{
+    struct yield *y = (struct yield *)m;
+
+    switch (y->stage) {
+    case APART:
+        return RC_OK;
+    case VOLUME:
+        return press_volume(y, err);
+    case MAKE:
+        return make(y, err) == RC_OK && begin(y, err) == RC_OK ? RC_MORE : RC_FAIL;
+    case DEPTHS:
+        return look_inside(y, err);
+    default:
+        return press_elastic(y, err);
+    }
+}
+
+/* ---- results ---- */
+
+static struct rc_solver *
+solver(const struct rc_model *m)
+{
+    const struct yield *y = (const struct yield *)m;
+
+    return y->plastic != NULL ? y->plastic->solver : y->elastic;
+}
+
+/* Adds the displacement due to plastic strain. */
+static void
+displace(const struct yield *y, double factor, double *v)
+{
+    const double *u = y->plastic != NULL ? y->plastic->u : NULL;
+
+    for (size_t k = 0; k < y->n && u != NULL; k++)
+        v[k] += factor * u[k];
+}
+
+/* Finds the shape after plastic strain. */
+static void
+shape(const struct yield *y, double *to)
+{
+    memcpy(to, y->h, y->n * sizeof *to);
+    displace(y, -1, to);
+}
+
+/* Finds the figures of separated bodies, and the gap (NULL: not needed). */
+static enum rc_status
+look_apart(const struct yield *y, double *gap, struct rc_contact *c, struct rc_err *err)
+{
+    RC_OWNED double *left = rc_alloc(y->n, sizeof *left);
+
+    if (left == NULL)
+        return rc_err_set(err, "out of memory for the shape after yield");
+    shape(y, left);
+    rc_contact_apart(NULL, &y->base.shape, left, gap, c);
+    return RC_OK;
+}
+
+static double
+highest(const struct yield *y)
+{
+    const double *u = y->plastic != NULL ? y->plastic->u : NULL;
+    double top = -INFINITY;
+
+    for (size_t k = 0; k < y->n; k++)
+        top = fmax(top, u != NULL ? y->h[k] - u[k] : y->h[k]);
+    return top;
+}
+
+/* 0: an elastic trial of the load */
+static size_t
+increment_of(const struct rc_yield_solver *p)
+{
+    return p->stage == RC_YIELD_PROBE ? 0 : p->increment;
+}
+
+static void
+look_at_volume(struct yield *y)
+{
+    struct rc_yield_figures *f = &y->figures;
+
+    f->last = y->plastic->figures;
+    f->last.applications += y->spent;
+    f->increment = increment_of(y->plastic);
+    f->contact.pressure_error = f->last.error;
+    f->contact.convolutions = NAN; /* nearly all of the work is for the volume */
+    /* the error is unknown if the caller asked for few increments */
+    f->contact.converged =
+        y->base.status == RC_OK && f->contact.converged &&
+        (f->last.error <= goal(y) || (y->problem.increments > 0 && isnan(f->last.error)));
+}
+
+static enum rc_status
+look(struct rc_model *m, struct rc_point *at, struct rc_err *err)
+{
+    struct yield *y = (struct yield *)m;
+    struct rc_yield_figures *f = &y->figures;
+    const bool known = y->plastic == NULL && (y->most > 0 || y->load == 0);
+
+    if (y->stage == LARGEST) { /* the caller stopped before the end: the load is the load of the
+                                  point */
+        if (set_elastic(y, y->load, err) != RC_OK)
+            return RC_FAIL;
+        y->stage = ELASTIC;
+    }
+    y->top = highest(y);
+    if (m->to.at[RC_LOAD] == 0 && look_apart(y, NULL, &f->contact, err) != RC_OK)
+        return RC_FAIL;
+    if (m->to.at[RC_LOAD] > 0)
+        rc_solver_result(solver(m), NULL, NULL, &f->contact);
+    f->last = (struct rc_yield_load){0};
+    f->yielded = y->plastic != NULL;
+    f->slabs = y->slabs;
+    f->thickness = y->thickness;
+    f->increments = y->increments;
+    f->max_mises_over_yield = known ? y->most : NAN;
+    f->max_mises_depth = known ? y->deepest : NAN;
+    if (y->plastic != NULL)
+        look_at_volume(y);
+    f->residual_indentation = y->first_top - y->top;
+    f->indentation = (m->to.at[RC_LOAD] > 0 ? f->contact.approach : 0) + y->first_top - y->top;
+    at->at[RC_LOAD] = f->contact.load;
+    at->at[RC_APPROACH] = f->contact.approach;
+    return RC_OK;
+}
+
+static enum rc_status
+fill(struct rc_model *m, size_t frame, double *to, struct rc_err *err)
+{
+    struct yield *y = (struct yield *)m;
+    struct rc_contact again;
+
+    memset(to, 0, y->n * sizeof *to);
+    if (frame == SHAPE)
+        shape(y, to);
+    else if (frame == RC_FRAME_GAP && m->to.at[RC_LOAD] == 0)
+        return look_apart(y, to, &again, err);
+    else if (m->to.at[RC_LOAD] > 0 && (frame == RC_FRAME_PRESSURE || frame == RC_FRAME_CONTACT))
+        memcpy(to, rc_solver_pressure(solver(m)), y->n * sizeof *to);
+    else if (frame != RESIDUAL && m->to.at[RC_LOAD] > 0)
+        rc_solver_result(solver(m), frame == RC_FRAME_DISPLACEMENT ? to : NULL,
+                         frame == RC_FRAME_GAP ? to : NULL, &again);
+    if (frame == RESIDUAL || frame == RC_FRAME_DISPLACEMENT)
+        displace(y, 1, to);
+    for (size_t k = 0; k < y->n && frame == RC_FRAME_CONTACT; k++)
+        to[k] = rc_in_contact(to[k]) ? 1 : 0;
+    return RC_OK;
+}
+
+static void
+progress(const struct rc_model *m, struct rc_loops *l)
+{
+    const struct yield *y = (const struct yield *)m;
+    const double most = (double)y->increments;
+    struct rc_progress at;
+
+    l->coming = y->stage == MAKE ? more_bytes(y) : 0;
+    if (y->plastic != NULL) {
+        const double increment = fmin((double)increment_of(y->plastic), most);
+        rc_loops_add(l, "load", "N", y->plastic->set, NAN);
+        rc_loops_add(l, "increment", NULL, increment, most);
+        rc_loops_add(l, "application", NULL, (double)y->plastic->trial, NAN);
+        /* between increments a state is smaller; the last increment may take long */
+        l->worth = y->plastic->trial == 0 || increment >= most;
+    } else if (y->elastic != NULL) {
+        rc_solver_progress(y->elastic, &at);
+        rc_loops_add(l, "iteration", NULL, (double)at.iterations, NAN);
+        l->grid = at.grid;
+        l->error = at.error;
+        l->tol = at.tol;
+        l->worth = !at.coarser && at.iterations > 0;
+    }
+}
+
+static enum rc_status
+set_heights(struct rc_model *m, const double *h, struct rc_err *err)
+{
+    struct yield *y = (struct yield *)m;
+
+    memcpy(y->h, h, y->n * sizeof *h);
+    y->travels = y->moved = true;
+    if (m->from.given == 0 && y->plastic == NULL)
+        y->first_top = highest(y);
+    if (y->plastic != NULL)
+        rc_yield_solver_set_heights(y->plastic, h);
+    return y->elastic != NULL ? rc_solver_set_heights(y->elastic, h, err) : RC_OK;
+}
+
+/* ---- states ---- */
+
+/* A state has counts and loads first. Then comes the pressure of an elastic contact. For a volume come the
+ * thicknesses of its slabs, the state before the load, and its own state. */
+
+/* Forgets the volume, because the state that was read has none. */
+static void
+forget_volume(struct yield *y)
+{
+    rc_yield_solver_free(y->plastic);
+    free(y->thickness);
+    rc_state_forget(&y->before);
+    rc_state_forget(&y->half);
+    y->plastic = NULL;
+    y->thickness = NULL;
+    y->slabs = 0;
+}
+
+/* solved: the load of the stored pressure; 0: none is stored. */
+static void
+exchange_elastic(struct yield *y, struct rc_state *s, double solved)
+{
+    RC_OWNED double *p = NULL;
+    struct rc_err err;
+
+    if (!rc_state_reads(s)) {
+        if (solved > 0) /* the cast is safe: writing does not change the pressure */
+            rc_state_finite(s, y->n, (double *)rc_solver_pressure(y->elastic));
+        return;
+    }
+    forget_volume(y);
+    y->stage = APART;
+    if (solved > 0 && (p = rc_alloc(y->n, sizeof *p)) == NULL)
+        rc_state_refuse(s, "memory is short");
+    else if (solved > 0)
+        rc_state_finite(s, y->n, p);
+    if (rc_state_reads(s) &&
+        (set_load(y, y->load, &err) != RC_OK ||
+         (solved > 0 &&
+          (y->elastic == NULL || rc_solver_warm_start(y->elastic, solved, p, &err) != RC_OK))))
+        rc_state_refuse(s, "its load or its pressure is not finite or negative");
+}
+
+static void
+exchange_volume(struct yield *y, struct rc_state *s, size_t slabs)
+{
+    double *thickness = y->thickness;
+    struct rc_err err;
+
+    if (!rc_state_holds(s, slabs))
+        return;
+    if (rc_state_reads(s) && (thickness = malloc(slabs * sizeof *thickness)) == NULL) {
+        rc_state_refuse(s, "memory is short");
+        return;
+    }
+    rc_state_finite(s, slabs, thickness);
+    if (rc_state_reads(s) && (y->plastic == NULL || slabs != y->slabs ||
+                              memcmp(thickness, y->thickness, slabs * sizeof *thickness) != 0)) {
+        forget_volume(y);
+        y->slabs = slabs;
+        y->thickness = thickness;
+        if (make(y, &err) != RC_OK)
+            rc_state_refuse(s, err.text);
+    }
+    if (thickness != y->thickness)
+        free(thickness);
+    rc_state_copy(s, &y->before);
+    rc_state_copy(s, &y->half);
+    rc_state_count(s, &y->spent, SIZE_MAX / 4096);
+    rc_state_count(s, &y->than, RC_YIELD_INCREMENTS);
+    if (y->than > 0 && !has_other(y))
+        rc_state_refuse(s, "memory is short");
+    else if (y->than > 0)
+        rc_state_finite(s, y->n, y->other);
+    if (y->plastic != NULL)
+        rc_yield_solver_exchange(y->plastic, s);
+}
+
+static void
+state(struct rc_model *m, struct rc_state *s)
+{
+    struct yield *y = (struct yield *)m;
+    size_t slabs = y->plastic != NULL ? y->slabs : 0;
+    double solved = y->plastic == NULL && y->elastic != NULL && y->stage != APART
+                        ? rc_solver_load(y->elastic)
+                        : 0;
+
+    rc_state_count(s, &y->increments, RC_YIELD_INCREMENTS);
+    rc_state_count(s, &y->try, TRIES - 1);
+    rc_state_count(s, &y->left, SIZE_MAX / 2);
+    rc_state_count(s, &slabs, SIZE_MAX / sizeof(double));
+    rc_state_number(s, &y->load, 0);
+    rc_state_number(s, &solved, 0);
+    rc_state_finite(s, 1, &y->first_top);
+    if (rc_state_refused(s))
+        return;
+    if (slabs > 0)
+        exchange_volume(y, s, slabs);
+    else
+        exchange_elastic(y, s, solved);
+    if (rc_state_reads(s) && m->moved)
+        m->status = RC_MORE; /* the next step decides whether it is the solution */
+}
+
+static void
+release(struct rc_model *m)
+{
+    struct yield *y = (struct yield *)m;
+
+    forget_volume(y);
+    rc_solver_free(y->elastic);
+}
+
+/* ---- the maker ---- */
+
+const struct rc_model_row rc_model_yield = {
+    .name = "yield",
+    .summary = "a body that yields in its volume",
+    .needs = 1u << RC_LOAD,
+    .takes = 1u << RC_LOAD,
+    RC_MODEL_VERBS,
+    .frame = frames,
+    .free = release,
+    .heights = set_heights,
+    .plan = plan,
+    .solver = solver,
+};
+
+struct rc_model *
+rc_yield_new(const struct rc_shape *shape, const double *h, const struct rc_yield_problem *problem,
+             struct rc_err *err)
+{
+    RC_OWN(rc_model, m) = NULL;
+    struct yield *y;
+
+    if (rc_shape_check(shape, err) != RC_OK || rc_yield_solver_check(problem, err) != RC_OK ||
+        (m = rc_model_make(&rc_model_yield, sizeof *y, shape, err)) == NULL)
+        return NULL;
+    y = (struct yield *)m;
+    y->problem = *problem;
+    y->n = shape->nx * shape->ny;
+    y->h = rc_store_copy(&m->own, y->n, sizeof *h, h);
+    if (rc_model_room(m, err) != RC_OK)
+        return NULL;
+    y->first_top = highest(y);
+    return rc_give(&m);
+}
+
+static struct yield *
+yielding_of(const struct rc_model *m)
+{
+    return (struct yield *)rc_model_find(m, &rc_model_yield);
+}
+
+void
+rc_yield_plan(struct rc_model *m, size_t loads, double largest)
+{
+    struct yield *y = yielding_of(m);
+
+    if (y != NULL) {
+        y->left = y->planned = loads;
+        y->largest = largest;
+    }
+}
+
+bool
+rc_yield_strain(const struct rc_model *m, size_t slab, double *const e[RC_YIELD_STRAINS])
+{
+    const struct yield *y = yielding_of(m);
+
+    if (y == NULL || y->plastic == NULL || slab >= y->slabs)
+        return false;
+    rc_yield_solver_strain(y->plastic, slab, e);
+    return true;
+}

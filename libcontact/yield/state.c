@@ -1,0 +1,172 @@
+/*
+ * The state of a body that yields: figures, the pressure of the contact, and the voxels row by row. The
+ * numbers of a voxel depend on what the next step needs:
+ *
+ *     a load is reached        place, e, equivalent strain, the terms of second order in e
+ *     between two increments,  also the last increment, from which the next one starts
+ *     or two positions
+ *     within an increment      also the trial, and the changes by the previous trial
+ *
+ * All other values are computed again. All numbers are finite, also in single precision.
+ */
+#include "yield.h"
+
+#include <float.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum { /* numbers of a voxel after its place */
+    REACHED = 2 * RC_DEVIATOR + 1,
+    BETWEEN = REACHED + 2 * RC_DEVIATOR + 1,
+    WITHIN = BETWEEN + 3 * RC_DEVIATOR
+};
+
+static size_t
+columns_of(const struct rc_yield_solver *p)
+{
+    const bool rests = p->stage <= RC_YIELD_PROBE || p->stage >= RC_YIELD_AGAIN;
+
+    if (rests && !p->travels)
+        return REACHED;
+    return rests || p->trial == 0 ? BETWEEN : WITHIN;
+}
+
+/* ---- voxels ---- */
+
+static void
+exchange_voxel(struct rc_state *s, size_t columns, struct rc_voxel *voxel)
+{
+    struct rc_voxel v = *voxel;
+    const struct {
+        double *wide;
+        float *narrow;
+        size_t n;
+    } part[] = {
+        {v.e, NULL, RC_DEVIATOR},    {&v.strain, NULL, 1},         {NULL, v.before, RC_DEVIATOR},
+        {v.last, NULL, RC_DEVIATOR}, {&v.grown, NULL, 1},          {NULL, v.missed, RC_DEVIATOR},
+        {v.x, NULL, RC_DEVIATOR},    {NULL, v.moved, RC_DEVIATOR}, {NULL, v.left, RC_DEVIATOR}};
+    double numbers[WITHIN];
+
+    for (size_t a = 0; a < RC_DEVIATOR && columns == REACHED && !rc_state_reads(s); a++)
+        v.before[a] += v.missed[a];
+    for (size_t k = 0, at = 0; at < columns; at += part[k++].n)
+        for (size_t a = 0; a < part[k].n; a++)
+            numbers[at + a] = part[k].wide != NULL ? part[k].wide[a] : (double)part[k].narrow[a];
+    rc_state_finite(s, columns, numbers);
+    if (!rc_state_reads(s))
+        return;
+    for (size_t k = 0, at = 0; at < columns; at += part[k++].n)
+        for (size_t a = 0; a < part[k].n; a++)
+            if (part[k].wide != NULL)
+                part[k].wide[a] = numbers[at + a];
+            else
+                part[k].narrow[a] = (float)numbers[at + a];
+    if (columns < WITHIN)
+        memcpy(v.x, v.last, sizeof v.x);
+    if (!(v.strain >= 0))
+        rc_state_refuse(s, "an equivalent strain is negative");
+    *voxel = v;
+}
+
+static void
+exchange_row(struct rc_state *s, size_t columns, size_t nx, struct rc_voxel_row *row)
+{
+    size_t n = row->n;
+
+    rc_state_count(s, &n, nx);
+    if (rc_state_reads(s) && n > 0 && (row->v = calloc(n, sizeof *row->v)) == NULL)
+        rc_state_refuse(s, "memory is short");
+    else if (rc_state_reads(s))
+        row->n = n;
+    for (size_t k = 0; k < row->n; k++) {
+        size_t i = row->v[k].i;
+        rc_state_count(s, &i, nx - 1);
+        if (rc_state_reads(s) && k > 0 && i <= row->v[k - 1].i)
+            rc_state_refuse(s, "its voxels are not in order");
+        row->v[k].i = (uint32_t)i;
+        exchange_voxel(s, columns, &row->v[k]);
+    }
+}
+
+/* ---- figures ---- */
+
+/* Exchanges a number of at least 0, or one that is not finite, for which `mark` is written. */
+static void
+number_or(struct rc_state *s, double *v, double mark, double unknown)
+{
+    double stored = isfinite(*v) ? *v : mark;
+
+    rc_state_number(s, &stored, fmin(mark, 0));
+    if (rc_state_reads(s))
+        *v = stored > mark ? stored : unknown;
+}
+
+static void
+exchange_figures(struct rc_yield_solver *p, struct rc_state *s)
+{
+    struct rc_yield_load *f = &p->figures;
+
+    if (rc_state_reads(s))
+        *f = (struct rc_yield_load){0};
+    RC_STATE_COUNTS(s, &p->increments);
+    rc_state_count(s, &p->count, p->increments);
+    rc_state_count(s, &p->increment, p->increments + 1);
+    RC_STATE_COUNTS(s, &p->trial, &p->taken, &f->applications);
+    RC_STATE_FLAGS(s, &p->elastic, &p->few, &p->once, &p->thorough, &p->follows, &p->alone,
+                   &p->stopped, &p->pressed);
+    RC_STATE_SIZES(s, &p->start, &p->low, &p->kept, &p->from, &p->to, &p->set, &p->worst, &f->lag,
+                   &f->iteration_error);
+    rc_state_number(s, &p->high, p->low);
+    rc_state_number(s, &p->tol, DBL_MIN);
+    number_or(s, &p->resistance, 0, INFINITY);
+    number_or(s, &f->increment_error, -1, NAN);
+    number_or(s, &f->inherited_error, -1, NAN);
+}
+
+/* ---- the state ---- */
+
+/* Computes what follows from the numbers that were read. */
+static void
+resume(struct rc_yield_solver *p, struct rc_state *s, enum rc_yield_solver_stage stage, double load)
+{
+    struct rc_err err;
+
+    p->stage = stage == RC_YIELD_DONE ? RC_YIELD_AGAIN : stage;
+    p->order = stage != RC_YIELD_PROBE && (p->increment > 1 || p->follows) ? RC_YIELD_BETA : 0;
+    for (size_t r = 0; r < p->voxels.slabs * p->voxels.rows && stage == RC_YIELD_DONE; r++)
+        for (size_t k = 0; k < p->voxels.row[r].n; k++)
+            memset(p->voxels.row[r].v[k].x, 0, sizeof p->voxels.row[r].v[k].x);
+    p->figures.increments = p->count;
+    p->moved = true; /* the displacement due to the strain is computed again */
+    rc_yield_solver_solve_to(p, p->tol);
+    if (rc_solver_set_load(p->solver, load, 0, &err) != RC_OK ||
+        (p->pressed && rc_solver_warm_start(p->solver, load, p->other, &err) != RC_OK))
+        rc_state_refuse(s, "its load or its pressure is not finite or negative");
+    else
+        rc_yield_solver_keep_pressure(p);
+}
+
+void
+rc_yield_solver_exchange(void *plastic, struct rc_state *s)
+{
+    struct rc_yield_solver *p = plastic;
+    size_t columns = columns_of(p), stage = p->stage;
+    double load = rc_solver_load(p->solver);
+
+    rc_state_count(s, &stage, RC_YIELD_DONE);
+    rc_state_count(s, &columns, WITHIN);
+    if (columns != REACHED && columns != BETWEEN && columns != WITHIN)
+        rc_state_refuse(s, "a size is out of range");
+    rc_state_number(s, &load, DBL_MIN);
+    exchange_figures(p, s);
+    /* the cast is safe: writing does not change the pressure */
+    rc_state_finite(s, p->n,
+                    rc_state_reads(s) ? p->other : (double *)rc_solver_pressure(p->solver));
+    if (rc_state_reads(s))
+        rc_voxels_clear(&p->voxels);
+    for (size_t r = 0; r < p->voxels.slabs * p->voxels.rows; r++)
+        exchange_row(s, columns, p->shape.nx, &p->voxels.row[r]);
+    if (rc_state_reads(s))
+        resume(p, s, (enum rc_yield_solver_stage)stage, load);
+}

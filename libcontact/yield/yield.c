@@ -1,0 +1,1024 @@
+/*
+ * A contact with a body that yields in its volume: plastic strain e below the surface, coupled to the
+ * pressure.
+ *
+ * A load is reached in increments. In each of them the increment x of e is a fixed point,
+ *
+ *     x = F(x):  p is the contact of the heights h - u_r(e + x), s is the stress deviator under p and e + x,
+ *                F returns the trial stress s + 2 mu x to the yield surface at fixed total strain.
+ *
+ * F lowers the energy of body and contact together for any load and hardening, and therefore converges
+ * without relaxation. It is a proximal gradient step of a convex problem, whose smooth part has no curvature
+ * above 2 mu. An application of F costs one sweep up, one contact, and one sweep down.
+ *
+ * A load begins with elastic trials, which change no strain: the contact at its end, and one sweep down. If
+ * no stress exceeds the yield stress, the load is done, as in most unloading. If little flow would follow, as
+ * in reloading to the same peak, one increment follows. All of its flow counts as an error of the increments.
+ * If this error is small beside the error of earlier loads, the increment stays; otherwise it is undone. Then
+ * bisection finds the last load without flow, and the increments start there. If the caller asks for one
+ * increment, nothing is bisected, and a trial that flows is the first application of this increment.
+ *
+ * The increments are not converged one by one. Each starts from the last increment, is applied twice, and
+ * takes the mixture of both that Anderson's method with one kept step would take. The next increment sees the
+ * true stress and so corrects the lag of this one. If the lag is above 0.04 of the yield stress, the
+ * increment is applied again, because a lag changes the path. No estimate contains this change. The last
+ * increment is applied until it lags no more. A load is accepted if |F(x) - x| as a stress is small against
+ * the yield stress, not if it is small against x. In time the return is of second order (two steps back,
+ * BDF2), with the base
+ *
+ *     e_b = e + beta last,  beta = w^2/(1 + 2 w) = 1/3 for equal steps,
+ *
+ * where `last` is the previous increment. beta is 0 if the voxel does not flow from e. If it flows from e but
+ * not from e_b, beta is the largest value with flow; otherwise an unloading voxel would continue to flow. The
+ * first increment of a load has beta 0 everywhere (backward Euler), because the load has turned.
+ *
+ * On a contact that travels, each position is one more increment of the same load, on other heights. There
+ * the estimated error of the increments is the largest of all positions so far: behind the contact the
+ * errors of the strain become even along the way, and an even strain changes no pressure, but the errors
+ * remain.
+ *
+ * On a free map the contact is exactly that of the half-space. The stresses, and the displacement of the
+ * surface by plastic strain, belong to a map that repeats after twice its sides. They differ from those of
+ * the half-space by some thousandths of the yield stress.
+ *
+ * The estimated error of a load is a sum of four parts. Increments: the terms that BDF2 adds to Euler's
+ * return are summed over all loads, because the error of a strain stays in later loads. The contact is found
+ * once more with this sum added to e, and with the part of earlier loads alone. Iteration: the change of the
+ * pressure by the last step, divided by the least resistance of all steps. Contacts: plastic flow keeps about
+ * 0.03 of the tolerance of each contact (measured: 0.004 to 0.034), so that many increments need a smaller
+ * tolerance. Images: image_error.
+ */
+#include "yield.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "libcontact/memory.h"
+
+enum {
+    INCREMENTS = 16,
+    FEW = 8,          /* with fewer increments their error is unknown */
+    EACH = 2,         /* fewest applications of an increment */
+    MOST_EACH = 24,   /* most applications of an increment */
+    LAST = 4,         /* fewest applications of the last increment */
+    MOST = 200,       /* most applications of the last increment */
+    BISECTIONS = 4,   /* bisections for the last elastic load */
+    BISECT_FIRST = 2, /* after so many, a load that is still 0 is accepted as 0 */
+    HALVINGS = 40
+};
+static const double settled = 0.02; /* largest lag of an accepted load */
+static const double moves = 5e-3;   /* and its largest error of the pressure from the iteration */
+static const double lags = 0.04;    /* largest lag of an increment within a load */
+static const double trace = 0.01;   /* flow in the first trial that needs only one increment */
+static const double little =
+    0.2; /* flow for which one increment is tried in a body that has already yielded */
+static const double once_part =
+    0.5; /* this increment stays if its error is at most this part of the inherited error, */
+static const double once_least = 5e-4; /* or this */
+/* Error of the positions of a contact that travels over that of their terms of second order: 1.48 was the
+ * most for steps of an eighth to a half of the half width of the contact. */
+static const double of_steps = 1.5;
+static const double keeps = 0.03;     /* part of a contact's tolerance that flow keeps */
+static const double kept_goal = 3e-3; /* tolerance of the contacts times all increments, at most */
+
+/* ---- rows ---- */
+
+static const int place_of[RC_COMPONENTS] = {
+    [RC_SXX] = 0, [RC_SYY] = 1, [RC_SZZ] = -1, [RC_SXY] = 2, [RC_SXZ] = 3, [RC_SYZ] = 4};
+
+/* e + x */
+static bool
+strain_row(void *ctx, size_t slab, enum rc_component c, size_t j, double *to)
+{
+    const struct rc_yield_solver *p = ctx;
+    const struct rc_voxel_row *row = rc_voxels_row(&p->voxels, slab, j);
+    int a = place_of[c];
+
+    if (row->n == 0)
+        return false;
+    memset(to, 0, p->shape.nx * sizeof *to);
+    for (size_t k = 0; k < row->n; k++)
+        to[row->v[k].i] = row->v[k].e[a] + row->v[k].x[a];
+    return true;
+}
+
+/* The return from e + beta last: finds the growth of the equivalent strain, the trial stress and its size. */
+static double
+return_from(const struct rc_yield_solver *p, const struct rc_voxel *v, const double *s, double beta,
+            double *trial, double *size)
+{
+    for (size_t a = 0; a < RC_DEVIATOR; a++)
+        trial[a] = s[a] + 2 * p->shear * (v->x[a] - beta * v->last[a]);
+    *size = rc_mises_of(trial);
+    return rc_yield_law_return(&p->law, 3 * p->shear, v->strain + beta * v->grown, *size);
+}
+
+static void
+flow_by(double growth, const double *trial, double size, double *flow)
+{
+    for (size_t a = 0; a < RC_DEVIATOR; a++)
+        flow[a] = growth > 0 ? 1.5 * growth * trial[a] / size : 0;
+}
+
+/* Applies F to a voxel under the stress s. `adds`: note the terms of second order in time. */
+static void
+flow(const struct rc_yield_solver *p, struct rc_voxel *v, const double *s, bool adds)
+{
+    double trial[RC_DEVIATOR], first[RC_DEVIATOR], size;
+    double low = 0, high = p->order, growth = return_from(p, v, s, 0, trial, &size);
+
+    flow_by(growth, trial, size, first);
+    memcpy(v->f, first, sizeof v->f);
+    v->beta = 0;
+    /* the voxel begins to flow within the step: as if BDF2 followed a step without flow */
+    for (size_t a = 0; a < RC_DEVIATOR && p->follows && adds && v->grown == 0; a++)
+        v->missed[a] -= (float)(RC_YIELD_BETA * first[a]);
+    if (growth == 0 || p->order == 0)
+        return;
+    growth = return_from(p, v, s, high, trial, &size);
+    if (growth > 0)
+        low = high;
+    for (int halving = 0; halving < HALVINGS && low < high; halving++) {
+        double middle = (low + high) / 2;
+        growth = return_from(p, v, s, middle, trial, &size);
+        if (growth > 0)
+            low = middle;
+        else
+            high = middle;
+    }
+    v->beta = (float)low;
+    low = (double)v->beta;
+    growth = return_from(p, v, s, low, trial, &size);
+    flow_by(growth, trial, size, v->f);
+    for (size_t a = 0; a < RC_DEVIATOR; a++) {
+        v->f[a] += low * v->last[a];
+        v->missed[a] += adds ? (float)(v->f[a] - first[a]) : 0;
+    }
+}
+
+static void
+sum_up(const struct rc_yield_solver *p, const struct rc_voxel *v, double thickness, double *sums)
+{
+    double r[RC_DEVIATOR], turned[RC_DEVIATOR], moved[RC_DEVIATOR], lag;
+
+    for (size_t a = 0; a < RC_DEVIATOR; a++) {
+        r[a] = v->f[a] - v->x[a];
+        turned[a] = r[a] - (double)v->left[a];
+        moved[a] = (double)v->moved[a];
+    }
+    lag = 2 * p->shear * rc_mises_of(r) / p->yield;
+    if (rc_deviator_product(v->f, v->f) > 0 || rc_deviator_product(v->x, v->x) > 0) {
+        sums[RC_LAG] += lag * lag;
+        sums[RC_FLOWING]++;
+    }
+    sums[RC_NEW_OLD] += thickness * rc_deviator_product(r, turned);
+    sums[RC_CHANGE] += thickness * rc_deviator_product(turned, turned);
+    sums[RC_ADVANCE] += thickness * rc_deviator_product(moved, moved);
+    sums[RC_RESISTED] -= thickness * rc_deviator_product(moved, turned);
+}
+
+static inline void
+stress_at(double *const s[RC_COMPONENTS], size_t i, double *to)
+{
+    to[0] = s[RC_SXX][i];
+    to[1] = s[RC_SYY][i];
+    to[2] = s[RC_SXY][i];
+    to[3] = s[RC_SXZ][i];
+    to[4] = s[RC_SYZ][i];
+}
+
+/* Counts the nodes of a row that yield for the first time; `place`: array for their indices, or NULL. */
+static size_t
+yields_first(const struct rc_yield_solver *p, const struct rc_voxel_row *row, double *const s[],
+             uint32_t *place)
+{
+    double square = p->yield * p->yield / 1.5;
+    size_t count = 0, known = 0;
+
+    for (size_t i = 0; i < p->shape.nx; i++) {
+        double at[RC_DEVIATOR];
+        stress_at(s, i, at);
+        while (known < row->n && row->v[known].i < i)
+            known++;
+        if ((known < row->n && row->v[known].i == i) || !(rc_deviator_product(at, at) > square))
+            continue;
+        if (place != NULL)
+            place[count] = (uint32_t)i;
+        count++;
+    }
+    return count;
+}
+
+static enum rc_status
+take_in(const struct rc_yield_solver *p, struct rc_voxel_row *row, double *const s[])
+{
+    size_t count = yields_first(p, row, s, NULL);
+    enum rc_status status = RC_OK;
+    uint32_t *place;
+
+    if (count == 0)
+        return RC_OK;
+    place = malloc(count * sizeof *place);
+    if (place == NULL)
+        return RC_FAIL;
+    (void)yields_first(p, row, s, place);
+    status = rc_voxels_add(row, count, place);
+    free(place);
+    return status;
+}
+
+/* Finds the flow under this stress without keeping it. */
+static void
+look_ahead(const struct rc_yield_solver *p, size_t slab, struct rc_voxel_row *row,
+           double *const s[])
+{
+    double square = p->yield * p->yield / 1.5;
+
+    for (size_t i = 0, known = 0; i < p->shape.nx; i++) {
+        struct rc_voxel fresh = {0};
+        bool is_known;
+        double at[RC_DEVIATOR];
+        stress_at(s, i, at);
+        while (known < row->n && row->v[known].i < i)
+            known++;
+        is_known = known < row->n && row->v[known].i == i;
+        if (!is_known && !(rc_deviator_product(at, at) > square))
+            continue;
+        flow(p, is_known ? &row->v[known] : &fresh, at, false);
+        sum_up(p, is_known ? &row->v[known] : &fresh, p->thickness[slab], row->sums);
+    }
+}
+
+/* True if the load has one increment: its first application is also the elastic trial. */
+static bool
+in_one(const struct rc_yield_solver *p)
+{
+    return p->increments == 1 && !p->follows;
+}
+
+static void
+stress_row(void *ctx, size_t slab, size_t j, double *const s[RC_COMPONENTS])
+{
+    struct rc_yield_solver *p = ctx;
+    struct rc_voxel_row *row = rc_voxels_row(&p->voxels, slab, j);
+    bool adds = p->trial + 1 == (p->increment == p->count ? LAST : EACH);
+
+    memset(row->sums, 0, sizeof row->sums);
+    if (p->stage == RC_YIELD_PROBE && !in_one(p)) {
+        look_ahead(p, slab, row, s);
+        return;
+    }
+    if (take_in(p, row, s) != RC_OK) {
+#pragma omp atomic write
+        p->failed = true;
+        return;
+    }
+    for (size_t k = 0; k < row->n; k++) {
+        double at[RC_DEVIATOR];
+        stress_at(s, row->v[k].i, at);
+        flow(p, &row->v[k], at, adds);
+        sum_up(p, &row->v[k], p->thickness[slab], row->sums);
+    }
+}
+
+/* ---- all voxels ---- */
+
+typedef void each_voxel(struct rc_yield_solver *p, struct rc_voxel *v);
+
+static void
+for_each(struct rc_yield_solver *p, each_voxel *do_it)
+{
+#pragma omp parallel for schedule(static) num_threads(p->threads)
+    for (size_t r = 0; r < p->voxels.slabs * p->voxels.rows; r++)
+        for (size_t k = 0; k < p->voxels.row[r].n; k++)
+            do_it(p, &p->voxels.row[r].v[k]);
+}
+
+/* Sets x to the mixture of f and the f of the previous trial; to exactly 0 if neither flows. */
+static void
+mix(struct rc_yield_solver *p, struct rc_voxel *v)
+{
+    static const double rounding = 1e-6; /* rounding of single precision */
+    double r[RC_DEVIATOR], moved[RC_DEVIATOR], left[RC_DEVIATOR], before[RC_DEVIATOR];
+    bool still;
+
+    for (size_t a = 0; a < RC_DEVIATOR; a++) {
+        r[a] = v->f[a] - v->x[a];
+        moved[a] = (double)v->moved[a];
+        left[a] = (double)v->left[a];
+        before[a] = v->x[a] - moved[a] + left[a];
+    }
+    still = !(rc_deviator_product(v->f, v->f) > 0) &&
+            rc_deviator_product(before, before) <=
+                rounding * rounding *
+                    (rc_deviator_product(moved, moved) + rc_deviator_product(left, left));
+    for (size_t a = 0; a < RC_DEVIATOR; a++) {
+        double step = still ? -v->x[a] : r[a] - p->mix * (moved[a] + (r[a] - left[a]));
+        v->left[a] = (float)r[a];
+        v->moved[a] = (float)step;
+        v->x[a] += step;
+    }
+}
+
+static void
+accept(struct rc_yield_solver *p, struct rc_voxel *v)
+{
+    double d[RC_DEVIATOR], grown;
+
+    for (size_t a = 0; a < RC_DEVIATOR; a++)
+        d[a] = v->x[a] - (double)v->beta * v->last[a];
+    grown = (double)v->beta * v->grown + 2 * rc_mises_of(d) / 3;
+    v->strain += grown;
+    v->grown = grown;
+    for (size_t a = 0; a < RC_DEVIATOR; a++) {
+        v->e[a] += v->x[a];
+        v->last[a] = v->x[a];
+        v->moved[a] = v->left[a] = 0;
+        v->missed[a] += p->once ? (float)v->x[a] : 0;
+    }
+}
+
+/* Undoes the only increment of the load. */
+static void
+undo(struct rc_yield_solver *p, struct rc_voxel *v)
+{
+    (void)p;
+    v->strain -= v->grown;
+    v->grown = 0;
+    for (size_t a = 0; a < RC_DEVIATOR; a++) {
+        v->e[a] -= v->last[a];
+        v->last[a] = v->x[a] = v->missed[a] = 0;
+    }
+}
+
+static void
+begin_load(struct rc_yield_solver *p, struct rc_voxel *v)
+{
+    (void)p;
+    memset(v->x, 0, sizeof v->x);
+    memset(v->last, 0, sizeof v->last);
+    for (size_t a = 0; a < RC_DEVIATOR; a++)
+        v->before[a] += v->missed[a];
+    memset(v->missed, 0, sizeof v->missed);
+    memset(v->moved, 0, sizeof v->moved);
+    memset(v->left, 0, sizeof v->left);
+    v->grown = 0;
+}
+
+/* No voxel flows in an increment of a contact that travels. */
+static void
+rest(struct rc_yield_solver *p, struct rc_voxel *v)
+{
+    (void)p;
+    memset(v->x, 0, sizeof v->x);
+    memset(v->last, 0, sizeof v->last);
+    v->grown = 0;
+}
+
+static void
+try_missed(struct rc_yield_solver *p, struct rc_voxel *v)
+{
+    (void)p;
+    for (size_t a = 0; a < RC_DEVIATOR; a++)
+        v->x[a] = (double)v->before[a] + (double)v->missed[a];
+}
+
+static void
+try_before(struct rc_yield_solver *p, struct rc_voxel *v)
+{
+    (void)p;
+    for (size_t a = 0; a < RC_DEVIATOR; a++)
+        v->x[a] = (double)v->before[a];
+}
+
+static void
+try_none(struct rc_yield_solver *p, struct rc_voxel *v)
+{
+    (void)p;
+    memset(v->x, 0, sizeof v->x);
+}
+
+/* ---- an application ---- */
+
+/* Finds the slabs with yielded voxels. Returns false if there are none. */
+static bool
+find_strained(struct rc_yield_solver *p)
+{
+    bool any = false;
+
+    for (size_t k = 0; k < p->voxels.slabs; k++) {
+        p->voxels.strained[k] = false;
+        for (size_t j = 0; j < p->voxels.rows && !p->voxels.strained[k]; j++)
+            p->voxels.strained[k] = rc_voxels_row(&p->voxels, k, j)->n > 0;
+        any |= p->voxels.strained[k];
+    }
+    return any;
+}
+
+/* Finds p, the contact of e + x under the present load. */
+static enum rc_status
+press(struct rc_yield_solver *p, struct rc_err *err)
+{
+    const struct rc_slab_strain strain = {p->voxels.strained, strain_row, p};
+    enum rc_status status;
+
+    if (find_strained(p) || p->moved) {
+        rc_slabs_up(p->slabs, &strain, p->u);
+        for (size_t k = 0; k < p->n; k++)
+            p->form[k] = p->h[k] - p->u[k];
+        if (rc_solver_set_heights(p->solver, p->form, err) != RC_OK)
+            return RC_FAIL;
+        p->moved = false;
+    }
+    if (p->alone)
+        return RC_OK;
+    p->pressed = true;
+    do
+        status = rc_solver_step(p->solver);
+    while (status == RC_MORE);
+    p->stopped |= status != RC_OK;
+    return RC_OK;
+}
+
+static const double *
+pressure(const struct rc_yield_solver *p)
+{
+    return p->alone ? NULL : rc_solver_pressure(p->solver);
+}
+
+/* The relative L1 distance of this pressure from p->other. */
+static double
+moved(const struct rc_yield_solver *p)
+{
+    const double *is = pressure(p);
+    double sum = 0, all = 0;
+
+    for (size_t k = 0; k < p->n && is != NULL; k++) {
+        sum += fabs(is[k] - p->other[k]);
+        all += is[k];
+    }
+    return all > 0 ? sum / all : 0;
+}
+
+void
+rc_yield_solver_keep_pressure(struct rc_yield_solver *p)
+{
+    const double *is = pressure(p);
+
+    if (is != NULL)
+        memcpy(p->other, is, p->n * sizeof *is);
+    else
+        memset(p->other, 0, p->n * sizeof *p->other);
+}
+
+static void
+total(const struct rc_yield_solver *p, double sums[RC_VOXEL_SUMS])
+{
+    memset(sums, 0, RC_VOXEL_SUMS * sizeof *sums);
+    for (size_t r = 0; r < p->voxels.slabs * p->voxels.rows; r++)
+        for (size_t q = 0; q < RC_VOXEL_SUMS; q++)
+            sums[q] += p->voxels.row[r].sums[q];
+}
+
+/* Applies F to e + x, and finds the lag of x. */
+static enum rc_status
+apply(struct rc_yield_solver *p, struct rc_err *err)
+{
+    const struct rc_slab_stress stress = {NULL, stress_row, p};
+    double sums[RC_VOXEL_SUMS], last;
+
+    if (press(p, err) != RC_OK)
+        return RC_FAIL;
+    rc_slabs_down(p->slabs, pressure(p), &stress);
+    p->figures.applications++;
+    if (p->failed)
+        return rc_err_set(err, "out of memory for the strain of %zu voxels",
+                          rc_voxels_count(&p->voxels));
+    total(p, sums);
+    last = p->trial > 0 ? p->figures.lag : INFINITY;
+    p->flows = sums[RC_FLOWING] > 0;
+    p->figures.lag = p->flows ? sqrt(sums[RC_LAG] / sums[RC_FLOWING]) : 0;
+    p->mix = 0;
+    /* F itself never raises the energy, but a mixture may. A mixture is not taken if the last one did not
+     * lower the lag. Comparing energies instead needs one more displacement by the pressure, and is no
+     * better. One increment of 300 random maps of 24 x 24 nodes, Hm from 0 to 100 Y, took 6404 applications
+     * by the energy, and 6413 by the lag. It took 6547 by neither, and 13403 without mixtures, where 7 maps
+     * took more than 200. */
+    if (p->trial > 0 && sums[RC_CHANGE] > 0 && p->figures.lag < last)
+        p->mix = sums[RC_NEW_OLD] / sums[RC_CHANGE];
+    if (p->trial > 0 && sums[RC_ADVANCE] > 0 && sums[RC_RESISTED] > 0)
+        p->resistance = fmin(p->resistance, sums[RC_RESISTED] / sums[RC_ADVANCE]);
+    return RC_OK;
+}
+
+/* ---- a load ---- */
+
+static enum rc_status
+set_load(struct rc_yield_solver *p, double load, struct rc_err *err)
+{
+    p->set = load;
+    p->alone = !(load > 0);
+    return p->alone ? RC_OK : rc_solver_set_load(p->solver, load, 0, err);
+}
+
+static double
+share_of_way(const struct rc_yield_solver *p, double share)
+{
+    return share == 1 ? p->to : p->from + (p->to - p->from) * share;
+}
+
+/* Starts the increments of the load at the load `start`. */
+static void
+begin_increments(struct rc_yield_solver *p, size_t count, double start)
+{
+    p->count = p->figures.increments = count;
+    p->start = start;
+    p->increment = 1;
+    p->trial = 0;
+    p->resistance = INFINITY;
+    p->stage = RC_YIELD_TRIAL;
+}
+
+/* True if little flow makes one increment worth a try; its error is found afterwards. */
+static bool
+follows_little(const struct rc_yield_solver *p)
+{
+    return !p->few && !p->thorough && rc_voxels_count(&p->voxels) > 0;
+}
+
+/* Tries an elastic step: first to the end of the load, then to shorter shares of it, by bisection. */
+static enum rc_status
+probe(struct rc_yield_solver *p, struct rc_err *err)
+{
+    double share = p->trial == 0 ? 1 : (p->low + p->high) / 2;
+
+    if (set_load(p, share_of_way(p, share), err) != RC_OK || apply(p, err) != RC_OK)
+        return RC_FAIL;
+    p->trial++;
+    if (p->flows)
+        p->high = share;
+    else
+        p->low = share;
+    if (p->low == 1) {
+        p->elastic = true;
+        if (p->follows)
+            for_each(p, rest);
+        begin_increments(p, 1, p->to);
+        p->stage = RC_YIELD_STATE;
+    } else if (p->follows) {
+        begin_increments(p, 1, p->to);
+    } else if (p->trial == 1 && p->figures.lag < (follows_little(p) ? little : trace)) {
+        p->once = !p->few;
+        begin_increments(p, 1, p->from);
+    } else if (in_one(p)) {
+        p->few = true;
+        begin_increments(p, 1, p->from);
+    } else if (p->trial > BISECTIONS || (p->trial > BISECT_FIRST && p->low == 0)) {
+        begin_increments(p, p->increments, share_of_way(p, p->low));
+        p->few |= p->increments < FEW;
+    }
+    if (in_one(p) && p->flows) {
+        p->trial = 1;
+        for_each(p, mix);
+        rc_yield_solver_keep_pressure(p);
+    }
+    return RC_OK;
+}
+
+static enum rc_status
+begin_increment(struct rc_yield_solver *p, struct rc_err *err)
+{
+    double share = (double)p->increment / (double)p->count;
+
+    p->order = p->increment > 1 || p->follows ? RC_YIELD_BETA : 0;
+    return set_load(p, p->increment == p->count ? p->to : p->start + (p->to - p->start) * share,
+                    err);
+}
+
+/* The error of the pressure from the iteration, estimated from its last change, from p->other. */
+static double
+iteration_error(const struct rc_yield_solver *p)
+{
+    return 1.5 * moved(p) / fmin(p->resistance, 1); /* a resistance is at most 1 */
+}
+
+static bool
+enough(const struct rc_yield_solver *p)
+{
+    if (rc_voxels_count(&p->voxels) == 0 || (p->trial == 1 && !p->flows))
+        return true;
+    if (p->increment < p->count)
+        return p->trial >= MOST_EACH || (p->trial >= EACH && p->figures.lag <= lags);
+    return p->trial >= MOST ||
+           (p->trial >= LAST && p->figures.lag <= p->lag && iteration_error(p) <= moves);
+}
+
+static enum rc_status
+advance(struct rc_yield_solver *p, struct rc_err *err)
+{
+    bool done;
+
+    if (p->trial == 0 && begin_increment(p, err) != RC_OK)
+        return RC_FAIL;
+    if (apply(p, err) != RC_OK)
+        return RC_FAIL;
+    p->trial++;
+    for_each(p, mix);
+    done = enough(p);
+    if (p->increment == p->count)
+        rc_yield_solver_keep_pressure(p);
+    if (!done)
+        return RC_OK;
+    p->stopped |= p->trial >= MOST;
+    for_each(p, accept);
+    p->trial = 0;
+    if (p->increment++ < p->count)
+        return RC_OK;
+    p->stage = RC_YIELD_STATE;
+    return RC_OK;
+}
+
+static double
+largest_mean(const struct rc_yield_solver *p)
+{
+    const double *v = pressure(p);
+    size_t nx = p->shape.nx, ny = p->shape.ny;
+    double most = 0;
+
+    for (size_t j = 0; j < ny && v != NULL; j++)
+        for (size_t i = 0; i < nx; i++) {
+            size_t right = i + 1 < nx ? i + 1 : p->round ? 0 : i;
+            size_t below = j + 1 < ny ? j + 1 : p->round ? 0 : j;
+            most = fmax(most, (v[j * nx + i] + v[j * nx + right] + v[below * nx + i] +
+                               v[below * nx + right]) /
+                                  4);
+        }
+    return most;
+}
+
+static void
+find_figures(struct rc_yield_solver *p)
+{
+    struct rc_yield_load *f = &p->figures;
+    double cell = p->shape.dx * p->shape.dy, bottom = 0;
+
+    f->voxels = 0;
+    f->depth = f->volume = f->max_strain = f->work = f->strained = 0;
+    for (size_t k = 0; k < p->voxels.slabs; k++) {
+        bottom += p->thickness[k];
+        for (size_t j = 0; j < p->voxels.rows; j++) {
+            const struct rc_voxel_row *row = rc_voxels_row(&p->voxels, k, j);
+            for (size_t i = 0; i < row->n; i++) {
+                double strain = row->v[i].strain, part = cell * p->thickness[k];
+                if (!(strain > 0))
+                    continue;
+                f->voxels++;
+                f->depth = bottom;
+                f->volume += part;
+                f->strained += part * strain;
+                f->work += part * rc_yield_law_work(&p->law, strain);
+                f->max_strain = fmax(f->max_strain, strain);
+            }
+        }
+    }
+    f->max_pressure_mean4 = largest_mean(p);
+}
+
+/* Accepts the state, and compares its pressure with the pressure of the last application. */
+static enum rc_status
+settle(struct rc_yield_solver *p, struct rc_err *err)
+{
+    p->trial = 0;
+    p->taken += p->count;
+    if (p->elastic) { /* its contact is solved, except in a state that was just read */
+        if (p->moved && press(p, err) != RC_OK)
+            return RC_FAIL;
+        p->figures.iteration_error = 0;
+    } else {
+        for_each(p, try_none);
+        if (press(p, err) != RC_OK)
+            return RC_FAIL;
+        p->figures.iteration_error = iteration_error(p);
+        p->kept += keeps * (double)p->count * p->tol;
+    }
+    rc_yield_solver_keep_pressure(p);
+    p->figures.increment_error = p->few && !p->elastic ? NAN : 0;
+    p->figures.inherited_error = p->few ? NAN : 0;
+    p->stage = p->few || rc_voxels_count(&p->voxels) == 0 ? RC_YIELD_DONE : RC_YIELD_ORDER;
+    return RC_OK;
+}
+
+/* Finds how much the contact changes by all terms of second order. Divides this change in proportion to the
+ * changes by this load alone and by earlier loads alone. */
+static enum rc_status
+compare_order(struct rc_yield_solver *p, struct rc_err *err)
+{
+    double all, own, inherited;
+
+    for_each(p, try_missed);
+    if (press(p, err) != RC_OK)
+        return RC_FAIL;
+    all = moved(p);
+    rc_yield_solver_keep_pressure(p);
+    for_each(p, try_before);
+    if (!p->elastic && press(p, err) != RC_OK)
+        return RC_FAIL;
+    own = moved(p);
+    rc_yield_solver_keep_pressure(p);
+    for_each(p, try_none);
+    if (press(p, err) != RC_OK)
+        return RC_FAIL;
+    inherited = moved(p);
+    p->figures.increment_error = own > 0 ? all * own / (own + inherited) : 0;
+    p->figures.inherited_error = all - p->figures.increment_error;
+    if (p->follows)
+        p->figures.increment_error = fmax(of_steps * p->figures.increment_error, p->worst);
+    p->worst = p->figures.increment_error;
+    p->stage = RC_YIELD_DONE;
+    if (p->once && !in_one(p) &&
+        p->figures.increment_error > fmax(once_part * p->figures.inherited_error, once_least)) {
+        p->once = p->stopped = false;
+        for_each(p, undo);
+        p->trial = 1; /* the first trial is known */
+        p->stage = RC_YIELD_PROBE;
+    }
+    return RC_OK;
+}
+
+/* The error of the pressure from the images of a free map, at a distance of twice its sides. Images of the
+ * yielded volume: their stress over the mean contact pressure. The stress is the modulus times the plastic
+ * strain, spread over a cube on the map. On balls with a contact of 5 to 28 % of the map the error was 0.4 to
+ * 0.47 of this ratio. Images of the load: the mean pressure of the padded map over the yield stress. Half of
+ * this ratio was enough on 212 balls, pairs of balls and rough balls, and 0.4 on all but one of them. If few
+ * nodes touch, one of them carries most of the load, and a change of its limit moves load to the others. This
+ * part is larger by 20, 5 and 3 at 3, 6 and 8 nodes, which the factor 1 + (13 / nodes)^2 covers. */
+static double
+image_error(const struct rc_yield_solver *p)
+{
+    const double most = 0.6, share = 0.5, few = 13, least = 3, *v = pressure(p);
+    double area = (double)p->n * p->shape.dx * p->shape.dy, side = sqrt(area), sum = 0;
+    double touching = 0, each;
+
+    if (p->round || v == NULL || rc_voxels_count(&p->voxels) == 0)
+        return 0;
+    for (size_t k = 0; k < p->n; k++) {
+        sum += v[k];
+        touching += v[k] > 0;
+    }
+    each = few / fmax(touching, least);
+    return most * 2 * (1 + p->nu) * p->shear * p->figures.strained /
+               (side * side * side * sum / touching) +
+           share * (1 + each * each) * sum / (double)p->n / (4 * p->yield);
+}
+
+/* The error of the pressure from the tolerance of this contact, and from earlier ones that flow has kept. */
+static double
+contact_error(const struct rc_yield_solver *p)
+{
+    struct rc_progress at;
+
+    if (p->alone)
+        return 0;
+    rc_solver_progress(p->solver, &at);
+    return fmax(p->tol, at.error) + p->kept;
+}
+
+static void
+sum_errors(struct rc_yield_solver *p)
+{
+    struct rc_yield_load *f = &p->figures;
+
+    f->image_error = image_error(p);
+    f->contact_error = contact_error(p);
+    if (p->alone) /* the pressure is 0 and has no error */
+        f->increment_error = f->inherited_error = f->iteration_error = 0;
+    f->error = f->increment_error + f->inherited_error + f->iteration_error + f->contact_error +
+               f->image_error;
+}
+
+static void
+judge(struct rc_yield_solver *p, struct rc_voxel *v)
+{
+    for (size_t a = 0; a < RC_DEVIATOR; a++)
+        v->missed[a] *= (float)p->judged;
+}
+
+/* ---- the interface ---- */
+
+void
+rc_yield_solver_judge(struct rc_yield_solver *p, double increment, double inherited)
+{
+    struct rc_yield_load *f = &p->figures;
+
+    if (f->increment_error > 0) {
+        p->judged = increment / f->increment_error;
+        for_each(p, judge);
+    }
+    f->increment_error = p->worst = increment;
+    f->inherited_error = inherited;
+    sum_errors(p);
+}
+
+enum rc_status
+rc_yield_solver_set_load(struct rc_yield_solver *p, double load, struct rc_err *err)
+{
+    if (!(load >= 0) || isinf(load))
+        return rc_err_set(err, "load %g N: it must be finite and not negative", load);
+    if (load > p->bearable)
+        return rc_err_set(err,
+                          "load %.9g N: it must be below %.9g N, 0.9 of the load at which the mean "
+                          "pressure alone makes all depths of a periodic body yield",
+                          load, p->bearable);
+    p->to = load;
+    p->trial = 0;
+    p->low = p->order = 0;
+    p->high = 1;
+    p->stopped = p->elastic = p->once = false;
+    p->figures = (struct rc_yield_load){0};
+    p->stage = RC_YIELD_PROBE;
+    rc_yield_solver_solve_to(p, fmin(p->asked_tol, kept_goal / (double)(p->taken + p->increments)));
+    if (!p->follows)
+        for_each(p, begin_load);
+    return RC_OK;
+}
+
+void
+rc_yield_solver_follow(struct rc_yield_solver *p)
+{
+    if (!p->follows)
+        for_each(p, rest); /* the increments before were steps of another length */
+    rc_yield_solver_set_increments(p, 1);
+    p->follows = true;
+}
+
+void
+rc_yield_solver_set_increments(struct rc_yield_solver *p, size_t increments)
+{
+    p->follows = false;
+    p->increments = increments > 0 ? increments : INCREMENTS;
+}
+
+void
+rc_yield_solver_solve_to(struct rc_yield_solver *p, double tol)
+{
+    p->tol = tol;
+    rc_solver_set_tol(p->solver, tol);
+}
+
+void
+rc_yield_solver_set_heights(struct rc_yield_solver *p, const double *h)
+{
+    memcpy(p->h, h, p->n * sizeof *h);
+    p->moved = true;
+}
+
+enum rc_status
+rc_yield_solver_step(struct rc_yield_solver *p, struct rc_err *err)
+{
+    enum rc_status status = RC_OK;
+
+    if (p->stage == RC_YIELD_NEW)
+        return rc_err_set(err, "no load has been set");
+    if (p->stage == RC_YIELD_PROBE)
+        status = probe(p, err);
+    else if (p->stage == RC_YIELD_TRIAL)
+        status = advance(p, err);
+    else if (p->stage == RC_YIELD_STATE)
+        status = settle(p, err);
+    else if (p->stage == RC_YIELD_ORDER)
+        status = compare_order(p, err);
+    else if (p->stage == RC_YIELD_AGAIN && (status = press(p, err)) == RC_OK)
+        p->stage = RC_YIELD_DONE;
+    if (status != RC_OK || p->stage != RC_YIELD_DONE)
+        return status == RC_OK ? RC_MORE : status;
+    p->from = p->to;
+    find_figures(p);
+    sum_errors(p);
+    return p->stopped ? RC_SHORT : RC_OK;
+}
+
+void
+rc_yield_solver_strain(const struct rc_yield_solver *p, size_t slab,
+                       double *const e[RC_YIELD_STRAINS])
+{
+    for (size_t c = 0; c < RC_YIELD_STRAINS; c++)
+        if (e[c] != NULL)
+            memset(e[c], 0, p->n * sizeof *e[c]);
+    for (size_t j = 0; j < p->voxels.rows; j++) {
+        const struct rc_voxel_row *row = rc_voxels_row(&p->voxels, slab, j);
+        for (size_t k = 0; k < row->n; k++) {
+            size_t at = j * p->shape.nx + row->v[k].i;
+            for (size_t c = 0; c < RC_DEVIATOR; c++)
+                if (e[c] != NULL)
+                    e[c][at] = row->v[k].e[c];
+            if (e[RC_PEEQ] != NULL)
+                e[RC_PEEQ][at] = row->v[k].strain;
+        }
+    }
+}
+
+void
+rc_yield_solver_free(struct rc_yield_solver *p)
+{
+    if (p == NULL)
+        return;
+    rc_solver_free(p->solver);
+    rc_slabs_free(p->slabs);
+    rc_voxels_free(&p->voxels);
+    rc_store_free(&p->own);
+    free(p);
+}
+
+enum rc_status
+rc_yield_solver_check(const struct rc_yield_problem *problem, struct rc_err *err)
+{
+    const struct rc_body *one = &problem->contact.pair.one;
+
+    if (rc_yield_law_check(&problem->law, err) != RC_OK)
+        return RC_FAIL;
+    if (problem->companion && problem->increments < 2)
+        return rc_err_set(err, "a companion run needs a number of increments, at least 2");
+    if (problem->contact.ranks != NULL)
+        return rc_err_set(
+            err,
+            "plasticity in the volume cannot share its maps among processes: take one process");
+    if (problem->contact.pair.estar > 0 || !(one->e > 0) || isinf(one->e))
+        return rc_err_set(err, "plasticity needs E and nu of the body that yields");
+    if (one->layers > 0)
+        return rc_err_set(err, "plasticity in the volume is not implemented for layered bodies");
+    if ((problem->contact.hardness > 0 && !isinf(problem->contact.hardness)) ||
+        problem->contact.hardness_map != NULL)
+        return rc_err_set(err, "hardness and volume plasticity exclude each other");
+    if (!(one->nu < 0.5))
+        return rc_err_set(
+            err,
+            "Poisson's ratio %g: a body that yields in its volume must be compressible, below 0.5",
+            one->nu);
+    return RC_OK;
+}
+
+static enum rc_status
+make_room(struct rc_yield_solver *p, const double *h, const struct rc_yield_problem *problem,
+          struct rc_err *err)
+{
+    size_t slabs = problem->slabs;
+
+    p->h = rc_store_copy(&p->own, p->n, sizeof *h, h);
+    p->u = rc_store_zeros(&p->own, p->n, sizeof *p->u);
+    p->form = rc_store_take(&p->own, p->n, sizeof *p->form);
+    p->other = rc_store_take(&p->own, p->n, sizeof *p->other);
+    p->thickness = rc_store_copy(&p->own, slabs, sizeof *p->thickness, problem->thickness);
+    if (p->own.failed || rc_voxels_new(&p->voxels, slabs, p->shape.ny) != RC_OK)
+        return rc_err_set(err, "out of memory for the plasticity of %zu x %zu nodes", p->shape.nx,
+                          p->shape.ny);
+    return RC_OK;
+}
+
+struct rc_yield_solver *
+rc_yield_solver_new(const struct rc_shape *shape, const double *h,
+                    const struct rc_yield_problem *problem, struct rc_err *err)
+{
+    const struct rc_body *one = &problem->contact.pair.one;
+    struct rc_problem contact = problem->contact;
+    struct rc_progress at;
+    RC_OWN(rc_yield_solver, p) = NULL;
+    struct rc_slabs_options options = {.slabs = problem->slabs,
+                                       .thickness = problem->thickness,
+                                       .shear = one->e / (2 * (1 + one->nu)),
+                                       .nu = one->nu,
+                                       .padded = contact.boundary == RC_FREE,
+                                       .precision = problem->precise ? RC_DOUBLE : RC_SINGLE,
+                                       .threads = contact.threads};
+
+    contact.hurry = NULL; /* an unfinished contact would change the strain */
+    if (rc_yield_solver_check(problem, err) != RC_OK)
+        return NULL;
+    if ((p = calloc(1, sizeof *p)) == NULL)
+        return rc_err_null(err, "out of memory for a plan");
+    *p = (struct rc_yield_solver){.shape = *shape,
+                                  .n = shape->nx * shape->ny,
+                                  .threads = rc_useful_threads(shape, contact.threads),
+                                  .law = problem->law,
+                                  .shear = options.shear,
+                                  .nu = one->nu,
+                                  .yield = rc_yield_law_stress(&problem->law, 0),
+                                  .lag = problem->lag > 0 ? problem->lag : settled};
+    rc_yield_solver_set_increments(p, problem->increments);
+    /* the mean pressure causes a Mises stress of (1 - 2 nu)/2 times itself at every depth; on a profile
+     * more */
+    p->bearable = contact.boundary == RC_FREE ? INFINITY
+                                              : 0.9 * 2 * p->yield / (1 - 2 * one->nu) *
+                                                    (double)p->n * shape->dx * shape->dy;
+    p->round = contact.boundary == RC_PERIODIC;
+    contact.approach = 0;
+    if (contact.load == 0)
+        contact.load = 1; /* placeholder; rc_yield_solver_set_load replaces it */
+    if (make_room(p, h, problem, err) != RC_OK ||
+        (p->slabs = rc_slabs_new(shape, &options, err)) == NULL ||
+        (p->solver = rc_solver_new(shape, h, &contact, err)) == NULL)
+        return NULL;
+    rc_solver_progress(p->solver, &at);
+    p->tol = p->asked_tol = at.tol;
+    return rc_give(&p);
+}

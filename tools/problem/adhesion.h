@@ -1,0 +1,17 @@
+/*
+ * Bodies that attract each other: the option --adhesion for the tools that solve them.
+ */
+#ifndef RC_TOOL_ADHESION_H
+#define RC_TOOL_ADHESION_H
+
+#include "libcontact/contact.h"
+
+struct adhesion_law {
+    struct rc_adhesion_problem problem; /* the contact in it is not set; its law points to `name` */
+    char name[64];
+};
+
+/* "WORK", "WORK,LAW" or "WORK,LAW,RANGE". */
+enum rc_status adhesion_law_read(struct adhesion_law *a, const char *text, struct rc_err *err);
+
+#endif

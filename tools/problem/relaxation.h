@@ -1,0 +1,20 @@
+/*
+ * The option --relaxation: a viscoelastic material, for the tools that solve it.
+ */
+#ifndef RC_TOOL_RELAXATION_H
+#define RC_TOOL_RELAXATION_H
+
+#include "libcontact/contact.h"
+#include "tools/cli/cli.h"
+
+struct relaxation_law {
+    struct rc_relaxation *material; /* Young's modulus */
+    double misfit;                  /* of a master curve; NAN: the terms were given */
+};
+
+/* "Einf,E1:tau1,...", or a table with a heading: `tau E`, or `frequency storage loss` (Hz; `omega`: rad/s).
+ * All times are multiplied by `shift`. */
+enum rc_status relaxation_law_read(struct relaxation_law *law, const char *text, double shift,
+                                   struct rc_err *err);
+
+#endif
