@@ -220,66 +220,14 @@ warn_of_text(struct tool *t, const struct args *a, struct canvas *c)
         warn_of_family(t, a->style.paper.family, canvas_set_family(c, a->style.paper.family));
 }
 
-/* Writes the figure on its canvas and frees the canvas; grid NULL: a figure of tables; canvas NULL: it could
- * not be drawn. */
+/* Writes the figure on its canvas and frees the canvas; grid NULL: a figure of tables. */
 static void
 finish(struct tool *t, const struct args *a, const struct rc_grid *g, const struct paper *paper,
-       struct canvas *c, const struct rc_err *err)
+       struct canvas *c)
 {
-    if (c == NULL && err != NULL)
-        tool_refuse(t, g, "%s", err->text);
     warn_of_text(t, a, c);
     write_picture(t, g, paper, NULL, c);
     canvas_free(c);
-}
-
-/* Marks the largest magnitude with a cross, if its node is drawn. */
-static void
-mark_largest(struct tool *t, const struct rc_grid *g, const struct survey *s, struct figure *f,
-             struct words *w)
-{
-    RC_OWNED double *depth = section_depths(t, g);
-    size_t at = fabs(s->min) > fabs(s->max) ? s->min_at : s->max_at;
-
-    f->mark.x = f->at.left + ((double)(at % g->nx) + 0.5) * g->dx;
-    f->mark.y = depth[at / g->nx];
-    if (f->mark.y >= f->at.top && f->mark.y <= f->at.bottom)
-        f->mark.largest = words_largest(w, g, g->v[at], f->at.across, f->mark.x, f->mark.y);
-}
-
-/* Frees the values of the map, which the drawing no longer needs, and keeps its keys. */
-static void
-drop_values(struct rc_grid *g)
-{
-    if (g == NULL)
-        return;
-    free(g->v);
-    g->v = NULL;
-}
-
-static void
-draw_figure(struct tool *t, const struct args *a, struct rc_grid *g, const struct beside *beside,
-            const struct survey *s, struct figure *f)
-{
-    struct rc_grid *even = NULL;
-    struct words words;
-    struct canvas *c;
-    struct rc_err err;
-
-    if (rc_grid_get(g, "section") != NULL) {
-        even = look_section(t, a, g, f);
-        mark_largest(t, g, s, f, &words);
-    } else if (look_throat(g, f))
-        f->mark.largest = "the critical constriction";
-    if (a->hertz)
-        f->mark.circle = words_hertz(t, &words, g, &a->style.given, &f->mark.radius);
-    c = figure_draw(f, even == NULL ? g : even, &err);
-    rc_grid_free(even);
-    drop_values(g);
-    drop_values(beside->pressure);
-    drop_values(beside->contact);
-    finish(t, a, g, &f->paper, c, &err);
-    free(f->medium);
 }
 
 /* ---- profiles ---- */
@@ -301,17 +249,14 @@ draw_profile(struct tool *t, const struct args *a, const struct rc_grid *g, cons
                           .series = &series,
                           .n = 1,
                           .note = f->nodes.missing > 0 ? gaps : NULL};
-    struct canvas *c;
-    struct rc_err err;
 
     for (size_t k = 0; k < n; k++)
         x[k] = first + ((double)k + 0.5) * step;
     snprintf(gaps, sizeof gaps, "gaps: %s (%zu of %zu nodes)",
              f->nodes.missing_is == NULL ? "not measured" : f->nodes.missing_is, f->nodes.missing,
              n);
-    c = graph_draw(&graph, &err);
+    finish(t, a, g, &f->paper, tool_made(t, g, graph_draw(&graph, &t->err)));
     free(x);
-    finish(t, a, g, &f->paper, c, &err);
 }
 
 /* ---- reliefs ---- */
@@ -321,7 +266,6 @@ draw_relief(struct tool *t, const struct args *a, const struct rc_grid *g, struc
             struct subtitle *subtitle)
 {
     struct view view;
-    struct rc_err err;
 
     view_read(t, a->view, &view);
     if (look_is_profile(g) || rc_grid_get(g, "section") != NULL || g->nx == 1 || g->ny == 1)
@@ -330,7 +274,104 @@ draw_relief(struct tool *t, const struct args *a, const struct rc_grid *g, struc
     view_check(t, g, f);
     view_say(f, subtitle);
     f->nodes.missing = 0; /* they are holes */
-    finish(t, a, g, &f->paper, relief_draw(f, &view, g, &err), &err);
+    finish(t, a, g, &f->paper, tool_made(t, g, relief_draw(f, &view, g, &t->err)));
+}
+
+/* ---- maps: one, or the panels of a sheet ---- */
+
+/* Marks the largest magnitude with a cross, if its node is drawn. */
+static void
+mark_largest(struct tool *t, const struct rc_grid *g, const struct survey *s, struct figure *f,
+             struct words *w)
+{
+    RC_OWNED double *depth = section_depths(t, g);
+    size_t at = fabs(s->min) > fabs(s->max) ? s->min_at : s->max_at;
+
+    f->mark.x = f->at.left + ((double)(at % g->nx) + 0.5) * g->dx;
+    f->mark.y = depth[at / g->nx];
+    if (f->mark.y >= f->at.top && f->mark.y <= f->at.bottom)
+        f->mark.largest = words_largest(w, g, g->v[at], f->at.across, f->mark.x, f->mark.y);
+}
+
+/* Marks on a single map. */
+static void
+add_marks(struct tool *t, const struct args *a, const struct rc_grid *g, const struct survey *s,
+          struct figure *f, struct words *words)
+{
+    if (rc_grid_get(g, "section") != NULL)
+        mark_largest(t, g, s, f, words);
+    else if (look_throat(g, f))
+        f->mark.largest = "the critical constriction";
+    if (a->hertz)
+        f->mark.circle = words_hertz(t, words, g, &a->style.given, &f->mark.radius);
+}
+
+/* The panels of the figure *f, which becomes that of their common legend. Sections are drawn as maps of their
+ * own. */
+static void
+set_panels(struct tool *t, const struct args *a, const struct frames *frames,
+           const struct window *window, const struct survey *all, struct figure *f,
+           struct panel *panel, struct words *words)
+{
+    const struct figure own = *f;
+
+    for (size_t k = 0; k < frames->n; k++) {
+        struct rc_grid *g = frames->grid[k];
+        const struct beside beside = frames_beside(frames, k);
+        struct figure *of = &panel[k].figure;
+
+        *of = own;
+        look_extent(&window[k], of);
+        panel[k].grid =
+            rc_grid_get(g, "section") == NULL ? g : look_section(t, a, g, &panel[k].figure);
+        look_contact(of, g, &beside, frames->touch[k]);
+        if (frames->one) {
+            add_marks(t, a, g, all, of, words);
+        } else {
+            sheet_check_alike(t, frames->grid[0], &panel[0].figure, g, of);
+            sheet_label(&panel[k], frames, k);
+        }
+        if (k == 0)
+            *f = *of;
+        f->edge.hard = fmax(f->edge.hard, of->edge.hard);
+        f->edge.contact = f->edge.contact == NULL ? of->edge.contact : f->edge.contact;
+        f->paper.stamp = f->paper.stamp == NULL ? look_stamp(g) : f->paper.stamp;
+        f->nodes.all += g->nx * g->ny;
+    }
+    look_aspect(t, frames->grid[0], f);
+    if (!subtitle_same(frames->grid, frames->n, "layers")) /* one legend for all */
+        f->media = 0;
+}
+
+static void
+draw_panels(struct tool *t, const struct args *a, struct frames *frames,
+            const struct window *window, const struct survey *all, struct figure *f)
+{
+    static struct panel panel[FRAMES];
+    const struct rc_grid *first = frames->grid[0];
+    struct panels panels = {f, panel, frames->n, 1};
+    struct words words;
+    struct canvas *c;
+    size_t rows = 1;
+
+    if (!frames->one)
+        sheet_size(t, a->sheet == NULL ? "auto" : a->sheet, &panels.columns, &rows);
+    if (panels.columns > 0 && frames->n > panels.columns * rows)
+        tool_die(
+            t, "%zu frames match, but --sheet %s has room for %zu: choose with --case and --depth",
+            frames->n, a->sheet, panels.columns * rows);
+    set_panels(t, a, frames, window, all, f, panel, &words);
+    if (panels.columns == 0)
+        panels.columns =
+            panels_columns(frames->n, (f->at.right - f->at.left) / (f->at.bottom - f->at.top));
+    c = tool_made(t, frames->one ? first : NULL, panels_draw(&panels, &t->err));
+    for (size_t k = 0; k < frames->n; k++) {
+        if (panel[k].grid != frames->grid[k])
+            rc_grid_free((struct rc_grid *)panel[k].grid);
+        free(panel[k].figure.medium);
+    }
+    frames_empty(frames);
+    finish(t, a, first, &f->paper, c);
 }
 
 /* True if the window is the contact. */
@@ -340,155 +381,62 @@ about_contact(const struct args *a)
     return a->window != NULL && strcmp(a->window, "contact") == 0;
 }
 
-static const char shaded[] = "shaded, light from the upper left";
-
 static void
-render(struct tool *t, struct args *a, const struct frames *frames)
+warn_of_profile(struct tool *t, const struct args *a)
 {
-    struct rc_grid *g = frames->grid[0];
-    const struct rc_grid *touch = frames->touch[0];
-    const struct beside is = frames_beside(frames, 0), *beside = &is;
-    char title[256];
-    struct window w;
-    struct survey s;
-    struct subtitle subtitle = {.n = 0};
-    struct look look;
-    struct figure f;
-    struct means means = {false, 0, 0};
+    const char *option = a->contour          ? "contour"
+                         : a->border         ? "border"
+                         : a->hertz          ? "hertz"
+                         : a->hillshade      ? "hillshade"
+                         : !isnan(a->aspect) ? "aspect"
+                                             : NULL;
 
-    if (!a->raw)
-        means_take(t, g, &means);
-    window_cut(t, a->window, a->raw, g, beside, touch, &w);
-    survey_map(g, &s);
-    if (isnan(s.min))
-        tool_refuse(t, g,
-                    "none of its %zu values is a finite number: there is "
-                    "nothing to draw",
-                    g->nx * g->ny);
-    subtitle_write(&subtitle, g, &s, &means, w.part, frames_by_size(frames));
-    look_figure(t, a, &g, &touch, 1, &s, &look, &f);
-    look_extent(&w, &f);
-    look_aspect(t, g, &f);
-    look_contact(&f, g, beside, touch);
-    snprintf(title, sizeof title, "%.80s about the contact", look.what.title);
-    if (a->style.paper.title == NULL && w.contact)
-        f.paper.title = title;
-    f.paper.subtitle = wording_subtitle(&a->style.paper, subtitle.text);
-    if (a->hillshade && !look_is_profile(g))
-        subtitle_add(&subtitle, shaded, "");
-    if ((a->contour || a->border || a->hertz || a->hillshade) && look_is_profile(g))
-        tool_warn(t, "a profile is drawn as a curve, so that --%s has no effect",
-                  a->contour  ? "contour"
-                  : a->border ? "border"
-                  : a->hertz  ? "hertz"
-                              : "hillshade");
-    if (a->raw)
-        write_picture(t, g, &f.paper, &f, NULL);
-    else if (a->view != NULL)
-        draw_relief(t, a, g, &f, &subtitle);
-    else if (look_is_profile(g))
-        draw_profile(t, a, g, &f);
-    else
-        draw_figure(t, a, g, beside, &s, &f);
-}
-
-/* ---- sheets ---- */
-
-/* The panels and their common legend; returns the maps that are drawn for sections (NULL for others), which
- * the caller frees. */
-static void
-set_panels(struct tool *t, const struct args *a, const struct frames *frames,
-           const struct window *window, struct figure *f, struct panel *panel,
-           struct rc_grid **even)
-{
-    double hard = 0;
-
-    for (size_t k = 0; k < frames->n; k++) {
-        struct rc_grid *g = frames->grid[k];
-        struct beside beside;
-        struct figure *of = &panel[k].figure;
-
-        *of = *f;
-        look_extent(&window[k], of);
-        even[k] = rc_grid_get(g, "section") == NULL ? NULL : look_section(t, a, g, of);
-        panel[k].grid = even[k] == NULL ? g : even[k];
-        beside = frames_beside(frames, k);
-        look_contact(of, g, &beside, frames->touch[k]);
-        hard = fmax(hard, of->edge.hard);
-        f->edge.contact = f->edge.contact == NULL ? of->edge.contact : f->edge.contact;
-        sheet_check_alike(t, frames->grid[0], &panel[0].figure, g, of);
-        sheet_label(&panel[k], frames, k);
-    }
-    for (size_t k = 0; k < frames->n; k++) {
-        f->paper.stamp = f->paper.stamp == NULL ? look_stamp(frames->grid[k]) : f->paper.stamp;
-        f->nodes.all += frames->grid[k]->nx * frames->grid[k]->ny;
-    }
-    look_extent(&window[0], f);
-    f->at.top = panel[0].figure.at.top;
-    f->at.bottom = panel[0].figure.at.bottom;
-    f->at.across = panel[0].figure.at.across;
-    f->at.down = panel[0].figure.at.down;
-    f->at.section = panel[0].figure.at.section;
-    look_aspect(t, frames->grid[0], f);
-    if (subtitle_same(frames->grid, frames->n, "layers")) { /* one legend for all */
-        f->medium = panel[0].figure.medium;
-        f->media = panel[0].figure.media;
-    }
-    f->edge.hard = hard;
+    if (option != NULL)
+        tool_warn(t, "a profile is drawn as a curve, so that --%s has no effect", option);
 }
 
 static void
-say_of_sheet(struct subtitle *subtitle, const struct args *a, const struct frames *frames,
-             const struct survey *all, const struct means *means, double part)
+render_maps(struct tool *t, struct args *a, struct frames *frames)
 {
-    subtitle_common(subtitle, frames->grid, frames->n);
-    subtitle_part(subtitle, part);
-    subtitle_range(subtitle, frames->grid[0], all, means);
-    if (a->hillshade)
-        subtitle_add(subtitle, shaded, "");
-}
-
-static void
-render_sheet(struct tool *t, struct args *a, const struct frames *frames)
-{
-    static struct panel panel[FRAMES];
-    struct window window[FRAMES] = {{0}};
-    struct rc_grid *even[FRAMES];
-    struct subtitle subtitle = {.n = 0};
+    struct rc_grid *first = frames->grid[0];
+    const bool profile = frames->one && look_is_profile(first);
+    struct window window[FRAMES];
     struct survey all;
+    struct subtitle subtitle = {.n = 0};
     struct look look;
     struct figure f;
-    size_t columns, rows;
-    struct panels panels;
     struct means means = {false, 0, 0};
-    struct canvas *c;
+    char title[256];
 
-    sheet_size(t, a->sheet == NULL ? "auto" : a->sheet, &columns, &rows);
-    if (columns > 0 && frames->n > columns * rows)
-        tool_die(
-            t, "%zu frames match, but --sheet %s has room for %zu: choose with --case and --depth",
-            frames->n, a->sheet, columns * rows);
-    for (size_t k = 0; k < frames->n; k++)
+    for (size_t k = 0; k < frames->n && !a->raw; k++)
         means_take(t, frames->grid[k], &means);
     for (size_t k = 0; k < frames->n; k++) {
-        struct beside beside = frames_beside(frames, k);
-        window_cut(t, a->window == NULL ? "all" : a->window, false, frames->grid[k], &beside,
-                   frames->touch[k], &window[k]);
+        const struct beside beside = frames_beside(frames, k);
+
+        window_cut(t, a->window == NULL && !frames->one ? "all" : a->window, a->raw,
+                   frames->grid[k], &beside, frames->touch[k], &window[k]);
     }
     sheet_survey(t, frames, &all);
     look_figure(t, a, frames->grid, frames->touch, frames->n, &all, &look, &f);
-    say_of_sheet(&subtitle, a, frames, &all, &means, window[0].part);
+    look_extent(&window[0], &f);
+    subtitle_write(&subtitle, frames->grid, frames->n, &all, &means, window[0].part,
+                   frames_by_size(frames));
+    if (a->hillshade && !profile)
+        subtitle_add(&subtitle, "shaded, light from the upper left", "");
     f.paper.subtitle = wording_subtitle(&a->style.paper, subtitle.text);
-    set_panels(t, a, frames, window, &f, panel, even);
-    if (columns == 0)
-        columns = panels_columns(frames->n, (f.at.right - f.at.left) / (f.at.bottom - f.at.top));
-    panels = (struct panels){&f, panel, frames->n, columns};
-    c = tool_made(t, NULL, panels_draw(&panels, &t->err));
-    finish(t, a, frames->grid[0], &f.paper, c, NULL);
-    for (size_t k = 0; k < frames->n; k++) {
-        rc_grid_free(even[k]);
-        free(panel[k].figure.medium);
-    }
+    snprintf(title, sizeof title, "%.80s about the contact", look.what.title);
+    if (a->style.paper.title == NULL && window[0].contact)
+        f.paper.title = title;
+    if (profile)
+        warn_of_profile(t, a);
+    if (a->raw)
+        write_picture(t, first, &f.paper, &f, NULL);
+    else if (a->view != NULL)
+        draw_relief(t, a, first, &f, &subtitle);
+    else if (profile)
+        draw_profile(t, a, first, &f);
+    else
+        draw_panels(t, a, frames, window, &all, &f);
 }
 
 /* ---- curves ---- */
@@ -502,7 +450,7 @@ render_curves(struct tool *t, struct args *a)
                                 .stamp = drawn.stamp,
                                 .subtitle = *drawn.source == '\0' ? NULL : drawn.source};
 
-    finish(t, a, NULL, &paper, c, NULL);
+    finish(t, a, NULL, &paper, c);
 }
 
 static struct canvas *
@@ -527,20 +475,20 @@ draw_lines(struct tool *t, struct args *a, const struct frames *f, struct drawn 
 }
 
 static void
-render_lines(struct tool *t, struct args *a, const struct frames *f)
+render_lines(struct tool *t, struct args *a, struct frames *f)
 {
     struct drawn drawn = {.stamp = NULL};
     struct canvas *c;
 
     a->style.hertz = a->hertz;
     c = draw_lines(t, a, f, &drawn);
-    finish(t, a, f->grid[0], &(struct paper){.title = drawn.title, .stamp = drawn.stamp}, c, NULL);
+    finish(t, a, f->grid[0], &(struct paper){.title = drawn.title, .stamp = drawn.stamp}, c);
 }
 
 /* ---- kinds of pictures ---- */
 
 static void
-render_maps(struct tool *t, struct args *a)
+render_frames(struct tool *t, struct args *a)
 {
     static struct frames frames;
 
@@ -549,7 +497,7 @@ render_maps(struct tool *t, struct args *a)
     frames.border = a->contour || a->border || about_contact(a);
     frames.demands = a->histogram || about_contact(a);
     frames_read(&frames, t);
-    (args_lines(a) ? render_lines : frames.one ? render : render_sheet)(t, a, &frames);
+    (args_lines(a) ? render_lines : render_maps)(t, a, &frames);
     frames_free(&frames);
 }
 
@@ -579,7 +527,7 @@ main(int argc, char **argv)
     if (args.curve != NULL)
         render_curves(&t, &args);
     else
-        render_maps(&t, &args);
+        render_frames(&t, &args);
     free(args.wanted.depth.v);
     free(args.wanted.number.v);
     return tool_finish(&t);

@@ -53,7 +53,7 @@ set_begin(struct set *s)
         frame_label(s->label[k], LABEL, s->grid, s->n, k);
     }
     s->channel = channel_of(s->grid[0], &survey);
-    subtitle_common(&s->subtitle, s->grid, s->n);
+    subtitle_common(&s->subtitle, s->grid, s->n, false);
 }
 
 /* Adds series k, which has a name if there are several series or a law. */

@@ -5,6 +5,7 @@
 #include "render.h"
 
 #include <math.h>
+#include <stdlib.h>
 #include <string.h>
 
 /* Index of a channel among the preferred ones; all others have the next index. */
@@ -199,6 +200,23 @@ frames_read(struct frames *f, struct tool *t)
         struct beside beside = frames_beside(f, k);
         f->touch[k] = look_touch(t, f->grid[k], &beside, f->demands);
     }
+}
+
+static void
+empty(struct rc_grid *const *grid, size_t n)
+{
+    for (size_t k = 0; k < n; k++) {
+        free(grid[k]->v);
+        grid[k]->v = NULL;
+    }
+}
+
+void
+frames_empty(struct frames *f)
+{
+    empty(f->grid, f->n);
+    empty(f->pressure.grid, f->pressure.n);
+    empty(f->contact.grid, f->contact.n);
 }
 
 void

@@ -130,19 +130,17 @@ struct subtitle {
 void subtitle_add(struct subtitle *subtitle, const char *name, const char *value);
 /* The largest value of means, and of single nodes. */
 void means_say(const struct means *means, struct subtitle *subtitle, const char *unit);
-/* The extremes (not for categories); for means those of the means and of single nodes. */
-void subtitle_range(struct subtitle *subtitle, const struct rc_grid *grid,
-                    const struct survey *survey, const struct means *means);
-/* The common properties of all frames of a picture: source, case, load, depth. */
-void subtitle_common(struct subtitle *subtitle, struct rc_grid *const *grid, size_t n);
+/* The properties that are the same in all frames of a picture: source, case, load, section, depth. `largest`:
+ * the depth was chosen because its magnitude is the largest of several. */
+void subtitle_common(struct subtitle *subtitle, struct rc_grid *const *grid, size_t n,
+                     bool largest);
 /* True if a key is the same in all frames. */
 bool subtitle_same(struct rc_grid *const *grid, size_t n, const char *key);
 /* "load 10 N, depth 5 um": the properties in which frame k differs from the others of its picture. */
 void frame_label(char *text, size_t size, struct rc_grid *const *grid, size_t n, size_t k);
-/* The fraction `part` of the map is drawn. */
-void subtitle_part(struct subtitle *subtitle, double part);
-/* `largest`: this depth was chosen because its magnitude is the largest of several. */
-void subtitle_write(struct subtitle *subtitle, const struct rc_grid *grid,
+/* The common properties, the fraction `part` of the map that is drawn, and the extremes (not for categories);
+ * for means those of the means and of single nodes. */
+void subtitle_write(struct subtitle *subtitle, struct rc_grid *const *grid, size_t n,
                     const struct survey *survey, const struct means *means, double part,
                     bool largest);
 
@@ -316,6 +314,8 @@ bool frames_by_size(const struct frames *frames);
 /* Reads all inputs and keeps the frames to draw. Ends the tool if there is none, and names omitted frames that
  * the user may have meant. */
 void frames_read(struct frames *frames, struct tool *tool);
+/* Frees the values, which the drawing no longer needs, and keeps the keys. */
+void frames_empty(struct frames *frames);
 void frames_free(struct frames *frames);
 
 /* ---- sheet.c: the frames as panels ---- */
@@ -326,7 +326,7 @@ void sheet_size(struct tool *tool, const char *text, size_t *columns, size_t *ro
 void sheet_check_alike(struct tool *tool, const struct rc_grid *first,
                        const struct figure *of_first, const struct rc_grid *grid,
                        const struct figure *figure);
-/* Statistics of all values; ends the tool if a frame has no finite one. */
+/* Statistics of all values, with nodes of the first frame; ends the tool if a frame has no finite value. */
 void sheet_survey(struct tool *tool, const struct frames *frames, struct survey *all);
 /* "a) load 10 N"; after z) comes aa). */
 void sheet_label(struct panel *panel, const struct frames *frames, size_t k);

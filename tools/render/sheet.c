@@ -48,7 +48,6 @@ sheet_check_alike(struct tool *t, const struct rc_grid *first, const struct figu
 void
 sheet_survey(struct tool *t, const struct frames *frames, struct survey *all)
 {
-    *all = (struct survey){.min = NAN, .max = NAN};
     for (size_t k = 0; k < frames->n; k++) {
         struct survey s;
 
@@ -57,6 +56,10 @@ sheet_survey(struct tool *t, const struct frames *frames, struct survey *all)
             tool_refuse(t, frames->grid[k],
                         "none of its %zu values is a finite number: there is nothing to draw",
                         frames->grid[k]->nx * frames->grid[k]->ny);
+        if (k == 0) {
+            *all = s;
+            continue;
+        }
         all->min = fmin(all->min, s.min);
         all->max = fmax(all->max, s.max);
         all->missing += s.missing;

@@ -21,27 +21,6 @@ subtitle_add(struct subtitle *w, const char *name, const char *value)
         w->text[w->n] = '\0';
 }
 
-static void
-say_where(struct subtitle *w, const struct rc_grid *g, bool largest)
-{
-    const char *section = rc_grid_get(g, "section");
-    char text[TICKS_TEXT], name[TICKS_TEXT + 32], medium[MEDIA_NAME];
-    const char *in;
-    double number;
-
-    if (section != NULL) {
-        snprintf(name, sizeof name, "section %.1s = ", section);
-        subtitle_add(w, name,
-                     rc_grid_number(g, "at", &number) ? scale_value_to(text, number, "m") : "all");
-    } else if (rc_grid_number(g, "depth", &number)) {
-        scale_value_to(text, number, "m");
-        snprintf(name, sizeof name, "%s%s", text, largest ? " (where it is largest)" : "");
-        subtitle_add(w, "depth ", name);
-        if ((in = media_name(medium, g)) != NULL)
-            subtitle_add(w, "", in);
-    }
-}
-
 /* A millionth of the other extreme is more likely rounding than a value. */
 static const char *
 extreme(char text[TICKS_TEXT], double value, const struct survey *s, const char *unit)
@@ -51,9 +30,9 @@ extreme(char text[TICKS_TEXT], double value, const struct survey *s, const char 
     return scale_value_to(text, value, unit);
 }
 
-void
-subtitle_range(struct subtitle *w, const struct rc_grid *g, const struct survey *s,
-               const struct means *m)
+static void
+say_range(struct subtitle *w, const struct rc_grid *g, const struct survey *s,
+          const struct means *m)
 {
     char text[TICKS_TEXT];
 
@@ -66,8 +45,8 @@ subtitle_range(struct subtitle *w, const struct rc_grid *g, const struct survey 
         subtitle_add(w, "max ", extreme(text, s->max, s, g->unit));
 }
 
-void
-subtitle_part(struct subtitle *w, double part)
+static void
+say_part(struct subtitle *w, double part)
 {
     char text[TICKS_TEXT];
 
@@ -81,36 +60,16 @@ subtitle_part(struct subtitle *w, double part)
 static const struct {
     const char *key, *name, *unit;
     bool state;
-} pieces[] = {{"source", "", NULL, false},          {"case", "case ", NULL, false},
-              {"load", "load ", "N", true},         {"distance", "distance ", "m", true},
-              {"time", "time ", "s", true},         {"speed", "speed ", "m/s", true},
-              {"position", "position ", "m", true}, {"depth", "depth ", "m", false},
-              {"material", "", NULL, false}}; /* a separate word */
+} pieces[] = {
+    {"source", "", NULL, false},          {"case", "case ", NULL, false},
+    {"load", "load ", "N", true},         {"distance", "distance ", "m", true},
+    {"time", "time ", "s", true},         {"speed", "speed ", "m/s", true},
+    {"position", "position ", "m", true}, {"section", "section ", NULL, false},
+    {"depth", "depth ", "m", false},      {"material", "", NULL, false}}; /* a separate word */
 
 enum {
     PIECES = sizeof pieces / sizeof *pieces
 };
-
-void
-subtitle_write(struct subtitle *w, const struct rc_grid *g, const struct survey *s,
-               const struct means *means, double part, bool largest)
-{
-    const char *source = rc_grid_get(g, "source"), *number = rc_grid_get(g, "case");
-    double value;
-
-    if (source != NULL)
-        subtitle_add(w, "", source);
-    if (number != NULL)
-        subtitle_add(w, "case ", number);
-    for (size_t p = 0; p < PIECES; p++)
-        if (pieces[p].state && rc_grid_number(g, pieces[p].key, &value))
-            subtitle_add(w, pieces[p].name, scale_value(value, pieces[p].unit));
-    say_where(w, g, largest);
-    subtitle_part(w, part);
-    subtitle_range(w, g, s, means);
-}
-
-/* ---- several frames ---- */
 
 bool
 subtitle_same(struct rc_grid *const *grid, size_t n, const char *key)
@@ -128,15 +87,19 @@ subtitle_same(struct rc_grid *const *grid, size_t n, const char *key)
 static const char *
 piece_text(char text[TICKS_TEXT], const struct rc_grid *g, size_t p)
 {
-    const char *name;
+    const char *name = rc_grid_get(g, pieces[p].key);
     double number;
 
     if (strcmp(pieces[p].key, "material") == 0)
         return (name = media_name(text, g)) == NULL ? "?" : name;
-
+    if (strcmp(pieces[p].key, "section") == 0) {
+        snprintf(text, TICKS_TEXT, "%.1s = %.40s", name,
+                 rc_grid_number(g, "at", &number) ? scale_value(number, "m") : "all");
+        return text;
+    }
     if (pieces[p].unit != NULL && rc_grid_number(g, pieces[p].key, &number))
         return scale_value_to(text, number, pieces[p].unit);
-    return rc_grid_get(g, pieces[p].key);
+    return name;
 }
 
 /* Loads that differ by less than their text shows are the same. */
@@ -147,7 +110,8 @@ piece_same(struct rc_grid *const *grid, size_t n, size_t p)
     double number;
 
     if (pieces[p].unit == NULL || !rc_grid_number(grid[0], pieces[p].key, &number))
-        return subtitle_same(grid, n, pieces[p].key);
+        return subtitle_same(grid, n, pieces[p].key) &&
+               (strcmp(pieces[p].key, "section") != 0 || subtitle_same(grid, n, "at"));
     scale_value_to(first, number, pieces[p].unit);
     for (size_t k = 1; k < n; k++)
         if (!rc_grid_number(grid[k], pieces[p].key, &number) ||
@@ -157,13 +121,26 @@ piece_same(struct rc_grid *const *grid, size_t n, size_t p)
 }
 
 void
-subtitle_common(struct subtitle *w, struct rc_grid *const *grid, size_t n)
+subtitle_common(struct subtitle *w, struct rc_grid *const *grid, size_t n, bool largest)
 {
-    char text[TICKS_TEXT];
+    char text[TICKS_TEXT], line[sizeof w->text];
 
-    for (size_t p = 0; p < PIECES; p++)
-        if (rc_grid_get(grid[0], pieces[p].key) != NULL && piece_same(grid, n, p))
-            subtitle_add(w, pieces[p].name, piece_text(text, grid[0], p));
+    for (size_t p = 0; p < PIECES; p++) {
+        if (rc_grid_get(grid[0], pieces[p].key) == NULL || !piece_same(grid, n, p))
+            continue;
+        snprintf(line, sizeof line, "%s%s", piece_text(text, grid[0], p),
+                 largest && strcmp(pieces[p].key, "depth") == 0 ? " (where it is largest)" : "");
+        subtitle_add(w, pieces[p].name, line);
+    }
+}
+
+void
+subtitle_write(struct subtitle *w, struct rc_grid *const *grid, size_t n, const struct survey *s,
+               const struct means *means, double part, bool largest)
+{
+    subtitle_common(w, grid, n, largest);
+    say_part(w, part);
+    say_range(w, grid[0], s, means);
 }
 
 /* If a state identifies the frame, the number of its case is omitted. */
