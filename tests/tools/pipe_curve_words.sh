@@ -116,7 +116,7 @@ claim "  the legend calls them sealed" shows seal.svg '>2 loads sealed \(no flow
 claim "  the power of the unit is raised" shows seal.svg 'm<tspan dy="-[0-9.]*" font-size="[0-9.]*">3</tspan><tspan dy="[0-9.]*">/s|m</tspan><tspan [^>]*>3</tspan>'
 claim "  the axis has a power of ten if its marks have none" eval 'printf "load/N\tflow_rate/m3/s\n1\t1e-12\n2\t2e-13\n" | rc-render --log --curve load:flow_rate -o z.svg && ! shows z.svg ">0\\.000" && shows z.svg ">Flow rate \\(10<"'
 claim "other columns have normal points there" eval 'sed s/flow_rate/y/ seal.tsv | rc-render --log --curve mean_pressure:y -o z.svg && shows z.svg ">2 points at or below 0<"'
-claim "a note that is too long continues on the next line" eval 'sed "1s/x/pressure_over_the_whole_map/" few.tsv | rc-render --curve pressure_over_the_whole_map:y --spread --width 85mm -o n.svg && ! grep -q "…</text>" n.svg && shows n.svg " each\\)</text>"'
+claim "a note that is too long continues on the next line" eval 'sed "1s/x/pressure_over_the_whole_map/" few.tsv | rc-render --curve pressure_over_the_whole_map:y --spread --width 85mm -o n.svg && ! grep -q "…</text>" n.svg && shows n.svg "standard deviation</text>"'
 printf 'mat\ty/N\nsteel\t1\nrubber\t3\nsteel\t2\nPTFE, filled with bronze\t2\n' >words.tsv
 # Prints the positions of the markers across the plot, 0 to 1.
 across() {

@@ -188,22 +188,21 @@ border_width(const struct page *p)
     return fmin(1.5 * p->u, fmax(0.35 * node, 0.4 * p->u));
 }
 
-/* The edge of the contact on a map of another channel, which may be dark in contact; the colour is also
- * visible on white. */
-static struct rgb
-edge_ink(const struct page *p)
+/* True if the nodes in contact have dark colours in a map of another channel. */
+static bool
+is_dark_in_contact(const struct panel *panel)
 {
-    const struct rc_grid *of = p->f->edge.contact;
+    const struct rc_grid *of = panel->figure.edge.contact, *g = panel->grid;
     double sum = 0, n = 0;
 
-    if (of == NULL || of == p->g || of->nx != p->g->nx || of->ny != p->g->ny)
-        return page_ink;
+    if (!panel->figure.edge.contour || of == NULL || of == g || of->nx != g->nx || of->ny != g->ny)
+        return false;
     for (size_t k = 0; k < of->nx * of->ny; k++)
-        if (rc_in_contact(of->v[k]) && isfinite(p->g->v[k])) {
-            sum += p->g->v[k];
+        if (rc_in_contact(of->v[k]) && isfinite(g->v[k])) {
+            sum += g->v[k];
             n++;
         }
-    return n > 0 && colormap_is_dark(colour_of(p->f, sum / n)) ? edge_on_dark : page_ink;
+    return n > 0 && colormap_is_dark(colour_of(&panel->figure, sum / n));
 }
 
 /* The position on the page of a place on the map in metres. */
@@ -271,7 +270,7 @@ draw_contours(struct page *p, const struct raster *r, struct rc_err *err)
     }
     if (status == RC_OK && p->f->edge.contact != NULL) {
         status = raster_border(p->f->edge.contact, 0, r->w, r->h, &lines, err);
-        stroke_lines(p, &lines, r, border_width(p), edge_ink(p));
+        stroke_lines(p, &lines, r, border_width(p), p->edge);
     }
     if (status == RC_OK && p->f->edge.hard > 0) {
         status = raster_border(p->f->edge.pressure, p->f->edge.hard, r->w, r->h, &lines, err);
@@ -350,8 +349,8 @@ point_bar(struct page *p, double x, double y, double w, double h)
     }
 }
 
-static void
-draw_bar(struct page *p)
+void
+figure_bar(struct page *p)
 {
     double u = p->u, thick = round(28 * u);
     double x = p->plot.x, y = p->plot.y, w = p->plot.w, h = p->plot.h;
@@ -379,44 +378,81 @@ draw_bar(struct page *p)
         else
             canvas_fill(p->c, x, y + (1 - t) * h - 0.75 * u, w, 1.5 * u, colour);
     }
-    canvas_frame(p->c, x, y, w, h, fmax(1, round(1.2 * u)), page_ink);
+    page_frame(p, x, y, w, h);
     if (p->bar_below)
         axis_across(p, a, x, y + h, w);
     else
         axis_upright(p, a, x + w, y, h, false, false);
 }
 
-/* ---- the whole ---- */
+/* ---- legend ---- */
 
-/* The stamp is above the plot, where it covers no data. */
+/* Samples in the legend. */
+enum sample {
+    NO_SAMPLE,
+    NONE,
+    ONE,
+    TWO,
+    MISSING,
+    CONTACT,
+    HARD,
+    CIRCLE,
+    LARGEST
+};
+
+/* Their numbers are beside the plot. */
 static void
-draw_stamp(struct page *p, double middle, double y)
+add_media(struct page *p)
 {
-    double size = p->stamp.size, w, line = fmax(2, round(2.4 * p->u));
+    char text[LINE];
+    size_t first, n = media_seen(p->f, &first);
 
-    if (p->paper->stamp == NULL)
+    if (n > MEDIA_TOLD) {
+        snprintf(text, sizeof text, "lines: where %zu media meet", n);
+        legend_add(p, NO_SAMPLE, text);
         return;
-    w = canvas_text_width(p->c, &p->stamp, p->paper->stamp) + 1.6 * size;
-    y += 0.4 * size;
-    canvas_frame(p->c, round(middle - 0.5 * w), round(y), round(w), round(1.55 * size), line,
-                 page_alarm);
-    canvas_text(p->c, &p->stamp, middle, y + 1.12 * size, 0.5, p->paper->stamp);
+    }
+    for (size_t k = first; k < first + n; k++) {
+        snprintf(text, sizeof text, "%zu: %s", k + 1, p->f->medium[k].text);
+        legend_add(p, NO_SAMPLE, text);
+    }
+}
+
+static const char *
+say_scales(const struct figure *f, char *text, size_t size)
+{
+    if (f->at.aspect > 0)
+        snprintf(text, size, "%s is drawn %.4g times as large as %s", f->at.down, f->at.aspect,
+                 f->at.across);
+    else
+        snprintf(text, size, "the axes differ in scale");
+    return text;
 }
 
 void
-page_heading(struct page *p)
+figure_legend(struct page *p)
 {
-    double y = p->top + 24 * p->u, middle = 0.5 * (double)p->w;
+    char text[LINE];
 
-    for (size_t k = 0; k < p->title.n; k++) {
-        canvas_text(p->c, &p->heading, middle, y + p->heading.size, 0.5, p->title.line[k]);
-        y += 1.3 * p->heading.size;
-    }
-    for (size_t k = 0; k < p->subtitle.n; k++) {
-        canvas_text(p->c, &p->subheading, middle, y + p->subheading.size, 0.5, p->subtitle.line[k]);
-        y += 1.4 * p->subheading.size;
-    }
-    draw_stamp(p, middle, y);
+    if (p->f->nodes.zero_is_none && (p->f->nodes.zeros > 0 || p->f->nodes.is != NULL))
+        legend_add(p, NONE, p->f->nodes.none);
+    for (int k = 0; k < 2 && p->f->nodes.is != NULL && p->f->nodes.is[k] != NULL; k++)
+        legend_add(p, k == 0 ? ONE : TWO, p->f->nodes.is[k]);
+    snprintf(text, sizeof text, "%s (%zu of %zu nodes)",
+             p->f->nodes.missing_is == NULL ? "not measured" : p->f->nodes.missing_is,
+             p->f->nodes.missing, p->f->nodes.all != 0 ? p->f->nodes.all : p->g->nx * p->g->ny);
+    if (p->f->nodes.missing > 0)
+        legend_add(p, MISSING, text);
+    if (p->f->edge.contour && p->f->edge.contact != NULL)
+        legend_add(p, CONTACT, "edge of contact");
+    if (p->f->edge.contour && p->f->edge.hard > 0)
+        legend_add(p, HARD, "pressure at the hardness");
+    legend_add(p, CIRCLE, p->f->mark.circle);
+    legend_add(p, LARGEST, p->f->mark.largest);
+    add_media(p);
+    legend_add(p, NO_SAMPLE, p->f->bar.note);
+    if (p->distorted)
+        legend_add(p, NO_SAMPLE, say_scales(p->f, text, sizeof text));
 }
 
 static void
@@ -429,51 +465,32 @@ draw_missing(struct page *p, double x, double y, size_t w, size_t h)
     canvas_image(p->c, x, y, (double)w, (double)h, pixel, NULL, w, h);
 }
 
-/* Draws the sample of a legend: n pixels high, 4 n / 3 wide. */
-static void
-draw_swatch(struct page *p, enum swatch swatch, double x, double y, size_t n)
+/* It is 4 n / 3 wide. */
+void
+figure_sample(struct page *p, size_t sample, double x, double y, size_t n)
 {
     double w = (double)(n + n / 3), h = (double)n, u = p->u;
 
-    if (swatch == SWATCH_LARGEST)
+    if (sample == LARGEST)
         draw_cross(p, x + 0.5 * w, y + 0.5 * h);
-    if (swatch == SWATCH_CONTACT || swatch == SWATCH_HARD || swatch == SWATCH_CIRCLE) {
+    if (sample == CONTACT || sample == HARD || sample == CIRCLE) {
         canvas_line(p->c, x, y + 0.5 * h, x + w, y + 0.5 * h);
-        if (swatch == SWATCH_CIRCLE)
+        if (sample == CIRCLE)
             canvas_dashes(p->c, 2 * u, 9 * u, circle_ink);
         else
-            canvas_stroke(p->c, 2 * u, swatch == SWATCH_HARD ? hard_ink : edge_ink(p));
+            canvas_stroke(p->c, 2 * u, sample == HARD ? hard_ink : p->edge);
     }
-    if (swatch == SWATCH_NONE)
+    if (sample == NONE)
         canvas_fill(p->c, x, y, w, h, p->f->bar.map->none);
-    if (swatch == SWATCH_ONE || swatch == SWATCH_TWO)
-        canvas_fill(p->c, x, y, w, h, colour_of(p->f, swatch == SWATCH_ONE ? 1 : 2));
-    if (swatch == SWATCH_MISSING)
+    if (sample == ONE || sample == TWO)
+        canvas_fill(p->c, x, y, w, h, colour_of(p->f, sample == ONE ? 1 : 2));
+    if (sample == MISSING)
         draw_missing(p, x, y, n + n / 3, n);
-    if (swatch >= SWATCH_NONE && swatch <= SWATCH_MISSING)
-        canvas_frame(p->c, x, y, w, h, fmax(1, round(1.2 * u)), page_ink);
+    if (sample >= NONE && sample <= MISSING)
+        page_frame(p, x, y, w, h);
 }
 
-static void
-draw_legend(struct page *p)
-{
-    double u = p->u, side = 1.0 * p->small.size;
-    double last = p->notes == 0 ? 0 : p->note[p->notes - 1].y, width = 0, x, y;
-
-    for (size_t k = 0; k < p->notes; k++)
-        width = fmax(width, p->note[k].x + page_swatch(p, k) +
-                                canvas_text_width(p->c, &p->small, p->note[k].text));
-    x = 0.5 * ((double)p->w - width);
-    y = (double)p->h - 22 * u - last - 1.55 * p->small.size;
-    for (size_t k = 0; k < p->notes; k++) {
-        double left = round(x + p->note[k].x), top = round(y + p->note[k].y);
-        size_t n = (size_t)round(side);
-
-        draw_swatch(p, p->note[k].swatch, left, top, n);
-        canvas_text(p->c, &p->small, left + page_swatch(p, k),
-                    top + 0.5 * side + 0.36 * p->small.size, 0, p->note[k].text);
-    }
-}
+/* ---- the whole ---- */
 
 /* Draws the title of each of several maps; smaller if they are narrow. */
 static struct canvas_font
@@ -515,19 +532,12 @@ draw_panel(struct page *p, const struct panels *panels, size_t k, struct rc_err 
         draw_circle(p);
     if (p->f->mark.largest != NULL)
         draw_cross(p, page_x(p, p->f->mark.x), page_y(p, p->f->mark.y));
-    canvas_frame(p->c, at->x, at->y, at->w, at->h, fmax(1, round(1.2 * p->u)), page_ink);
+    page_frame(p, at->x, at->y, at->w, at->h);
     if (k % p->columns == 0)
         axis_upright(p, &p->down, at->x, at->y, at->h, true, true);
     if (k + p->columns >= panels->n)
         axis_across(p, &p->across, at->x, at->y + at->h, at->w);
     return RC_OK;
-}
-
-void
-page_bar(struct page *p)
-{
-    draw_bar(p);
-    draw_legend(p);
 }
 
 static enum rc_status
@@ -536,7 +546,10 @@ draw(struct page *p, struct rc_err *err)
     const struct panels *panels = p->of;
     const struct box plot = p->plot;
 
-    page_heading(p);
+    p->edge = page_ink;
+    for (size_t k = 0; k < panels->n; k++)
+        if (is_dark_in_contact(&panels->panel[k]))
+            p->edge = edge_on_dark; /* visible on white too */
     for (size_t k = 0; k < panels->n; k++) {
         if (draw_panel(p, panels, k, err) != RC_OK)
             return RC_FAIL;
@@ -544,12 +557,13 @@ draw(struct page *p, struct rc_err *err)
     }
     p->f = panels->figure;
     p->g = panels->panel[0].grid;
-    page_bar(p);
+    figure_bar(p);
     return RC_OK;
 }
 
-static const struct page_kind one_map = {1200, page_lay_out, draw},
-                              several_maps = {SHEET_WIDTH, page_lay_out, draw};
+static const struct page_kind one_map = {1200, page_lay_out, draw, FIGURE_SAMPLE, figure_sample},
+                              several_maps = {SHEET_WIDTH, page_lay_out, draw, FIGURE_SAMPLE,
+                                              figure_sample};
 
 struct canvas *
 panels_draw(const struct panels *panels, struct rc_err *err)

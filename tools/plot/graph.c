@@ -571,38 +571,26 @@ draw_swatch(struct page *p, const struct graph_series *s, double x, double y)
         draw_marker(p, marker_of(s), x + 0.5 * w, y, 12 * p->u, colour);
 }
 
-static void
-say_sunk(const struct page *p, char text[LINE])
-{
-    const char *what = p->graph->zero == NULL ? "point" : "load",
-               *s = notes_of(p)->sunk == 1 ? "" : "s";
-
-    snprintf(text, LINE, "%zu %s%s %s", notes_of(p)->sunk, what, s,
-             p->graph->zero == NULL ? "at or below 0" : p->graph->zero);
-}
-
-/* The legend entries after the series: points at the foot, hollow points, the front. NULL: there are none. */
-static const char *
-entry(const struct page *p, size_t k, char text[LINE])
-{
-    if (k < p->graph->n)
-        return p->graph->series[k].name;
-    if (k > p->graph->n)
-        return k == p->graph->n + 1 ? p->graph->hollow : p->graph->front;
-    say_sunk(p, text);
-    return notes_of(p)->sunk > 0 ? text : NULL;
-}
+/* Entries after the series: points at the foot, hollow points, the front; their index over the number of
+ * series. */
+enum {
+    SUNK,
+    HOLLOW,
+    FRONT
+};
 
 static void
-draw_entry(struct page *p, size_t k, double x, double y)
+draw_sample(struct page *p, size_t sample, double x, double y, size_t n)
 {
     const double u = p->u, middle = x + 0.5 * (SWATCH - 14) * u;
+    const size_t series = p->graph->n, k = sample - 1;
 
-    if (k < p->graph->n) {
+    y += 0.5 * (double)n;
+    if (k < series) {
         draw_swatch(p, &p->graph->series[k], x, y);
-    } else if (k == p->graph->n) {
+    } else if (k == series + SUNK) {
         draw_sunk(p, middle, y + 7 * u, page_ink);
-    } else if (k == p->graph->n + 1) {
+    } else if (k == series + HOLLOW) {
         draw_marker(p, 0, middle, y, 12 * u, page_faint);
         draw_marker(p, 0, middle, y, 6 * u, white);
     } else {
@@ -610,50 +598,24 @@ draw_entry(struct page *p, size_t k, double x, double y)
     }
 }
 
-/* Draws the entries from y downwards, as many side by side as fit, the note last; returns their height. */
-static double
-legend(struct page *p, double y, bool draw)
+static void
+set_legend(struct page *p)
 {
-    double line = 1.55 * p->small.size, x = p->plot.x, from = y;
-    double right = p->plot.x + p->plot.w, swatch = SWATCH * p->u;
-    struct canvas_font faint = p->small;
-    struct text note = {.n = 0};
-    char text[LINE], sunk[LINE];
+    const struct graph *g = p->graph;
+    const struct notes *notes = notes_of(p);
+    char text[LINE];
 
-    faint.colour = page_faint;
-    for (size_t k = 0; k <= p->graph->n + 2; k++) {
-        const char *name = entry(p, k, sunk);
-        double w;
-
-        if (name == NULL)
-            continue;
-        snprintf(text, sizeof text, "%s", name);
-        page_shorten(p, &p->small, p->plot.w - swatch, text);
-        w = swatch + canvas_text_width(p->c, &p->small, text);
-        if (x > p->plot.x && x + w > right) {
-            x = p->plot.x;
-            y += line;
-        }
-        if (draw) {
-            draw_entry(p, k, x, y + 0.5 * line);
-            canvas_text(p->c, &p->small, x + swatch, y + 0.5 * line + 0.36 * faint.size, 0, text);
-        }
-        x += w + 34 * p->u;
-    }
-    y += x > p->plot.x ? line : 0;
-    snprintf(text, sizeof text, "%s", p->graph->note == NULL ? "" : p->graph->note);
-    if (notes_of(p)->lost > 0)
-        snprintf(text + strlen(text), sizeof text - strlen(text),
-                 "%s%zu %s at or below 0 cannot be on a logarithmic axis", *text ? " · " : "",
-                 notes_of(p)->lost, notes_of(p)->lost == 1 ? "point" : "points");
-    page_wrap(p, &faint, p->plot.w, " · ", text, &note);
-    for (size_t k = 0; k < note.n; k++) {
-        if (draw)
-            canvas_text(p->c, &faint, p->plot.x, y + 0.5 * line + 0.36 * faint.size, 0,
-                        note.line[k]);
-        y += line;
-    }
-    return y - from;
+    for (size_t k = 0; k < g->n; k++)
+        legend_add(p, 1 + k, g->series[k].name);
+    snprintf(text, sizeof text, "%zu %s%s %s", notes->sunk, g->zero == NULL ? "point" : "load",
+             notes->sunk == 1 ? "" : "s", g->zero == NULL ? "at or below 0" : g->zero);
+    legend_add(p, 1 + g->n + SUNK, notes->sunk > 0 ? text : NULL);
+    legend_add(p, 1 + g->n + HOLLOW, g->hollow);
+    legend_add(p, 1 + g->n + FRONT, g->front);
+    legend_add(p, 0, g->note);
+    snprintf(text, sizeof text, "%zu %s at or below 0 cannot be on a logarithmic axis", notes->lost,
+             notes->lost == 1 ? "point" : "points");
+    legend_add(p, 0, notes->lost > 0 ? text : NULL);
 }
 
 /* ---- the whole ---- */
@@ -670,13 +632,6 @@ count_lost(const struct graph *g, struct notes *notes)
                                !is_point(g, &g->series[s], k);
 }
 
-/* The height from the plot to the legend. */
-static double
-axis_height(const struct page *p)
-{
-    return page_marks(p) + axis_word_room(p, &p->across) + 14 * p->u;
-}
-
 static enum rc_status
 lay_out(struct page *p, struct rc_err *err)
 {
@@ -688,15 +643,14 @@ lay_out(struct page *p, struct rc_err *err)
     count_lost(p->graph, notes_of(p));
     p->plot.h = round(0.56 * width);
     axis_mark(p, &p->down, p->plot.h, true);
-    p->plot.x = round(26 * u + 1.1 * p->large.size + p->down.widest + 28 * u);
+    p->left_w = round(26 * u + 1.1 * p->large.size + p->down.widest + 28 * u);
     for (int k = 0; k < 2; k++) {
         p->plot.w =
-            round(width - p->plot.x - 30 * u - (p->across.words > 0 ? 0 : 0.5 * p->across.widest));
+            round(width - p->left_w - 30 * u - (p->across.words > 0 ? 0 : 0.5 * p->across.widest));
         axis_mark(p, &p->across, p->plot.w, false);
     }
-    page_words(p, width - 48 * u);
-    p->plot.y = round(page_words_height(p) + 22 * u);
-    p->h = (size_t)ceil(p->plot.y + p->plot.h + axis_height(p) + legend(p, 0, false) + 18 * u);
+    set_legend(p);
+    page_settle(p, p->left_w, 22 * u, page_marks(p) + axis_word_room(p, &p->across));
     return RC_OK;
 }
 
@@ -707,7 +661,6 @@ draw(struct page *p, struct rc_err *err)
     const struct box *at = &p->plot;
 
     (void)err;
-    page_heading(p);
     draw_floor(p);
     draw_rules(p);
     page_clip(p);
@@ -716,18 +669,17 @@ draw(struct page *p, struct rc_err *err)
     for (size_t s = 0; s < g->n; s++)
         draw_series(p, &g->series[s]);
     page_clip_end(p);
-    canvas_frame(p->c, at->x, at->y, at->w, at->h, fmax(1, round(1.2 * p->u)), page_ink);
+    page_frame(p, at->x, at->y, at->w, at->h);
     for (size_t s = 0; s < g->n; s++)
         draw_markers(p, &g->series[s]);
     for (size_t s = 0; s < g->n; s++)
         draw_labels(p, &g->series[s]);
     axis_across(p, &p->across, at->x, at->y + at->h, at->w);
     axis_upright(p, &p->down, at->x, at->y, at->h, true, false);
-    legend(p, at->y + at->h + axis_height(p), true);
     return RC_OK;
 }
 
-static const struct page_kind kind = {GRAPH_WIDTH, lay_out, draw};
+static const struct page_kind kind = {GRAPH_WIDTH, lay_out, draw, SWATCH, draw_sample};
 
 enum {
     GRAPHS = 4 /* on a canvas */

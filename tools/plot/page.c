@@ -6,7 +6,6 @@
 #include <string.h>
 
 #define SMALL 21 /* size of the marks for a design unit of 1 */
-#define BETWEEN " \xc2\xb7 "
 #define CUT "\xe2\x80\xa6"
 
 const struct rgb page_alarm = {0xb0, 0x1e, 0x1e};
@@ -101,6 +100,92 @@ page_wrap(struct page *p, const struct canvas_font *font, double width, const ch
                 : strncmp(text + n, separator, strlen(separator)) == 0 ? n + strlen(separator)
                                                                        : n + 1;
     }
+}
+
+/* ---- heading ---- */
+
+static double
+longest_word(struct page *p, const struct canvas_font *font, const char *text)
+{
+    char word[LINE];
+    double longest = 1;
+
+    while (*text != '\0') {
+        size_t n = piece(text, " ");
+
+        copy_text(word, text, n);
+        longest = fmax(longest, canvas_text_width(p->c, font, word));
+        text += text[n] == '\0' ? n : n + 1;
+    }
+    return longest;
+}
+
+/* Breaks title and subtitle into lines; a title with a word that is too long for a line gets smaller. */
+static void
+break_words(struct page *p, double width)
+{
+    p->heading.size *= fmin(1, fmax(0.5, width / longest_word(p, &p->heading, p->paper->title)));
+    page_wrap(p, &p->heading, width, " ", p->paper->title, &p->title);
+    page_wrap(p, &p->subheading, width, BETWEEN, p->paper->subtitle, &p->subtitle);
+}
+
+static double
+heading_height(const struct page *p)
+{
+    const double stamp = p->paper->stamp == NULL ? 0 : 2.1 * p->stamp.size;
+
+    return 24 * p->u + stamp + 1.3 * p->heading.size * (double)p->title.n +
+           1.4 * p->subheading.size * (double)p->subtitle.n;
+}
+
+/* The stamp is above the plot, where it covers no data. */
+static void
+draw_stamp(struct page *p, double middle, double y)
+{
+    double size = p->stamp.size, w, line = fmax(2, round(2.4 * p->u));
+
+    if (p->paper->stamp == NULL)
+        return;
+    w = canvas_text_width(p->c, &p->stamp, p->paper->stamp) + 1.6 * size;
+    y += 0.4 * size;
+    canvas_frame(p->c, round(middle - 0.5 * w), round(y), round(w), round(1.55 * size), line,
+                 page_alarm);
+    canvas_text(p->c, &p->stamp, middle, y + 1.12 * size, 0.5, p->paper->stamp);
+}
+
+static void
+draw_heading(struct page *p)
+{
+    double y = p->top + 24 * p->u, middle = 0.5 * (double)p->w;
+
+    for (size_t k = 0; k < p->title.n; k++) {
+        canvas_text(p->c, &p->heading, middle, y + p->heading.size, 0.5, p->title.line[k]);
+        y += 1.3 * p->heading.size;
+    }
+    for (size_t k = 0; k < p->subtitle.n; k++) {
+        canvas_text(p->c, &p->subheading, middle, y + p->subheading.size, 0.5, p->subtitle.line[k]);
+        y += 1.4 * p->subheading.size;
+    }
+    draw_stamp(p, middle, y);
+}
+
+/* ---- the page around a plot ---- */
+
+void
+page_settle(struct page *p, double left, double above, double below)
+{
+    break_words(p, (double)p->w - 48 * p->u);
+    legend_place(p);
+    above += heading_height(p);
+    p->plot.x = round(left);
+    p->plot.y = round(above);
+    p->h = (size_t)ceil(above + p->plot.h + below + p->legend_h + 22 * p->u);
+}
+
+void
+page_frame(const struct page *p, double x, double y, double w, double h)
+{
+    canvas_frame(p->c, x, y, w, h, fmax(1, round(1.2 * p->u)), page_ink);
 }
 
 /* ---- axes ---- */
@@ -270,102 +355,6 @@ measure_sides(struct page *p)
     p->across_step = fmax(22 * u + p->gutter, p->across.widest + 14 * u); /* marks at both edges */
 }
 
-double
-page_swatch(const struct page *p, size_t k)
-{
-    return p->note[k].swatch == SWATCH_NOTHING ? 0 : 38 * p->u;
-}
-
-/* A text that is too long for the width continues in another note. */
-static void
-add_note(struct page *p, double width, enum swatch swatch, const char *text)
-{
-    while (*text != '\0' && p->notes < NOTES) {
-        size_t n;
-
-        p->note[p->notes].swatch = swatch;
-        n = fit(p, &p->small, width - page_swatch(p, p->notes), " ", text);
-        copy_text(p->note[p->notes++].text, text, n);
-        text += text[n] == '\0' ? n : n + 1;
-        swatch = SWATCH_NOTHING;
-    }
-}
-
-/* Their numbers are beside the plot. */
-static void
-add_media(struct page *p, double width)
-{
-    char text[LINE];
-    size_t first, n = media_seen(p->f, &first);
-
-    if (n > MEDIA_TOLD) {
-        snprintf(text, sizeof text, "lines: where %zu media meet", n);
-        add_note(p, width, SWATCH_NOTHING, text);
-        return;
-    }
-    for (size_t k = first; k < first + n; k++) {
-        snprintf(text, sizeof text, "%zu: %s", k + 1, p->f->medium[k].text);
-        add_note(p, width, SWATCH_NOTHING, text);
-    }
-}
-
-static const char *
-say_scales(const struct figure *f, char *text, size_t size)
-{
-    if (f->at.aspect > 0)
-        snprintf(text, size, "%s is drawn %.4g times as large as %s", f->at.down, f->at.aspect,
-                 f->at.across);
-    else
-        snprintf(text, size, "the axes differ in scale");
-    return text;
-}
-
-/* Content and positions of the legend: as many entries side by side as fit in a line. */
-void
-page_legend(struct page *p, double width)
-{
-    double x = 0, y = 0, line = 1.55 * p->small.size;
-    char text[LINE];
-
-    p->notes = 0;
-    if (p->f->nodes.zero_is_none && (p->f->nodes.zeros > 0 || p->f->nodes.is != NULL))
-        add_note(p, width, SWATCH_NONE, p->f->nodes.none);
-    for (int k = 0; k < 2 && p->f->nodes.is != NULL && p->f->nodes.is[k] != NULL; k++)
-        add_note(p, width, k == 0 ? SWATCH_ONE : SWATCH_TWO, p->f->nodes.is[k]);
-    snprintf(text, sizeof text, "%s (%zu of %zu nodes)",
-             p->f->nodes.missing_is == NULL ? "not measured" : p->f->nodes.missing_is,
-             p->f->nodes.missing, p->f->nodes.all != 0 ? p->f->nodes.all : p->g->nx * p->g->ny);
-    if (p->f->nodes.missing > 0)
-        add_note(p, width, SWATCH_MISSING, text);
-    if (p->f->edge.contour && p->f->edge.contact != NULL)
-        add_note(p, width, SWATCH_CONTACT, "edge of contact");
-    if (p->f->edge.contour && p->f->edge.hard > 0)
-        add_note(p, width, SWATCH_HARD, "pressure at the hardness");
-    if (p->f->mark.circle != NULL)
-        add_note(p, width, SWATCH_CIRCLE, p->f->mark.circle);
-    if (p->f->mark.largest != NULL)
-        add_note(p, width, SWATCH_LARGEST, p->f->mark.largest);
-    add_media(p, width);
-    if (p->f->bar.note != NULL)
-        add_note(p, width, SWATCH_NOTHING, p->f->bar.note);
-    if (p->distorted)
-        add_note(p, width, SWATCH_NOTHING, say_scales(p->f, text, sizeof text));
-    for (size_t k = 0; k < p->notes; k++) {
-        double w;
-
-        page_shorten(p, &p->small, width - page_swatch(p, k), p->note[k].text);
-        w = page_swatch(p, k) + canvas_text_width(p->c, &p->small, p->note[k].text);
-        if (x > 0 && x + w > width) {
-            x = 0;
-            y += line;
-        }
-        p->note[k].x = x;
-        p->note[k].y = y;
-        x += w + 36 * p->u;
-    }
-    p->legend_h = p->notes == 0 ? 0 : y + line + 10 * p->u;
-}
-
 /* A vertical label may be longer than the height of the plot: half of the excess. */
 static double
 overhang(struct page *p)
@@ -375,40 +364,6 @@ overhang(struct page *p)
     if (!p->bar_below && p->f->nodes.is == NULL)
         longest = fmax(longest, canvas_text_width(p->c, &p->large, p->values.label));
     return fmax(0, 0.5 * (longest - p->plot.h));
-}
-
-/* ---- title and subtitle ---- */
-
-static double
-longest_word(struct page *p, const struct canvas_font *font, const char *text)
-{
-    char word[LINE];
-    double longest = 1;
-
-    while (*text != '\0') {
-        size_t n = piece(text, " ");
-
-        copy_text(word, text, n);
-        longest = fmax(longest, canvas_text_width(p->c, font, word));
-        text += text[n] == '\0' ? n : n + 1;
-    }
-    return longest;
-}
-
-void
-page_words(struct page *p, double width)
-{
-    p->heading.size *= fmin(1, fmax(0.5, width / longest_word(p, &p->heading, p->paper->title)));
-    page_wrap(p, &p->heading, width, " ", p->paper->title, &p->title);
-    page_wrap(p, &p->subheading, width, BETWEEN, p->paper->subtitle, &p->subtitle);
-    p->stamp_h = p->paper->stamp == NULL ? 0 : 2.1 * p->stamp.size;
-}
-
-double
-page_words_height(const struct page *p)
-{
-    return 24 * p->u + p->stamp_h + 1.3 * p->heading.size * (double)p->title.n +
-           1.4 * p->subheading.size * (double)p->subtitle.n;
 }
 
 static double
@@ -421,7 +376,7 @@ between_rows(const struct page *p)
 static void
 set_page(struct page *p)
 {
-    double u = p->u, text_w, marks = page_marks(p), free, content, over;
+    double u = p->u, marks = page_marks(p), free, content, over;
 
     p->map_w = p->plot.w;
     p->map_h = p->plot.h;
@@ -433,17 +388,12 @@ set_page(struct page *p)
     over = overhang(p);
     if (p->paper->width == 0 && !is_sheet(p))
         p->w = (size_t)ceil(fmax(content, 680 * u));
-    text_w = (double)p->w - 48 * u;
-    page_words(p, text_w);
-    page_legend(p, text_w);
-    p->above = page_words_height(p) + (is_sheet(p) ? between_rows(p) : 22 * u) + over;
     if (p->bar_below)
         marks = page_bar_below(p) + 28 * u + marks;
-    p->below = fmax(marks, over) + p->legend_h + 22 * u;
     free = is_sheet(p) ? 0 : fmax(0, (double)p->w - content);
-    p->plot.x = round(p->left_w + 0.5 * free);
-    p->plot.y = round(p->above);
-    p->h = (size_t)ceil(p->above + p->plot.h + p->below);
+    figure_legend(p);
+    page_settle(p, p->left_w + 0.5 * free, (is_sheet(p) ? between_rows(p) : 22 * u) + over,
+                fmax(marks, over));
     set_dpi(p);
 }
 
@@ -552,7 +502,9 @@ pages_draw(struct page *const page[], size_t n, struct rc_err *err)
     for (size_t k = 0; k < n && status == RC_OK; k++) {
         page[k]->c = c;
         page[k]->plot.y += page[k]->top;
+        draw_heading(page[k]);
         status = page[k]->kind->draw(page[k], err);
+        legend_draw(page[k]);
     }
     if (status == RC_OK && canvas_check(c, err) == RC_OK)
         return c;

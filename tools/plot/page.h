@@ -11,10 +11,12 @@
 #include "graph.h"
 #include "ticks.h"
 
+#define BETWEEN " \xc2\xb7 " /* between parts of a text: a line may break there */
+
 enum {
     LINE = 1024, /* bytes of a line of text */
     LINES = 4,
-    NOTES = 16,
+    ENTRIES = 128, /* of a legend */
     MARKS = 256,   /* marks of an axis */
     MEDIA_TOLD = 8 /* most numbered media in the legend; further media are lines only */
 };
@@ -43,29 +45,20 @@ struct text {
     size_t n;
 };
 
-enum swatch {
-    SWATCH_NOTHING,
-    SWATCH_NONE,
-    SWATCH_ONE,
-    SWATCH_TWO,
-    SWATCH_MISSING,
-    SWATCH_CONTACT,
-    SWATCH_HARD,
-    SWATCH_CIRCLE,
-    SWATCH_LARGEST
-};
-
 struct box {
     double x, y, w, h;
 };
 
 struct page;
-/* A kind of picture: its layout, which measures text with page->c and sets w and h of the page, and its
- * drawing. */
+/* A kind of picture: its layout, which measures text with page->c, adds the entries of the legend and ends
+ * with page_settle; its drawing between heading and legend; and the samples of its legend. */
 struct page_kind {
     size_t design; /* pixels: the width by default */
     enum rc_status (*lay_out)(struct page *page, struct rc_err *err);
     enum rc_status (*draw)(struct page *page, struct rc_err *err);
+    double sample_w; /* units of the design: width of a sample and of the gap to its text */
+    /* Draws a sample with its upper left corner at (x, y), n pixels high. */
+    void (*sample)(struct page *page, size_t sample, double x, double y, size_t n);
 };
 
 struct page {
@@ -81,21 +74,21 @@ struct page {
     struct canvas_font small, large, heading, subheading, stamp;
     struct axis across, down, values;
     struct text title, subtitle;
-    struct {
-        enum swatch swatch;
+    struct entry {
+        size_t sample; /* 0: none */
         char text[LINE];
         double x, y; /* position from the left and top of the legend, pixels */
-    } note[NOTES];
-    size_t notes;
+    } entry[ENTRIES];
+    size_t entries;
     double legend_h;
-    double gutter;                        /* width right of a plot for the numbers of media */
-    double stamp_h;                       /* 0 without one */
-    double left_w, right_w, above, below; /* space around the plot, margins included   */
-    double top;                           /* position of the page on its canvas        */
-    size_t columns, rows;                 /* columns and rows of maps */
-    double map_w, map_h;                  /* size of each map, whole pixels            */
-    double across_step, down_step;        /* distance from one to the next, pixels     */
-    struct box plot;                      /* size of all maps, whole pixels */
+    struct rgb edge;               /* colour of the edge of the contact */
+    double gutter;                 /* width right of a plot for the numbers of media */
+    double left_w, right_w;        /* space beside the plot, margins included   */
+    double top;                    /* position of the page on its canvas        */
+    size_t columns, rows;          /* columns and rows of maps */
+    double map_w, map_h;           /* size of each map, whole pixels            */
+    double across_step, down_step; /* distance from one to the next, pixels     */
+    struct box plot;               /* size of all maps, whole pixels */
     size_t w, h;
     double dpi; /* pixels of the page per inch of paper */
 };
@@ -115,8 +108,6 @@ void page_clip(const struct page *page);
 void page_clip_end(const struct page *page);
 /* Lays out a page of maps, with columns and rows set. RC_FAIL: the page is too narrow for the columns. */
 enum rc_status page_lay_out(struct page *page, struct rc_err *err);
-/* Width of the swatch of note k, gap included. */
-double page_swatch(const struct page *page, size_t k);
 /* Distance from the plot's right edge to a bar beside it, and from its lower edge to a bar below. */
 double page_bar_right(const struct page *page);
 double page_bar_below(const struct page *page);
@@ -128,18 +119,34 @@ void page_shorten(struct page *page, const struct canvas_font *font, double widt
  * last line is cut if necessary. */
 void page_wrap(struct page *page, const struct canvas_font *font, double width,
                const char *separator, const char *text, struct text *lines);
-/* Breaks title and subtitle into lines; a title with a word that is too long for a line gets smaller. */
-void page_words(struct page *page, double width);
-/* The height of title, subtitle and stamp above a plot. */
-double page_words_height(const struct page *page);
-/* Draws title, subtitle and stamp above the plot. In figure.c. */
-void page_heading(struct page *page);
 /* Chooses the marks of all axes for the plot and a bar of the same height. */
 void page_measure(struct page *page);
-/* Determines the content of the legend, and its height. */
-void page_legend(struct page *page, double width);
-/* Draws the colour bar beside the plot, and the legend at the foot of the page. */
-void page_bar(struct page *page);
+/* The layout around a plot of known size: its position, and the height of the page. `left`, `above` and
+ * `below` are the spaces from the left edge of the page, from the heading and to the legend. */
+void page_settle(struct page *page, double left, double above, double below);
+/* A frame just outside of the rectangle. */
+void page_frame(const struct page *page, double x, double y, double w, double h);
+
+/* ---- figure.c: for maps and reliefs ---- */
+
+enum {
+    FIGURE_SAMPLE = 38
+};
+
+void figure_legend(struct page *page);
+void figure_sample(struct page *page, size_t sample, double x, double y, size_t n);
+/* Draws the colour bar beside the plot. */
+void figure_bar(struct page *page);
+
+/* ---- legend.c ---- */
+
+/* Adds an entry (NULL: none); a text that is too long for a line continues in further entries. */
+void legend_add(struct page *page, size_t sample, const char *text);
+/* Puts the entries side by side, as many as fit in a line. */
+void legend_place(struct page *page);
+/* Draws them at the foot of the page. */
+void legend_draw(struct page *page);
+
 /* ---- axis.c ---- */
 
 /* The position of a value between the ends of the axis, 0 to 1. */

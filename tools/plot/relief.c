@@ -567,27 +567,26 @@ lay_out(struct page *p, struct rc_err *err)
     const double least = 150; /* units of the design: on a smaller width marks touch each other */
     struct scene *s = scene_of(p);
     const struct box box = box_extent(s);
-    double u = p->u, text_w = (double)p->w - 48 * u, above;
+    double u = p->u;
 
     p->plot.w = p->plot.h = floor(600 * u);
     page_measure(p);
     p->left_w = 24 * u + 1.4 * p->large.size + widest_number(p) + 40 * u;
     p->right_w = 110 * u + 28 * u + 14 * u + p->values.widest + 1.8 * p->large.size + 24 * u;
-    page_words(p, text_w);
-    page_legend(p, text_w);
-    above = page_words_height(p) + 22 * u;
     s->scale = ((double)p->w - p->left_w - p->right_w) / box.w;
     if (s->scale * box.w < least * u)
         return rc_err_set(err,
                           "on a page of %zu pixels with text of that size there is no room for a "
                           "relief: ask for a larger --width",
                           p->w);
-    p->plot = (struct box){round(p->left_w), round(above), ceil(s->scale * box.w) + 1,
-                           ceil(s->scale * box.h) + 1};
-    s->ox = p->plot.x - s->scale * box.x;
-    s->oy = p->plot.y - s->scale * box.y;
+    p->plot = (struct box){0, 0, ceil(s->scale * box.w) + 1, ceil(s->scale * box.h) + 1};
+    s->ox = -s->scale * box.x;
+    s->oy = -s->scale * box.y;
     page_measure(p); /* the bar is as high as the box */
-    p->h = (size_t)ceil(above + p->plot.h + below_box(s) + p->legend_h + 22 * u);
+    figure_legend(p);
+    page_settle(p, p->left_w, 22 * u, below_box(s));
+    s->ox += p->plot.x;
+    s->oy += p->plot.y;
     return RC_OK;
 }
 
@@ -597,7 +596,6 @@ draw(struct page *p, struct rc_err *err)
     struct scene *s = scene_of(p);
     struct side side[3];
 
-    page_heading(p);
     draw_box(s);
     if (draw_image(s, err) != RC_OK)
         return RC_FAIL;
@@ -605,11 +603,11 @@ draw(struct page *p, struct rc_err *err)
     for (int k = 0; k < 3; k++)
         draw_side(s, &side[k]);
     p->plot.w += floor(110 * p->u - page_bar_right(p)); /* space for the marks of an axis */
-    page_bar(p);
+    figure_bar(p);
     return RC_OK;
 }
 
-static const struct page_kind kind = {RELIEF_WIDTH, lay_out, draw};
+static const struct page_kind kind = {RELIEF_WIDTH, lay_out, draw, FIGURE_SAMPLE, figure_sample};
 
 struct canvas *
 relief_draw(const struct figure *f, const struct view *view, const struct rc_grid *g,
