@@ -37,36 +37,21 @@ matches(const struct rc_format *f, const struct rc_file *file)
     return is;
 }
 
-int
-rc_format_score(const struct rc_format *f, const struct rc_file *file)
+static int
+score(const struct rc_format *f, struct rc_maps *maps)
 {
+    if (f->score_open != NULL)
+        return rc_file_is_text(maps->file) || rc_file_is_utf16(maps->file) ? f->score_open(maps)
+                                                                           : 0;
     if (f->score != NULL)
-        return f->score(file);
-    return !matches(f, file) ? 0 : f->sure > 0 ? f->sure : 95;
+        return f->score(maps->file);
+    return !matches(f, maps->file) ? 0 : f->sure > 0 ? f->sure : 95;
 }
 
 static enum rc_status
 check(const struct rc_format *f, const struct rc_file *file, struct rc_err *err)
 {
     return f->refusal == NULL || matches(f, file) ? RC_OK : rc_err_set(err, "%s", f->refusal);
-}
-
-size_t
-rc_format_list(const struct rc_format *f, const struct rc_file *file, const struct rc_wish *wish,
-               struct rc_channel *channel, size_t most, struct rc_err *err)
-{
-    if (check(f, file, err) != RC_OK)
-        return 0;
-    return (f->sandboxed ? rc_sandbox_list : rc_maps_list)(f->find, file, wish, channel, most, err);
-}
-
-struct rc_grid *
-rc_format_read(const struct rc_format *f, const struct rc_file *file, const struct rc_wish *wish,
-               size_t index, struct rc_notes *notes, struct rc_err *err)
-{
-    if (check(f, file, err) != RC_OK)
-        return NULL;
-    return (f->sandboxed ? rc_sandbox_read : rc_maps_read)(f->find, file, wish, index, notes, err);
 }
 
 /* Kinds of files without heights, or with compressed heights. */
@@ -94,19 +79,28 @@ other_file(const struct rc_file *file)
     return NULL;
 }
 
-const struct rc_format *
-rc_format_find(const struct rc_file *file, struct rc_err *err)
+/* What is opened for it stays open for the format, unless options say how to read text: they do not take part
+ * in the choice. */
+static const struct rc_format *
+find(struct rc_maps *maps, struct rc_err *err)
 {
+    const struct rc_wish *wish = maps->wish;
+    bool says = wish->separator != NULL || wish->decimal != 0 || wish->missing != NULL;
+    const struct rc_file *file = maps->file;
     const struct rc_format *best = NULL;
     int most = 0;
 
+    maps->wish = says ? &rc_no_wish : wish;
     for (const struct rc_format *const *f = rc_formats; *f != NULL; f++) {
-        int score = rc_format_score(*f, file);
-        if (score > most) {
+        int here = score(*f, maps);
+        if (here > most) {
             best = *f;
-            most = score;
+            most = here;
         }
     }
+    maps->wish = wish;
+    if (says || best == NULL || best->score_open == NULL)
+        rc_maps_shut(maps);
     if (best != NULL)
         return best;
     if (file->size == 0)
@@ -120,4 +114,36 @@ rc_format_find(const struct rc_file *file, struct rc_err *err)
         "not recognised: it has none of the formats of --formats (it begins '%s'); give "
         "--format NAME, or save X3P, SDF or text in the program that made it",
         rc_text_shown((const char *)file->data, file->size < 24 ? file->size : 24));
+}
+
+const struct rc_format *
+rc_format_find(const struct rc_file *file, struct rc_err *err)
+{
+    RC_OWN(rc_maps, maps) = rc_maps_new(file, &rc_no_wish, err);
+
+    return maps == NULL ? NULL : find(maps, err);
+}
+
+struct rc_maps *
+rc_format_open(const struct rc_format *f, const struct rc_file *file, const struct rc_wish *wish,
+               struct rc_err *err)
+{
+    RC_OWN(rc_maps, maps) = rc_maps_new(file, wish, err);
+
+    if (maps == NULL || (f == NULL && (f = find(maps, err)) == NULL) ||
+        check(f, file, err) != RC_OK)
+        return NULL;
+    maps->format = f;
+    if ((f->sandboxed ? rc_sandbox_describe : rc_maps_describe)(maps, f->find, err) != RC_OK)
+        return NULL;
+    return rc_give(&maps);
+}
+
+struct rc_grid *
+rc_format_read(struct rc_maps *maps, const struct rc_wish *wish, size_t index,
+               struct rc_notes *notes, struct rc_err *err)
+{
+    return maps->format->sandboxed
+               ? rc_sandbox_read(maps, maps->format->find, wish, index, notes, err)
+               : rc_maps_read(maps, wish, index, notes, err);
 }

@@ -40,6 +40,9 @@ struct rc_format {
     /* For other formats: the certainty that the file has this format, 0 to 100, first by content, then by
      * name. */
     int (*score)(const struct rc_file *file);
+    /* The same for text without a mark of its format, which is opened for it: all of them share what is in
+     * maps->opened. */
+    int (*score_open)(struct rc_maps *maps);
     rc_maps_find *find; /* describes the maps of a file (core/maps.h) */
     /* Listing and reading run in a separate process, which also holds the values until it has sent them. */
     bool sandboxed;
@@ -55,14 +58,13 @@ const struct rc_format *rc_format_named(const char *name);
 /* The format with the highest certainty for the file, or NULL with the reason. */
 const struct rc_format *rc_format_find(const struct rc_file *file, struct rc_err *err);
 
-/* The functions of a format, from its row: see above. */
-int rc_format_score(const struct rc_format *format, const struct rc_file *file);
-size_t rc_format_list(const struct rc_format *format, const struct rc_file *file,
-                      const struct rc_wish *wish, struct rc_channel *channel, size_t most,
-                      struct rc_err *err);
-struct rc_grid *rc_format_read(const struct rc_format *format, const struct rc_file *file,
-                               const struct rc_wish *wish, size_t index, struct rc_notes *notes,
-                               struct rc_err *err);
+/* Opens a file as this format, or, where it is NULL, as the one with the highest certainty; maps->format says
+ * which. NULL with the reason. The caller keeps file and wish until rc_maps_free. */
+struct rc_maps *rc_format_open(const struct rc_format *format, const struct rc_file *file,
+                               const struct rc_wish *wish, struct rc_err *err);
+/* Reads a map of it; see rc_maps_read. */
+struct rc_grid *rc_format_read(struct rc_maps *maps, const struct rc_wish *wish, size_t index,
+                               struct rc_notes *notes, struct rc_err *err);
 
 /* The kind of a channel, from its name. */
 enum rc_named {

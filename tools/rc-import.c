@@ -159,7 +159,7 @@ struct source {
     struct rc_file file; /* describes data; its name is without .gz if it was packed */
     const char *name;    /* name of the file, without its folder */
     char inner[256];
-    const struct rc_format *format;
+    struct rc_maps *maps; /* the file, opened */
     struct rc_channel channel[CHANNELS_MOST];
     size_t n;
 };
@@ -250,10 +250,11 @@ source_open(struct tool *t, const char *name, const struct rc_wish *wish, struct
         return RC_FAIL;
     if (rc_file_holds(&s->file, 0, "RCG1\n", 5))
         return refuse_stream(name, err);
-    s->format = args.format == NULL ? rc_format_find(&s->file, err) : rc_format_named(args.format);
-    if (s->format == NULL ||
-        (s->n = rc_format_list(s->format, &s->file, wish, s->channel, CHANNELS_MOST, err)) == 0)
+    s->maps = rc_format_open(args.format == NULL ? NULL : rc_format_named(args.format), &s->file,
+                             wish, err);
+    if (s->maps == NULL)
         return RC_FAIL;
+    s->n = rc_maps_list(s->maps, s->channel, CHANNELS_MOST);
     if (s->n > CHANNELS_MOST) {
         tool_warn(t, "%s: only the first %d of its %zu channels are looked at", t->source,
                   CHANNELS_MOST, s->n);
@@ -265,6 +266,7 @@ source_open(struct tool *t, const char *name, const struct rc_wish *wish, struct
 static void
 source_close(struct source *s)
 {
+    rc_maps_free(s->maps);
     free(s->data);
 }
 
@@ -311,7 +313,7 @@ range_of(struct tool *t, const struct source *s, const struct rc_wish *wish, siz
         lax.z_unit = 1;
     range[0] = INFINITY;
     range[1] = -INFINITY;
-    if ((g = rc_format_read(s->format, &s->file, &lax, index, NULL, &err)) == NULL) {
+    if ((g = rc_format_read(s->maps, &lax, index, NULL, &err)) == NULL) {
         tool_fail(t, "%s: channel %zu: %s", t->source, index + 1, err.text);
         return false;
     }
@@ -333,7 +335,7 @@ print_list(struct tool *t, const struct source *s, const struct rc_wish *wish)
     if (pick_channel(s, wish, &pick, NULL) != RC_OK)
         pick.index = s->n;
     shown_words(t->out, t->source, strlen(t->source));
-    fprintf(t->out, ": %s\n", s->format->name);
+    fprintf(t->out, ": %s\n", s->maps->format->name);
     fprintf(t->out, "%9s %8s %8s %12s %12s %-6s %12s %12s %s\n", "channel", "nx", "ny", "dx/m",
             "dy/m", "unit", "least", "greatest", "name");
     for (size_t k = 0; k < s->n; k++) {
@@ -381,11 +383,11 @@ reserve(struct tool *t, const struct source *s, const struct rc_channel *channel
         rc_size_mul(nodes, sizeof(double), &map, err) != RC_OK)
         return RC_FAIL;
     more = channel->beside < (double)SIZE_MAX ? (size_t)channel->beside : SIZE_MAX;
-    if (s->format->sandboxed)
-        more = size_sum(more, size_sum(map, s->format->copies ? s->file.size : 0));
+    if (s->maps->format->sandboxed)
+        more = size_sum(more, size_sum(map, s->maps->format->copies ? s->file.size : 0));
     if (tool_ask_memory(t, &shape, size_sum(map, more), err) != RC_OK)
         return RC_FAIL;
-    if (s->format->sandboxed && (*reserved = malloc(more)) == NULL)
+    if (s->maps->format->sandboxed && (*reserved = malloc(more)) == NULL)
         return rc_err_set(err, "out of memory for a process that reads the file");
     return RC_OK;
 }
@@ -464,7 +466,7 @@ write_heights(struct tool *t, const struct source *s, const struct rc_wish *wish
     if (pick_channel(s, wish, &pick, err) != RC_OK ||
         reserve(t, s, &s->channel[pick.index], &reserved, err) != RC_OK)
         return RC_FAIL;
-    g = rc_format_read(s->format, &s->file, wish, pick.index, &notes, err);
+    g = rc_format_read(s->maps, wish, pick.index, &notes, err);
     free(reserved);
     if (g == NULL)
         return RC_FAIL;
@@ -472,7 +474,7 @@ write_heights(struct tool *t, const struct source *s, const struct rc_wish *wish
         tool_memory_beside(t, notes.held, 0);
     if (pick.said[0] != '\0')
         tool_warn(t, "%s: %s", t->source, pick.said);
-    else if (s->format->columns && s->n > 1 && args.channel == NULL)
+    else if (s->maps->format->columns && s->n > 1 && args.channel == NULL)
         tool_warn(t, "%s: '%s' is read; other columns are channels: %s; --channel takes one",
                   t->source, s->channel[pick.index].name,
                   import_names(s->channel, s->n, pick.index, names));
@@ -488,7 +490,7 @@ write_heights(struct tool *t, const struct source *s, const struct rc_wish *wish
         rc_grid_free(g);
         return RC_FAIL;
     }
-    tool_note(t, "%s: %s, channel %zu '%s', %zu x %zu nodes", t->source, s->format->name,
+    tool_note(t, "%s: %s, channel %zu '%s', %zu x %zu nodes", t->source, s->maps->format->name,
               pick.index + 1, s->channel[pick.index].name, g->nx, g->ny);
     tool_write(t, g);
     rc_grid_free(g);

@@ -2,9 +2,51 @@
 
 #include <math.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 #include "units.h"
+
+struct rc_maps *
+rc_maps_new(const struct rc_file *file, const struct rc_wish *wish, struct rc_err *err)
+{
+    struct rc_maps *maps = malloc(sizeof *maps);
+
+    if (maps == NULL)
+        return rc_err_null(err, "out of memory for the maps of a file");
+    maps->file = file;
+    maps->wish = wish;
+    maps->format = NULL;
+    maps->opened = NULL;
+    maps->n = maps->keys = 0;
+    return maps;
+}
+
+void *
+rc_maps_open(struct rc_maps *maps, size_t size, void (*close)(void *opened), struct rc_err *err)
+{
+    maps->close = close;
+    if ((maps->opened = calloc(1, size)) == NULL)
+        rc_err_set(err, "out of memory for opening a file");
+    return maps->opened;
+}
+
+void
+rc_maps_shut(struct rc_maps *maps)
+{
+    if (maps->opened != NULL && maps->close != NULL)
+        maps->close(maps->opened);
+    free(maps->opened);
+    maps->opened = NULL;
+}
+
+void
+rc_maps_free(struct rc_maps *maps)
+{
+    if (maps != NULL)
+        rc_maps_shut(maps);
+    free(maps);
+}
 
 struct rc_map *
 rc_maps_add(struct rc_maps *maps, struct rc_piece name)

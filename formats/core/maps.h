@@ -2,7 +2,7 @@
  * A reader describes a file as maps. It fills struct rc_maps from the header, with the position and the type
  * of raw numbers, or with a function that fills in the values. The rest is the same for all readers, and is
  * done here. It lists, checks the sizes against the bytes of the file, decodes, reorders, scales and marks
- * missing points.
+ * missing points. A file is opened once: struct rc_maps keeps what its reader opened, for all its values.
  */
 #ifndef RC_MAPS_H
 #define RC_MAPS_H
@@ -40,10 +40,12 @@ struct rc_map {
     enum rc_status (*fill)(const struct rc_file *file, const struct rc_map *map, double *v,
                            struct rc_err *err);
     /* Gives *n unpacked bytes, which the caller frees, or NULL with the reason: raw, big, at and padding then
-     * hold for them, not for the file. */
+     * hold for them, not for the file. `within` says the same of bytes that are unpacked already. */
     unsigned char *(*unpack)(const struct rc_file *file, const struct rc_map *map, size_t *n,
                              struct rc_err *err);
+    struct rc_file within;
     size_t more; /* for fill and unpack                                                           */
+    void *opened;               /* for fill: that of struct rc_maps */
     double beside;              /* bytes that fill needs in addition to v; rc_map_bound sets them */
     const struct rc_wish *wish; /* data of fill, and the notes */
     struct rc_notes *notes;
@@ -58,7 +60,11 @@ struct rc_map {
 };
 
 struct rc_maps {
+    const struct rc_file *file;
     const struct rc_wish *wish; /* options of the user, for readers whose maps depend on them */
+    const struct rc_format *format;
+    void *opened; /* what the reader opened, see rc_maps_open; NULL: nothing */
+    void (*close)(void *opened);
     struct rc_map map[RC_MAPS_MOST], spare;
     size_t n;
     struct {
@@ -107,15 +113,24 @@ enum rc_status rc_map_is_text(struct rc_map *map, const struct rc_file *file, si
 /* Describes a file; RC_FAIL with the reason. */
 typedef enum rc_status rc_maps_find(const struct rc_file *file, struct rc_maps *maps,
                                     struct rc_err *err);
+/* For find: `size` zero bytes for what the reader opens. rc_maps_shut calls close, unless it is NULL, and frees
+ * them, also where find fails. NULL with the reason. */
+void *rc_maps_open(struct rc_maps *maps, size_t size, void (*close)(void *opened),
+                   struct rc_err *err);
+void rc_maps_shut(struct rc_maps *maps);
 
-/* Calls it, names maps without a name, and checks all maps. */
-enum rc_status rc_maps_describe(rc_maps_find *find, const struct rc_file *file,
-                                const struct rc_wish *wish, struct rc_maps *maps,
-                                struct rc_err *err);
-size_t rc_maps_list(rc_maps_find *find, const struct rc_file *file, const struct rc_wish *wish,
-                    struct rc_channel *channel, size_t most, struct rc_err *err);
-struct rc_grid *rc_maps_read(rc_maps_find *find, const struct rc_file *file,
-                             const struct rc_wish *wish, size_t index, struct rc_notes *notes,
-                             struct rc_err *err);
+/* The maps of a file, none yet; NULL with the reason. The caller keeps file and wish until rc_maps_free. */
+struct rc_maps *rc_maps_new(const struct rc_file *file, const struct rc_wish *wish,
+                            struct rc_err *err);
+void rc_maps_free(struct rc_maps *maps);
+RC_OWNER(rc_maps)
+
+/* Calls find, names maps without a name, and checks all maps. */
+enum rc_status rc_maps_describe(struct rc_maps *maps, rc_maps_find *find, struct rc_err *err);
+/* Gives their number; the first `most` are listed. */
+size_t rc_maps_list(const struct rc_maps *maps, struct rc_channel *channel, size_t most);
+/* Reads one of them, as often as it is asked for. The wish may add a spacing and a unit to that of the maps. */
+struct rc_grid *rc_maps_read(struct rc_maps *maps, const struct rc_wish *wish, size_t index,
+                             struct rc_notes *notes, struct rc_err *err);
 
 #endif

@@ -41,12 +41,11 @@ check_map(const struct rc_map *map, const struct rc_file *file, struct rc_err *e
 }
 
 enum rc_status
-rc_maps_describe(rc_maps_find *find, const struct rc_file *file, const struct rc_wish *wish,
-                 struct rc_maps *maps, struct rc_err *err)
+rc_maps_describe(struct rc_maps *maps, rc_maps_find *find, struct rc_err *err)
 {
-    maps->n = maps->keys = 0;
-    maps->wish = wish;
-    if (find(file, maps, err) != RC_OK)
+    const struct rc_wish *wish = maps->wish;
+
+    if (find(maps->file, maps, err) != RC_OK)
         return RC_FAIL;
     if (maps->n == 0)
         return rc_err_set(err, "there is no map in the file");
@@ -62,7 +61,7 @@ rc_maps_describe(rc_maps_find *find, const struct rc_file *file, const struct rc
         }
         if (map->ny == 1)
             map->dy = map->dx; /* a profile: the file's y is meaningless */
-        if (check_map(map, file, err) != RC_OK)
+        if (check_map(map, map->within.data == NULL ? maps->file : &map->within, err) != RC_OK)
             return RC_FAIL;
     }
     return RC_OK;
@@ -76,15 +75,10 @@ is_turned(const struct rc_map *map)
 }
 
 size_t
-rc_maps_list(rc_maps_find *find, const struct rc_file *file, const struct rc_wish *wish,
-             struct rc_channel *channel, size_t most, struct rc_err *err)
+rc_maps_list(const struct rc_maps *maps, struct rc_channel *channel, size_t most)
 {
-    struct rc_maps maps;
-
-    if (rc_maps_describe(find, file, wish, &maps, err) != RC_OK)
-        return 0;
-    for (size_t k = 0; k < maps.n && k < most && k < RC_MAPS_MOST; k++) {
-        const struct rc_map *map = &maps.map[k];
+    for (size_t k = 0; k < maps->n && k < most && k < RC_MAPS_MOST; k++) {
+        const struct rc_map *map = &maps->map[k];
         channel[k] =
             (struct rc_channel){.nx = map->nx, .ny = map->ny, .dx = map->dx, .dy = map->dy};
         strcpy(channel[k].name, map->name);
@@ -93,7 +87,7 @@ rc_maps_list(rc_maps_find *find, const struct rc_file *file, const struct rc_wis
         if (map->fill != NULL && map->by_columns) /* the map itself is not used during filling */
             channel[k].beside = fmax(map->beside, 8 * (double)map->nx * (double)map->ny);
     }
-    return maps.n;
+    return maps->n;
 }
 
 /* ---- values ---- */
@@ -128,7 +122,7 @@ decode(const struct rc_map *map, const struct rc_file *file, double *v, struct r
     size_t outer = map->by_columns ? map->nx : map->ny;
     size_t inner = map->by_columns ? map->ny : map->nx;
     RC_OWNED unsigned char *unpacked = NULL;
-    struct rc_file plain = *file;
+    struct rc_file plain = map->within.data == NULL ? *file : map->within;
     struct rc_bytes bytes;
     RC_OWNED double *line = NULL;
 
@@ -235,22 +229,20 @@ drop_infinite(struct rc_grid *g, struct rc_notes *notes, struct rc_err *err)
 }
 
 struct rc_grid *
-rc_maps_read(rc_maps_find *find, const struct rc_file *file, const struct rc_wish *wish,
-             size_t index, struct rc_notes *notes, struct rc_err *err)
+rc_maps_read(struct rc_maps *maps, const struct rc_wish *wish, size_t index, struct rc_notes *notes,
+             struct rc_err *err)
 {
-    struct rc_maps maps;
-    const struct rc_map *map = &maps.map[index < RC_MAPS_MOST ? index : 0];
+    const struct rc_file *file = maps->file;
+    struct rc_map *map = &maps->map[index < RC_MAPS_MOST ? index : 0];
     struct rc_wish said = *wish;
     struct rc_shape shape;
     RC_OWN(rc_grid, g) = NULL;
     bool is_length, is_height;
     double si;
 
-    if (rc_maps_describe(find, file, wish, &maps, err) != RC_OK)
-        return NULL;
-    if (index >= maps.n || index >= RC_MAPS_MOST)
-        return rc_err_null(err, "there is no channel %zu: the file has %zu", index + 1, maps.n);
-    if ((map->fill != NULL || map->unpack != NULL) &&
+    if (index >= maps->n || index >= RC_MAPS_MOST)
+        return rc_err_null(err, "there is no channel %zu: the file has %zu", index + 1, maps->n);
+    if ((map->fill != NULL || map->unpack != NULL || map->within.data != NULL) &&
         rc_map_fits(file, map->nx, map->ny, err) != RC_OK)
         return NULL;
     is_length = strcmp(map->unit, "m") == 0;
@@ -272,8 +264,9 @@ rc_maps_read(rc_maps_find *find, const struct rc_file *file, const struct rc_wis
         (g = rc_grid_new(&shape, is_height ? "height" : map->name, is_height ? "m" : map->unit,
                          err)) == NULL)
         return NULL;
-    maps.map[index].wish = wish;
-    maps.map[index].notes = notes;
+    map->opened = maps->opened;
+    map->wish = wish;
+    map->notes = notes;
     if (map->doubt != NULL && isnan(wish->z_unit))
         rc_note(notes, "%s", map->doubt);
     if ((map->fill == NULL ? decode(map, file, g->v, err) : fill(map, file, g->v, err)) != RC_OK)
@@ -285,8 +278,8 @@ rc_maps_read(rc_maps_find *find, const struct rc_file *file, const struct rc_wis
         rc_piece_keep(g, "file.title", map->title, err) != RC_OK ||
         (map->periodic && rc_grid_set(g, "periodic", "yes", err) != RC_OK))
         return NULL;
-    for (size_t k = 0; k < maps.keys; k++)
-        if (rc_grid_set(g, maps.key[k].name, maps.key[k].value, err) != RC_OK)
+    for (size_t k = 0; k < maps->keys; k++)
+        if (rc_grid_set(g, maps->key[k].name, maps->key[k].value, err) != RC_OK)
             return NULL;
     return rc_give(&g);
 }

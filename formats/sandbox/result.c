@@ -1,5 +1,7 @@
 #include "result.h"
 
+#include <string.h>
+
 #include "formats/core/core.h"
 #include "formats/rcg/rcg.h"
 
@@ -27,26 +29,36 @@ rc_result_receive(FILE *from, struct rc_result *r)
 /* ---- lists ---- */
 
 bool
-rc_result_send_list(FILE *to, const struct rc_result *r, const struct rc_channel *channel,
-                    size_t most)
+rc_result_send_list(FILE *to, const struct rc_result *r, const struct rc_maps *maps)
 {
-    return put(to, r, sizeof *r) && put(to, channel, (r->n < most ? r->n : most) * sizeof *channel);
+    const size_t sent = r->n < RC_MAPS_MOST ? r->n : RC_MAPS_MOST;
+    RC_OWNED struct rc_channel *channel = calloc(sent + 1, sizeof *channel);
+
+    if (channel == NULL)
+        return false;
+    rc_maps_list(maps, channel, sent);
+    return put(to, r, sizeof *r) && put(to, channel, sent * sizeof *channel);
 }
 
 bool
-rc_result_receive_list(FILE *from, const struct rc_result *r, struct rc_channel *channel,
-                       size_t most)
+rc_result_receive_list(FILE *from, const struct rc_result *r, struct rc_maps *maps)
 {
-    const size_t shown = r->n < most ? r->n : most;
+    for (size_t k = 0; k < r->n && k < RC_MAPS_MOST; k++) {
+        struct rc_map *map = rc_maps_add(maps, rc_piece_of(""));
+        struct rc_channel c;
 
-    if (fread(channel, sizeof *channel, shown, from) != shown)
-        return false;
-    for (size_t k = 0; k < shown; k++) {
-        channel[k].name[sizeof channel->name - 1] = '\0';
-        channel[k].unit[sizeof channel->unit - 1] = '\0';
-        rc_text_harmless(channel[k].name, ' '); /* the names may come from the file */
-        rc_text_harmless(channel[k].unit, ' ');
+        if (fread(&c, sizeof c, 1, from) != 1)
+            return false;
+        c.name[sizeof c.name - 1] = c.unit[sizeof c.unit - 1] = '\0';
+        strcpy(map->name, rc_text_harmless(c.name, ' ')); /* the names may come from the file */
+        strcpy(map->unit, rc_text_harmless(c.unit, ' '));
+        map->nx = c.nx;
+        map->ny = c.ny;
+        map->dx = c.dx;
+        map->dy = c.dy;
+        map->beside = c.beside;
     }
+    maps->n = r->n;
     return true;
 }
 

@@ -13,13 +13,11 @@ struct rc_result {
     struct rc_err said;
 };
 
-/* All return whether the transfer was complete. Of n channels the first `most` are sent. */
-bool rc_result_send_list(FILE *to, const struct rc_result *result, const struct rc_channel *channel,
-                         size_t most);
+/* All return whether the transfer was complete. Of each map the struct rc_channel is sent. */
+bool rc_result_send_list(FILE *to, const struct rc_result *result, const struct rc_maps *maps);
 bool rc_result_send_grid(FILE *to, const struct rc_result *result, struct rc_grid *grid);
 bool rc_result_receive(FILE *from, struct rc_result *result);
-bool rc_result_receive_list(FILE *from, const struct rc_result *result, struct rc_channel *channel,
-                            size_t most);
+bool rc_result_receive_list(FILE *from, const struct rc_result *result, struct rc_maps *maps);
 /* A grid within the limits of the file, or NULL. */
 struct rc_grid *rc_result_receive_grid(FILE *from, const struct rc_file *file);
 

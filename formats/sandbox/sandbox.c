@@ -130,45 +130,47 @@ finish(const struct child *c, const struct rc_file *file, bool whole, struct rc_
                    rc_memory_limit(file->size) >> 20, file->size);
 }
 
-size_t
-rc_sandbox_list(rc_maps_find *find, const struct rc_file *file, const struct rc_wish *wish,
-                struct rc_channel *channel, size_t most, struct rc_err *err)
+enum rc_status
+rc_sandbox_describe(struct rc_maps *maps, rc_maps_find *find, struct rc_err *err)
 {
     struct rc_result r = {0};
     struct child child;
     bool whole;
 
     if (bypassed)
-        return rc_maps_list(find, file, wish, channel, most, err);
-    if (!start(&child, file, err))
-        return 0;
+        return rc_maps_describe(maps, find, err);
+    if (!start(&child, maps->file, err))
+        return RC_FAIL;
     if (child.pid == 0) {
-        r.n = rc_maps_list(find, file, wish, channel, most, &r.said);
-        leave(&child, rc_result_send_list(child.result, &r, channel, most));
+        if (rc_maps_describe(maps, find, &r.said) == RC_OK)
+            r.n = maps->n;
+        leave(&child, rc_result_send_list(child.result, &r, maps));
     }
-    whole = rc_result_receive(child.result, &r) &&
-            rc_result_receive_list(child.result, &r, channel, most);
+    whole = rc_result_receive(child.result, &r) && rc_result_receive_list(child.result, &r, maps);
     if (whole && r.n == 0)
         rc_err_set(err, "%s", r.said.text);
-    finish(&child, file, whole, err);
-    return whole ? r.n : 0;
+    finish(&child, maps->file, whole, err);
+    return whole && r.n > 0 ? RC_OK : RC_FAIL;
 }
 
 struct rc_grid *
-rc_sandbox_read(rc_maps_find *find, const struct rc_file *file, const struct rc_wish *wish,
-                size_t index, struct rc_notes *notes, struct rc_err *err)
+rc_sandbox_read(struct rc_maps *maps, rc_maps_find *find, const struct rc_wish *wish, size_t index,
+                struct rc_notes *notes, struct rc_err *err)
 {
+    const struct rc_file *file = maps->file;
     struct rc_result r = {0};
     struct rc_grid *g = NULL;
     struct child child;
     bool whole;
 
     if (bypassed)
-        return rc_maps_read(find, file, wish, index, notes, err);
+        return rc_maps_read(maps, wish, index, notes, err);
     if (!start(&child, file, err))
         return NULL;
     if (child.pid == 0) {
-        g = rc_maps_read(find, file, wish, index, &r.noted, &r.said);
+        maps->n = maps->keys = 0;
+        if (rc_maps_describe(maps, find, &r.said) == RC_OK)
+            g = rc_maps_read(maps, wish, index, &r.noted, &r.said);
         r.n = g != NULL;
         leave(&child, rc_result_send_grid(child.result, &r, g));
     }

@@ -9,10 +9,10 @@
 
 #include "formats/core/core.h"
 
-/* The same as rc_maps_list and rc_maps_read. */
-size_t rc_sandbox_list(rc_maps_find *find, const struct rc_file *file, const struct rc_wish *wish,
-                       struct rc_channel *channel, size_t most, struct rc_err *err);
-struct rc_grid *rc_sandbox_read(rc_maps_find *find, const struct rc_file *file,
+/* The same as rc_maps_describe and rc_maps_read. Each opens the file in a child of its own: the maps can only
+ * be listed and read by these. */
+enum rc_status rc_sandbox_describe(struct rc_maps *maps, rc_maps_find *find, struct rc_err *err);
+struct rc_grid *rc_sandbox_read(struct rc_maps *maps, rc_maps_find *find,
                                 const struct rc_wish *wish, size_t index, struct rc_notes *notes,
                                 struct rc_err *err);
 

@@ -32,8 +32,8 @@ read_bytes(const char *text, size_t n, const struct rc_wish *wish, struct rc_not
     *notes = (struct rc_notes){0};
     err->text[0] = '\0';
     rc_format_find(&file, NULL);
-    rc_format_list(&rc_format_ascii, &file, wish, &channel, 1, NULL);
-    g = rc_format_read(&rc_format_ascii, &file, wish, 0, notes, err);
+    list_maps(&rc_format_ascii, &file, wish, &channel, 1, NULL);
+    g = read_map(&rc_format_ascii, &file, wish, 0, notes, err);
     if (g == NULL && err->text[0] == '\0')
         fail_msg("refused without a reason");
     if (g != NULL)
@@ -222,7 +222,7 @@ read_image(const char *text, const struct rc_wish *wish, size_t index, struct rc
     struct rc_file file = {"made.txt", (const unsigned char *)text, strlen(text)};
     struct rc_notes notes = {0};
 
-    return rc_format_read(&rc_format_ascii, &file, wish, index, &notes, err);
+    return read_map(&rc_format_ascii, &file, wish, index, &notes, err);
 }
 
 static void
@@ -253,7 +253,7 @@ images(void **state)
 
     (void)state;
     assert_ptr_equal(rc_format_find(&file, NULL), &rc_format_ascii);
-    assert_int_equal(rc_format_list(&rc_format_ascii, &file, &rc_no_wish, channel, 4, NULL), 3);
+    assert_int_equal(list_maps(&rc_format_ascii, &file, &rc_no_wish, channel, 4, NULL), 3);
     assert_int_equal(rc_format_topography(channel, 3, "m").index, 1);
     for (size_t k = 0; k < 3; k++) {
         if ((g = read_image(text, &rc_no_wish, k, &err)) == NULL)
@@ -416,7 +416,7 @@ infinite_heights_are_missing(void **state)
         struct rc_file file = {"a.txt", (const unsigned char *)texts[k], strlen(texts[k])};
         struct rc_notes notes = {0};
         struct rc_err err = {""};
-        struct rc_grid *g = rc_format_read(&rc_format_ascii, &file, &wish, 0, &notes, &err);
+        struct rc_grid *g = read_map(&rc_format_ascii, &file, &wish, 0, &notes, &err);
 
         if (g == NULL)
             fail_msg("'%s' is refused: %s", texts[k], err.text);

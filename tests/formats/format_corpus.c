@@ -12,6 +12,7 @@
 
 #include "formats/format.h"
 #include "tests/exact.h"
+#include "tests/formats/made/open.h"
 
 enum {
     SKIPPED = 77,
@@ -284,7 +285,7 @@ topography_of(const struct rc_format *format, const struct rc_file *file,
               const struct rc_wish *wish)
 {
     struct rc_channel channel[64];
-    size_t n = rc_format_list(format, file, wish, channel, 64, NULL), index;
+    size_t n = list_maps(format, file, wish, channel, 64, NULL), index;
 
     n = n < 64 ? n : 64;
     index = rc_format_topography(channel, n, "m").index;
@@ -299,7 +300,7 @@ check_steps(char *column[COLUMNS], const struct rc_format *format, const struct 
     struct rc_wish wish = {.dx = NAN, .dy = NAN, .z_unit = 1};
     double dx = strtod(column[DX], NULL), dy = strtod(column[DY], NULL);
     struct rc_err err = {""};
-    struct rc_grid *g = rc_format_read(format, file, &wish, 0, NULL, &err);
+    struct rc_grid *g = read_map(format, file, &wish, 0, NULL, &err);
     const char *steps = strstr(err.text, "its steps are ");
     char *end;
 
@@ -323,7 +324,7 @@ channel_of(const struct rc_format *format, const struct rc_file *file, const str
 {
     struct rc_channel channel[64];
     size_t length = strcspn(name, "#");
-    size_t n = rc_format_list(format, file, wish, channel, 64, NULL);
+    size_t n = list_maps(format, file, wish, channel, 64, NULL);
 
     for (size_t k = 0; k < n && k < 64; k++)
         if (strlen(channel[k].name) == length && strncmp(channel[k].name, name, length) == 0)
@@ -365,8 +366,8 @@ check_file(char *column[COLUMNS], const char *reader, const struct rc_file *file
     }
     if (strcmp(column[LATERAL_UNIT], "unknown") == 0)
         check_steps(column, format, file);
-    g = rc_format_read(format, file, &wish, channel_of(format, file, &wish, column[CHANNEL]),
-                       &notes, &err);
+    g = read_map(format, file, &wish, channel_of(format, file, &wish, column[CHANNEL]), &notes,
+                 &err);
     if (g != NULL && reason == NULL)
         check_grid(column, g);
     else if (g != NULL || reason == NULL || strstr(err.text, reason) == NULL)
@@ -484,7 +485,7 @@ check_bad(char *line)
     }
     file.data = data;
     if ((format = rc_format_find(&file, &err)) != NULL)
-        g = rc_format_read(format, &file, &wish, topography_of(format, &file, &wish), NULL, &err);
+        g = read_map(format, &file, &wish, topography_of(format, &file, &wish), NULL, &err);
     if (bad[k].refused_for == in_manifest) {
         if (g == NULL)
             fault("%s is refused for '%s'", name, err.text);

@@ -16,7 +16,7 @@ static size_t
 first_height(const struct rc_format *format, const struct rc_file *file, const struct rc_wish *wish)
 {
     struct rc_channel channel[64];
-    size_t n = rc_format_list(format, file, wish, channel, 64, NULL);
+    size_t n = list_maps(format, file, wish, channel, 64, NULL);
 
     for (size_t k = 0; k < n && k < 64; k++)
         if (strcmp(channel[k].unit, "m") == 0)
@@ -72,7 +72,7 @@ variants(void **state)
             if (format == NULL || strcmp(format->name, f->format) != 0)
                 fail_msg("%s is taken for %s", f->title, format == NULL ? err.text : format->name);
         }
-        g = rc_format_read(format, &file, &wish, first_height(format, &file, &wish), &notes, &err);
+        g = read_map(format, &file, &wish, first_height(format, &file, &wish), &notes, &err);
         if (g == NULL)
             fail_msg("%s: %s", f->title, err.text);
         check(f, g);
@@ -88,7 +88,7 @@ read_made(const char *format, const struct bytes *m, size_t channel, struct rc_e
     struct rc_file file = {"made", m->data, m->n};
     struct rc_wish wish = rc_no_wish;
 
-    return rc_format_read(rc_format_named(format), &file, &wish, channel, NULL, err);
+    return read_map(rc_format_named(format), &file, &wish, channel, NULL, err);
 }
 
 /* Channels other than heights keep their name and get the SI unit. */
@@ -265,8 +265,8 @@ labels_of_waves(void **state)
         memset(m.data + m.n - 64, 0, 32);
         set_text(&m, m.n - 64, rows[k].label);
         file = file_of(&m, "a.ibw");
-        assert_int_equal(
-            rc_format_list(rc_format_named("ibw"), &file, &rc_no_wish, channel, 2, NULL), 2);
+        assert_int_equal(list_maps(rc_format_named("ibw"), &file, &rc_no_wish, channel, 2, NULL),
+                         2);
         assert_string_equal(channel[0].name, rows[k].label);
         assert_string_equal(channel[0].unit, rows[k].unit);
         assert_string_equal(channel[1].unit, "m");
@@ -317,8 +317,8 @@ labels_with_a_note(void **state)
         set_text(&m, labels + 32, rows[k].label);
         set_text(&m, labels + 64, "PhaseTrace");
         file = file_of(&m, "a.ibw");
-        assert_int_equal(
-            rc_format_list(rc_format_named("ibw"), &file, &rc_no_wish, channel, 2, NULL), 2);
+        assert_int_equal(list_maps(rc_format_named("ibw"), &file, &rc_no_wish, channel, 2, NULL),
+                         2);
         assert_string_equal(channel[0].name, rows[k].label);
         assert_string_equal(channel[0].unit, rows[k].unit);
         assert_string_equal(channel[1].unit, "deg");
@@ -383,7 +383,7 @@ doubts(void **state)
             file = file_of(&m, "made");
             if (said)
                 wish.z_unit = 1e-3;
-            g = rc_format_read(rc_format_named(rows[k].format), &file, &wish, 0, &notes, &err);
+            g = read_map(rc_format_named(rows[k].format), &file, &wish, 0, &notes, &err);
             if (g == NULL)
                 fail_msg("%s: %s", rows[k].format, err.text);
             for (size_t n = 0; n < notes.n; n++)
@@ -441,7 +441,7 @@ no_wavelength(void **state)
     refuse(rc_format_named("opd"), &m, "does not give the unit of its heights: --z-unit");
     file = file_of(&m, "a.opd");
     wish.z_unit = 640e-9;
-    if ((g = rc_format_read(rc_format_named("opd"), &file, &wish, 0, NULL, &err)) == NULL)
+    if ((g = read_map(rc_format_named("opd"), &file, &wish, 0, NULL, &err)) == NULL)
         fail_msg("%s", err.text);
     assert_string_equal(g->unit, "m");
     for (size_t k = 0; k < NX * NY; k++)
@@ -639,7 +639,7 @@ one_column(void **state)
     struct rc_wish wish = {.dx = 2e-6, .dy = NAN, .z_unit = NAN};
     struct rc_file file = {"made.txt", (const unsigned char *)heights, strlen(heights)};
     struct rc_err err = {""};
-    struct rc_grid *g = rc_format_read(rc_format_named("profile"), &file, &wish, 0, NULL, &err);
+    struct rc_grid *g = read_map(rc_format_named("profile"), &file, &wish, 0, NULL, &err);
 
     (void)state;
     if (g == NULL)
@@ -682,7 +682,7 @@ points(void **state)
 
         add_text(&m, rows[k].text);
         file = (struct rc_file){"made.xyz", m.data, m.n};
-        g = rc_format_read(rc_format_named("xyz"), &file, &wish, 0, NULL, &err);
+        g = read_map(rc_format_named("xyz"), &file, &wish, 0, NULL, &err);
         if (g != NULL || strstr(err.text, rows[k].why) == NULL)
             fail_msg("'%s': %s", rows[k].text, g == NULL ? err.text : "read");
         drop(&m);
@@ -721,16 +721,15 @@ units_of_points(void **state)
                  c, c, c, c, c, c);
         file = (struct rc_file){"made.txt", (const unsigned char *)text, strlen(text)};
         assert_string_equal(rc_format_find(&file, NULL)->name, "xyz");
-        assert_int_equal(
-            rc_format_list(rc_format_named("xyz"), &file, &rc_no_wish, &channel, 1, NULL), 1);
+        assert_int_equal(list_maps(rc_format_named("xyz"), &file, &rc_no_wish, &channel, 1, NULL),
+                         1);
         if (isnan(rows[k].dx) ? !isnan(channel.dx) || !isnan(channel.dy)
                               : !(fabs(channel.dx - rows[k].dx) <= last_digit * rows[k].dx) ||
                                     !(fabs(channel.dy - rows[k].dy) <= last_digit * rows[k].dy))
             fail_msg("'%s': %g, %g", text, channel.dx, channel.dy);
         assert_string_equal(channel.unit, isnan(rows[k].z) ? "" : "m");
         if (!isnan(rows[k].z) && !isnan(rows[k].dx)) {
-            struct rc_grid *g =
-                rc_format_read(rc_format_named("xyz"), &file, &rc_no_wish, 0, NULL, NULL);
+            struct rc_grid *g = read_map(rc_format_named("xyz"), &file, &rc_no_wish, 0, NULL, NULL);
 
             assert_non_null(g);
             assert_true(fabs(g->v[3] - 4 * rows[k].z) <= last_digit * 4 * rows[k].z);

@@ -44,9 +44,9 @@ read_all(const struct made_file *f, const unsigned char *bytes, size_t n, size_t
     size_t channels;
 
     memcpy(copy, bytes, n);
-    rc_format_score(format, &file);
+    rc_format_find(&file, NULL);
     err->text[0] = '\0';
-    channels = rc_format_list(format, &file, &wish, channel, CHANNELS, err);
+    channels = list_maps(format, &file, &wish, channel, CHANNELS, err);
     if (channels == 0 && err->text[0] == '\0')
         fail_msg("%s, %zu bytes: not listed, without a reason", f->title, n);
     check_words(f, err->text);
@@ -55,7 +55,7 @@ read_all(const struct made_file *f, const unsigned char *bytes, size_t n, size_t
         struct rc_grid *g;
 
         err->text[0] = '\0';
-        g = rc_format_read(format, &file, &wish, k, &notes, err);
+        g = read_map(format, &file, &wish, k, &notes, err);
         if (g == NULL && err->text[0] == '\0')
             fail_msg("%s, %zu bytes: refused without a reason", f->title, n);
         check_words(f, err->text);

@@ -177,7 +177,7 @@ refused(const char *format, const struct bytes *m, int flags, const char *what, 
     struct rc_file file = {"made", m->data, m->n};
     struct rc_wish wish = wish_for(flags);
     struct rc_err err = {""};
-    struct rc_grid *g = rc_format_read(rc_format_named(format), &file, &wish, 0, NULL, &err);
+    struct rc_grid *g = read_map(rc_format_named(format), &file, &wish, 0, NULL, &err);
 
     if (g != NULL || !gives_reason(err.text, why))
         fail_msg("%s with %s: %s", format, what, g == NULL ? err.text : "read");

@@ -64,6 +64,24 @@ good(const struct rc_file *f, struct rc_maps *maps, struct rc_err *err)
     return RC_OK;
 }
 
+static struct rc_grid *
+read_apart(rc_maps_find *find, size_t index, struct rc_notes *notes, struct rc_err *err)
+{
+    RC_OWN(rc_maps, maps) = rc_maps_new(&file, &rc_no_wish, err);
+
+    assert_non_null(maps);
+    return rc_sandbox_read(maps, find, &rc_no_wish, index, notes, err);
+}
+
+static size_t
+list_apart(rc_maps_find *find, struct rc_channel channel[2], struct rc_err *err)
+{
+    RC_OWN(rc_maps, maps) = rc_maps_new(&file, &rc_no_wish, err);
+
+    assert_non_null(maps);
+    return rc_sandbox_describe(maps, find, err) == RC_OK ? rc_maps_list(maps, channel, 2) : 0;
+}
+
 static enum rc_status
 refusing(const struct rc_file *f, struct rc_maps *maps, struct rc_err *err)
 {
@@ -446,7 +464,7 @@ there_is_no_way_out(void **state)
     assert_true(fputs("whole\n", f) >= 0 && fflush(f) == 0 && chmod("victim", 0600) == 0);
     inherited = fileno(f);
     parent = getpid();
-    assert_null(rc_sandbox_read(escaping, &file, &rc_no_wish, 0, &notes, &err));
+    assert_null(read_apart(escaping, 0, &notes, &err));
     assert_string_equal(err.text, "open: ");
     rewind(f);
     assert_non_null(fgets(text, sizeof text, f));
@@ -475,7 +493,7 @@ a_grid_comes_back_whole(void **state)
 {
     struct rc_notes notes = {0};
     struct rc_err err = {""};
-    struct rc_grid *g = rc_sandbox_read(good, &file, &rc_no_wish, 3, &notes, &err);
+    struct rc_grid *g = read_apart(good, 3, &notes, &err);
 
     (void)state;
     if (g == NULL)
@@ -491,11 +509,14 @@ static char *
 sent_result(size_t *n)
 {
     struct rc_result r = {.n = 1};
-    struct rc_grid *g = rc_maps_read(good, &file, &rc_no_wish, 3, &r.noted, &r.said);
+    RC_OWN(rc_maps, maps) = rc_maps_new(&file, &rc_no_wish, NULL);
+    struct rc_grid *g;
     char *bytes = NULL;
     FILE *to = open_memstream(&bytes, n);
 
     assert_non_null(to);
+    assert_true(maps != NULL && rc_maps_describe(maps, good, NULL) == RC_OK);
+    g = rc_maps_read(maps, &rc_no_wish, 3, &r.noted, &r.said);
     assert_true(rc_result_send_grid(to, &r, g));
     assert_int_equal(fclose(to), 0);
     rc_grid_free(g);
@@ -597,7 +618,7 @@ expect(rc_maps_find *find, const char *why)
     struct rc_notes notes = {0};
     struct rc_err err = {""};
 
-    assert_null(rc_sandbox_read(find, &file, &rc_no_wish, 0, &notes, &err));
+    assert_null(read_apart(find, 0, &notes, &err));
     if (strstr(err.text, why) == NULL)
         fail_msg("refused for '%s', not for '%s'", err.text, why);
 }
@@ -641,7 +662,7 @@ memory_is_bounded(void **state)
     const char *said;
 
     (void)state;
-    assert_null(rc_sandbox_read(greedy, &file, &rc_no_wish, 0, &notes, &err));
+    assert_null(read_apart(greedy, 0, &notes, &err));
     printf("%s\n", err.text);
     if ((said = strstr(err.text, "ended after ")) != NULL)
         assert_in_range(strtoul(said + 12, NULL, 10), 32, 64);
@@ -672,13 +693,13 @@ lists_come_back(void **state)
     struct rc_err err = {""};
 
     (void)state;
-    assert_int_equal(rc_sandbox_list(three, &file, &rc_no_wish, channel, 2, &err), 3);
+    assert_int_equal(list_apart(three, channel, &err), 3);
     assert_int_equal(channel[1].nx, 2);
     assert_string_equal(channel[1].name, "c "); /* no control characters */
     assert_string_equal(channel[1].unit, "  m");
-    assert_int_equal(rc_sandbox_list(refusing, &file, &rc_no_wish, channel, 2, &err), 0);
+    assert_int_equal(list_apart(refusing, channel, &err), 0);
     assert_string_equal(err.text, "what is wrong: 7");
-    assert_int_equal(rc_sandbox_list(crashing, &file, &rc_no_wish, channel, 2, &err), 0);
+    assert_int_equal(list_apart(crashing, channel, &err), 0);
     assert_non_null(strstr(err.text, "the library for this file failed"));
 }
 

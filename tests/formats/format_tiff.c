@@ -87,8 +87,7 @@ jpk_is_read(void **state)
             double v[6];
 
             assert_ptr_equal(rc_format_find(&file, NULL), &rc_format_jpk);
-            assert_int_equal(rc_format_list(&rc_format_jpk, &file, &rc_no_wish, channel, 4, NULL),
-                             2);
+            assert_int_equal(list_maps(&rc_format_jpk, &file, &rc_no_wish, channel, 4, NULL), 2);
             assert_string_equal(channel[0].name, "Height (measured, retrace)");
             assert_string_equal(channel[0].unit, "m");
             assert_string_equal(channel[1].name, "error");

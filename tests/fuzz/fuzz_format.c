@@ -75,16 +75,12 @@ try_file(const uint8_t *data, size_t size)
                            .ignore_mask = size > 0 && (data[size - 1] & 16) != 0};
     const char *name = getenv("RC_FORMAT");
     struct rc_file file = {"fuzz.dat", data, size};
-    const struct rc_format *format = rc_format_find(&file, NULL);
     struct rc_channel channel[CHANNELS];
     struct rc_err err = {""};
-    size_t n;
+    RC_OWN(rc_maps, maps) =
+        rc_format_open(name == NULL ? NULL : rc_format_named(name), &file, &wish, &err);
+    size_t n = maps == NULL ? 0 : rc_maps_list(maps, channel, CHANNELS);
 
-    if (name != NULL)
-        format = rc_format_named(name);
-    if (format == NULL)
-        return;
-    n = rc_format_list(format, &file, &wish, channel, CHANNELS, &err);
     if (n == 0 && err.text[0] == '\0')
         abort();
     check_words(err.text);
@@ -93,7 +89,7 @@ try_file(const uint8_t *data, size_t size)
         struct rc_grid *g;
 
         err.text[0] = '\0';
-        g = rc_format_read(format, &file, &wish, k, &notes, &err);
+        g = rc_format_read(maps, &wish, k, &notes, &err);
         if (g == NULL && err.text[0] == '\0')
             abort();
         check_words(err.text);

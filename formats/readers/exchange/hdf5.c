@@ -13,29 +13,25 @@ enum {
     SETS_MOST = 256
 };
 
-/* The datasets of a file, which the caller frees; NULL with the reason. */
-static struct rc_hdf_set *
-find_sets(struct rc_hdf *h, size_t *n, struct rc_err *err)
-{
-    RC_OWNED struct rc_hdf_set *set = calloc(SETS_MOST, sizeof *set);
+/* A file and its datasets. */
+struct sets {
+    struct rc_hdf *hdf;
+    struct rc_hdf_set set[SETS_MOST];
+};
 
-    if (set == NULL)
-        return rc_err_null(err, "out of memory for %d datasets", SETS_MOST);
-    *n = rc_hdf_sets(h, set, SETS_MOST);
-    return *n > 0 ? rc_give(&set)
-                  : rc_err_null(err, "the file has no dataset of numbers with two dimensions");
+static void
+sets_close(void *opened)
+{
+    rc_hdf_free(((struct sets *)opened)->hdf);
 }
 
 static enum rc_status
 fill_values(const struct rc_file *file, const struct rc_map *map, double *v, struct rc_err *err)
 {
-    RC_OWN(rc_hdf, h) = rc_hdf_new(file, err);
-    RC_OWNED struct rc_hdf_set *set = NULL;
-    size_t n;
+    const struct sets *s = map->opened;
 
-    return h != NULL && (set = find_sets(h, &n, err)) != NULL
-               ? rc_hdf_values(h, &set[map->more], v, err)
-               : RC_FAIL;
+    (void)file;
+    return rc_hdf_values(s->hdf, &s->set[map->more], v, err);
 }
 
 static void
@@ -61,14 +57,16 @@ add_set(struct rc_hdf *h, const struct rc_hdf_set *set, size_t number, struct rc
 static enum rc_status
 hdf5_find(const struct rc_file *file, struct rc_maps *maps, struct rc_err *err)
 {
-    RC_OWN(rc_hdf, h) = rc_hdf_new(file, err);
-    RC_OWNED struct rc_hdf_set *set = NULL;
-    size_t n = 0;
+    struct sets *s = rc_maps_open(maps, sizeof *s, sets_close, err);
+    size_t n;
 
-    if (h != NULL && (set = find_sets(h, &n, err)) != NULL)
-        for (size_t k = 0; k < n && k < SETS_MOST; k++)
-            add_set(h, &set[k], k, maps);
-    return maps->n > 0 ? RC_OK : RC_FAIL;
+    if (s == NULL || (s->hdf = rc_hdf_new(file, err)) == NULL)
+        return RC_FAIL;
+    if ((n = rc_hdf_sets(s->hdf, s->set, SETS_MOST)) == 0)
+        return rc_err_set(err, "the file has no dataset of numbers with two dimensions");
+    for (size_t k = 0; k < n && k < SETS_MOST; k++)
+        add_set(s->hdf, &s->set[k], k, maps);
+    return RC_OK;
 }
 
 const struct rc_format rc_format_hdf5 = {

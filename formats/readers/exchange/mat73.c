@@ -25,9 +25,15 @@ static const char *const number_classes[] = {"double", "single", "int8",   "uint
 
 struct mat73 {
     struct rc_hdf *hdf;
-    struct rc_hdf_set *set;
+    struct rc_hdf_set set[SETS_MOST];
     size_t n, at;
 };
+
+static void
+mat73_close(void *opened)
+{
+    rc_hdf_free(((struct mat73 *)opened)->hdf);
+}
 
 static void
 start(struct rc_matlab_source *s)
@@ -92,24 +98,18 @@ numbers_of(struct rc_matlab_source *s, const struct rc_matlab_array *a, double *
 static enum rc_status
 fill_numbers(const struct rc_file *file, const struct rc_map *map, double *v, struct rc_err *err)
 {
-    RC_OWN(rc_hdf, hdf) = rc_hdf_new(file, err);
-    struct rc_hdf_set set;
-    size_t n;
+    const struct mat73 *m = map->opened;
 
-    if (hdf == NULL)
-        return RC_FAIL;
-    if (!rc_hdf_set_at(hdf, map->name, &set) ||
-        rc_size_mul(set.rows, set.columns, &n, NULL) != RC_OK || n != map->nx * map->ny)
-        return rc_err_set(err, "the dataset '%s' cannot be found again", map->name);
-    return rc_hdf_values(hdf, &set, v, err);
+    (void)file;
+    return rc_hdf_values(m->hdf, &m->set[map->more], v, err);
 }
 
 static enum rc_status
 place(struct rc_matlab_source *s, const struct rc_matlab_array *a, struct rc_map *map,
       struct rc_err *err)
 {
-    (void)a;
     map->fill = fill_numbers;
+    map->more = a->at;
     return rc_map_fits(s->file, map->nx, map->ny, err);
 }
 
@@ -122,17 +122,13 @@ has_magic(const struct rc_file *file)
 static enum rc_status
 mat73_find(const struct rc_file *file, struct rc_maps *maps, struct rc_err *err)
 {
-    RC_OWN(rc_hdf, hdf) = NULL;
-    RC_OWNED struct rc_hdf_set *set = NULL;
-    struct mat73 m = {.hdf = NULL};
-    struct rc_matlab_source source = {file, &m, start, next, numbers_of, place};
+    struct mat73 *m = rc_maps_open(maps, sizeof *m, mat73_close, err);
+    struct rc_matlab_source source = {file, m, start, next, numbers_of, place};
 
-    if ((m.hdf = hdf = rc_hdf_new(file, err)) == NULL)
+    if (m == NULL || (m->hdf = rc_hdf_new(file, err)) == NULL)
         return RC_FAIL;
-    if ((m.set = set = calloc(SETS_MOST, sizeof *set)) == NULL)
-        return rc_err_set(err, "out of memory for %d datasets", SETS_MOST);
-    m.n = rc_hdf_sets(hdf, set, SETS_MOST);
-    m.n = m.n < SETS_MOST ? m.n : SETS_MOST;
+    m->n = rc_hdf_sets(m->hdf, m->set, SETS_MOST);
+    m->n = m->n < SETS_MOST ? m->n : SETS_MOST;
     return rc_matlab_maps(&source, maps, err);
 }
 

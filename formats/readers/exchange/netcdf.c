@@ -174,21 +174,26 @@ step_of(const struct rc_cdf *f, size_t dimension, double metres, double *step, b
     return RC_OK;
 }
 
+static void
+close_cdf(void *opened)
+{
+    rc_cdf_close(opened);
+}
+
 static enum rc_status
 fill_values(const struct rc_file *file, const struct rc_map *map, double *v, struct rc_err *err)
 {
-    struct rc_cdf f;
-    enum rc_status status = rc_cdf_open(&f, file, err);
-    const struct rc_cdf_variable *of = status == RC_OK ? &f.variable[map->more] : NULL;
+    const struct rc_cdf *f = map->opened;
+    const struct rc_cdf_variable *of = &f->variable[map->more];
     size_t columns = map->by_columns ? map->ny : map->nx;
     double dz = 1;
 
-    if (status == RC_OK) {
-        is_gxsm(&f, of, &dz);
-        status = check_bytes(&f, of, err);
-    }
-    for (size_t k = 0; status == RC_OK && k < map->nx * map->ny; k++) {
-        double raw = rc_cdf_value(place(&f, of, k / columns, k % columns), of->type);
+    (void)file;
+    is_gxsm(f, of, &dz);
+    if (check_bytes(f, of, err) != RC_OK)
+        return RC_FAIL;
+    for (size_t k = 0; k < map->nx * map->ny; k++) {
+        double raw = rc_cdf_value(place(f, of, k / columns, k % columns), of->type);
 
         v[k] = raw == of->fill ? NAN : raw * (of->factor * dz) + of->offset * dz;
     }
@@ -197,8 +202,7 @@ fill_values(const struct rc_file *file, const struct rc_map *map, double *v, str
                 map->right_first && map->bottom_first ? "x and y"
                 : map->right_first                    ? "x"
                                                       : "y");
-    rc_cdf_close(&f);
-    return status;
+    return RC_OK;
 }
 
 static enum rc_status
@@ -240,20 +244,21 @@ add_map(const struct rc_cdf *f, const struct rc_cdf_variable *v, struct rc_maps 
 static enum rc_status
 netcdf_find(const struct rc_file *file, struct rc_maps *maps, struct rc_err *err)
 {
-    struct rc_cdf f;
-    enum rc_status status = rc_cdf_open(&f, file, err);
-    bool with_axes = status == RC_OK && some_have_axes(&f);
+    struct rc_cdf *f = rc_maps_open(maps, sizeof *f, close_cdf, err);
+    bool with_axes;
 
-    for (size_t k = 0; status == RC_OK && k < f.variables; k++)
-        if (is_map(&f, &f.variable[k], with_axes))
-            status = add_map(&f, &f.variable[k], maps, err);
-    if (status == RC_OK && maps->n == 0)
-        status = rc_err_set(err,
-                            "none of the file's %zu variables has two dimensions: further ones "
-                            "before them must be of length 1",
-                            f.variables);
-    rc_cdf_close(&f);
-    return status;
+    if (f == NULL || rc_cdf_open(f, file, err) != RC_OK)
+        return RC_FAIL;
+    with_axes = some_have_axes(f);
+    for (size_t k = 0; k < f->variables; k++)
+        if (is_map(f, &f->variable[k], with_axes) &&
+            add_map(f, &f->variable[k], maps, err) != RC_OK)
+            return RC_FAIL;
+    return maps->n > 0 ? RC_OK
+                       : rc_err_set(err,
+                                    "none of the file's %zu variables has two dimensions: further "
+                                    "ones before them must be of length 1",
+                                    f->variables);
 }
 
 static int

@@ -54,16 +54,22 @@ read_description(struct rc_tiff *t, char text[DESCRIPTION])
     text[n] = '\0';
 }
 
+static void
+close_tiff(void *opened)
+{
+    rc_tiff_free(*(struct rc_tiff **)opened);
+}
+
 static enum rc_status
 fill_page(const struct rc_file *file, const struct rc_map *map, double *v, struct rc_err *err)
 {
-    RC_OWN(rc_tiff, t) = rc_tiff_new(file, err);
+    struct rc_tiff *t = *(struct rc_tiff **)map->opened;
     struct rc_tiff_shape shape;
 
-    if (t != NULL && !rc_tiff_page(t, map->more))
+    (void)file;
+    if (!rc_tiff_page(t, map->more))
         return rc_err_set(err, "page %zu cannot be read again", map->more);
-    return t != NULL && rc_tiff_shape(t, &shape, err) == RC_OK ? rc_tiff_values(t, &shape, v, err)
-                                                               : RC_FAIL;
+    return rc_tiff_shape(t, &shape, err) == RC_OK ? rc_tiff_values(t, &shape, v, err) : RC_FAIL;
 }
 
 /* Adds the current page. */
@@ -105,7 +111,8 @@ static enum rc_status
 tiff_find(const struct rc_file *file, struct rc_maps *maps, struct rc_err *err)
 {
     char description[DESCRIPTION], program[64];
-    RC_OWN(rc_tiff, t) = rc_tiff_new(file, err);
+    struct rc_tiff **opened = rc_maps_open(maps, sizeof(struct rc_tiff *), close_tiff, err);
+    struct rc_tiff *t = opened == NULL ? NULL : (*opened = rc_tiff_new(file, err));
     size_t pages;
 
     if (t != NULL && rc_tiff_pages(t, &pages, err) == RC_OK) {

@@ -51,11 +51,16 @@ struct channel {
     struct rc_tiff_shape shape;
 };
 
+static void
+scan_close(void *opened)
+{
+    rc_tiff_free(((struct scan *)opened)->tiff);
+}
+
 static enum rc_status
 scan_open(struct scan *s, const struct rc_file *file, struct rc_err *err)
 {
-    *s = (struct scan){.tiff = rc_tiff_new(file, err)};
-    if (s->tiff == NULL)
+    if ((s->tiff = rc_tiff_new(file, err)) == NULL)
         return RC_FAIL;
     if (!rc_tiff_number(s->tiff, U_LENGTH, &s->width) ||
         !rc_tiff_number(s->tiff, V_LENGTH, &s->height))
@@ -130,16 +135,17 @@ read_channel(struct rc_tiff *t, struct channel *c)
 static enum rc_status
 fill_channel(const struct rc_file *file, const struct rc_map *map, double *v, struct rc_err *err)
 {
-    RC_OWN(rc_tiff, t) = rc_tiff_new(file, err);
+    struct rc_tiff *t = ((struct scan *)map->opened)->tiff;
     struct channel c;
 
-    if (t != NULL && (!rc_tiff_page(t, map->more) || !read_channel(t, &c)))
+    (void)file;
+    if (!rc_tiff_page(t, map->more) || !read_channel(t, &c))
         return rc_err_set(err, "page %zu cannot be read again", map->more);
-    if (t != NULL && !c.linear)
+    if (!c.linear)
         return rc_err_set(
             err, "channel '%s' has no linear scale with a multiplier and an offset: it is not read",
             c.name);
-    if (t == NULL || rc_tiff_values(t, &c.shape, v, err) != RC_OK)
+    if (rc_tiff_values(t, &c.shape, v, err) != RC_OK)
         return RC_FAIL;
     for (size_t k = 0; k < map->nx * map->ny; k++)
         v[k] = v[k] * c.multiply + c.offset;
@@ -187,16 +193,12 @@ find_channels(const struct scan *s, struct rc_maps *maps, struct rc_err *err)
 static enum rc_status
 jpk_find(const struct rc_file *file, struct rc_maps *maps, struct rc_err *err)
 {
-    enum rc_status status;
-    struct scan s;
+    struct scan *s;
 
     if (rc_file_holds(file, 0, "PK", 2))
         return rc_err_set(err, "force curves of JPK: only image scans are read");
-    status = scan_open(&s, file, err);
-    if (status == RC_OK)
-        status = find_channels(&s, maps, err);
-    rc_tiff_free(s.tiff);
-    return status;
+    s = rc_maps_open(maps, sizeof *s, scan_close, err);
+    return s != NULL && scan_open(s, file, err) == RC_OK ? find_channels(s, maps, err) : RC_FAIL;
 }
 
 /* ---- the entry in formats.list ---- */

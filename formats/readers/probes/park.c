@@ -133,14 +133,19 @@ take_header(struct park *p, const struct rc_bytes *header, bool second, struct r
     return rc_bytes_agree("data", bytes, p->size, err);
 }
 
+static void
+park_close(void *opened)
+{
+    rc_tiff_free(((struct park *)opened)->tiff);
+}
+
 static enum rc_status
 park_open(struct park *p, const struct rc_file *file, struct rc_err *err)
 {
     double magic = 0, version = 0;
     struct rc_bytes header = {0};
 
-    *p = (struct park){.tiff = rc_tiff_new(file, err)};
-    if (p->tiff == NULL)
+    if ((p->tiff = rc_tiff_new(file, err)) == NULL)
         return RC_FAIL;
     if (!rc_tiff_number(p->tiff, MAGIC_TAG, &magic) || magic != MAGIC)
         return rc_err_set(err,
@@ -164,37 +169,37 @@ park_open(struct park *p, const struct rc_file *file, struct rc_err *err)
 static enum rc_status
 fill_values(const struct rc_file *file, const struct rc_map *map, double *v, struct rc_err *err)
 {
-    struct park p;
-    enum rc_status status = park_open(&p, file, err);
-    struct rc_bytes b = {.data = p.data, .size = p.size};
+    const struct park *p = map->opened;
+    struct rc_bytes b = {.data = p->data, .size = p->size};
 
-    if (status == RC_OK)
-        rc_bytes_values(&b, p.raw, v, map->nx * map->ny);
-    for (size_t k = 0; status == RC_OK && k < map->nx * map->ny; k++)
-        v[k] = p.gain * (p.scale * v[k] + p.offset);
-    rc_tiff_free(p.tiff);
-    return status;
+    (void)file;
+    (void)err;
+    rc_bytes_values(&b, p->raw, v, map->nx * map->ny);
+    for (size_t k = 0; k < map->nx * map->ny; k++)
+        v[k] = p->gain * (p->scale * v[k] + p->offset);
+    return RC_OK;
 }
 
 static enum rc_status
 park_find(const struct rc_file *file, struct rc_maps *maps, struct rc_err *err)
 {
-    struct park p;
-    enum rc_status status = park_open(&p, file, err);
-    struct rc_map *map = rc_maps_add(maps, rc_piece_of(p.name));
+    struct park *p = rc_maps_open(maps, sizeof *p, park_close, err);
+    struct rc_map *map;
 
-    map->nx = p.nx;
-    map->ny = p.ny;
-    map->dx = p.width / (double)p.nx;
-    map->dy = p.height / (double)p.ny;
-    rc_map_unit(map, rc_piece_of(p.unit[0] == '\0' ? "um" : p.unit));
+    if (p == NULL || park_open(p, file, err) != RC_OK)
+        return RC_FAIL;
+    map = rc_maps_add(maps, rc_piece_of(p->name));
+    map->nx = p->nx;
+    map->ny = p->ny;
+    map->dx = p->width / (double)p->nx;
+    map->dy = p->height / (double)p->ny;
+    rc_map_unit(map, rc_piece_of(p->unit[0] == '\0' ? "um" : p->unit));
     map->bottom_first = true;
     map->fill = fill_values;
-    rc_maps_key(maps, "file.date", rc_piece_of(p.date));
-    rc_maps_key(maps, "file.version", rc_piece_of(p.program));
-    rc_maps_key(maps, "file.mode", rc_piece_of(p.mode));
-    rc_tiff_free(p.tiff);
-    return status;
+    rc_maps_key(maps, "file.date", rc_piece_of(p->date));
+    rc_maps_key(maps, "file.version", rc_piece_of(p->program));
+    rc_maps_key(maps, "file.mode", rc_piece_of(p->mode));
+    return RC_OK;
 }
 
 /* ---- the entry in formats.list ---- */

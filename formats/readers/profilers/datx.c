@@ -112,11 +112,17 @@ unit_of(const struct surface *s)
     return wave * scale * obliquity;
 }
 
+static void
+surface_close(void *opened)
+{
+    rc_hdf_free(((struct surface *)opened)->hdf);
+}
+
 static enum rc_status
 surface_open(struct surface *s, const struct rc_file *file, struct rc_err *err)
 {
-    *s = (struct surface){.hdf = rc_hdf_new(file, err), .dx = NAN, .dy = NAN, .none = NAN};
-    if (s->hdf == NULL || find_surface(s->hdf, &s->set, err) != RC_OK)
+    s->dx = s->dy = s->none = NAN;
+    if ((s->hdf = rc_hdf_new(file, err)) == NULL || find_surface(s->hdf, &s->set, err) != RC_OK)
         return RC_FAIL;
     rc_hdf_text(s->hdf, s->set.path, "Unit", s->unit, sizeof s->unit);
     rc_hdf_number(s->hdf, s->set.path, "No Data", &s->none);
@@ -129,39 +135,35 @@ surface_open(struct surface *s, const struct rc_file *file, struct rc_err *err)
 static enum rc_status
 fill_heights(const struct rc_file *file, const struct rc_map *map, double *v, struct rc_err *err)
 {
-    struct surface s;
-    enum rc_status status = surface_open(&s, file, err);
+    struct surface *s = map->opened;
 
-    (void)map;
-    if (status == RC_OK)
-        status = rc_hdf_values(s.hdf, &s.set, v, err);
-    rc_hdf_free(s.hdf);
-    return status;
+    (void)file;
+    return rc_hdf_values(s->hdf, &s->set, v, err);
 }
 
 static enum rc_status
 datx_find(const struct rc_file *file, struct rc_maps *maps, struct rc_err *err)
 {
     struct rc_map *map = rc_maps_add(maps, rc_piece_of("height"));
-    struct surface s;
-    enum rc_status status = surface_open(&s, file, err);
+    struct surface *s = rc_maps_open(maps, sizeof *s, surface_close, err);
 
-    map->nx = s.set.columns;
-    map->ny = s.set.rows;
-    map->dx = s.dx;
-    map->dy = s.dy;
-    rc_map_unit(map, rc_piece_of(s.unit));
-    if (!isnan(s.metres)) {
+    if (s == NULL || surface_open(s, file, err) != RC_OK)
+        return RC_FAIL;
+    map->nx = s->set.columns;
+    map->ny = s->set.rows;
+    map->dx = s->dx;
+    map->dy = s->dy;
+    rc_map_unit(map, rc_piece_of(s->unit));
+    if (!isnan(s->metres)) {
         strcpy(map->unit, "m");
-        map->si = s.metres;
+        map->si = s->metres;
     }
     map->heights = true;
-    map->missing_from = s.none;
+    map->missing_from = s->none;
     map->missing_to = INFINITY;
     map->fill = fill_heights;
     rc_maps_key(maps, "file.manufacturer", rc_piece_of("Zygo"));
-    rc_hdf_free(s.hdf);
-    return status;
+    return RC_OK;
 }
 
 /* ---- the entry in formats.list ---- */

@@ -144,12 +144,18 @@ find_pages(struct lext *l, struct rc_err *err)
     return rc_tiff_shape(l->tiff, &l->shape, err);
 }
 
+static void
+lext_close(void *opened)
+{
+    rc_tiff_free(((struct lext *)opened)->tiff);
+}
+
 static enum rc_status
 lext_open(struct lext *l, const struct rc_file *file, struct rc_err *err)
 {
-    *l = (struct lext){.tiff = rc_tiff_new(file, err)};
-    if (l->tiff == NULL || read_scales(l, err) != RC_OK || find_pages(l, err) != RC_OK ||
-        scale_of(l, PIXEL_X, &l->dx, err) != RC_OK || scale_of(l, PIXEL_Y, &l->dy, err) != RC_OK)
+    if ((l->tiff = rc_tiff_new(file, err)) == NULL || read_scales(l, err) != RC_OK ||
+        find_pages(l, err) != RC_OK || scale_of(l, PIXEL_X, &l->dx, err) != RC_OK ||
+        scale_of(l, PIXEL_Y, &l->dy, err) != RC_OK)
         return RC_FAIL;
     return scale_of(l, PIXEL_Z, &l->dz, err);
 }
@@ -186,33 +192,33 @@ mask_invalid(struct lext *l, double *v, struct rc_notes *notes, struct rc_err *e
 static enum rc_status
 fill_heights(const struct rc_file *file, const struct rc_map *map, double *v, struct rc_err *err)
 {
-    struct lext l;
-    enum rc_status status = lext_open(&l, file, err);
+    struct lext *l = map->opened;
 
-    if (status == RC_OK && (status = rc_tiff_values(l.tiff, &l.shape, v, err)) == RC_OK)
-        status = mask_invalid(&l, v, map->notes, err);
-    rc_tiff_free(l.tiff);
-    return status;
+    (void)file;
+    if (!rc_tiff_page(l->tiff, l->height))
+        return rc_err_set(err, "the page HEIGHT cannot be read");
+    return rc_tiff_values(l->tiff, &l->shape, v, err) == RC_OK ? mask_invalid(l, v, map->notes, err)
+                                                               : RC_FAIL;
 }
 
 static enum rc_status
 lext_find(const struct rc_file *file, struct rc_maps *maps, struct rc_err *err)
 {
     struct rc_map *map = rc_maps_add(maps, rc_piece_of("height"));
-    struct lext l;
-    enum rc_status status = lext_open(&l, file, err);
+    struct lext *l = rc_maps_open(maps, sizeof *l, lext_close, err);
 
-    map->nx = l.shape.nx;
-    map->ny = l.shape.ny;
-    map->dx = l.dx;
-    map->dy = l.dy;
+    if (l == NULL || lext_open(l, file, err) != RC_OK)
+        return RC_FAIL;
+    map->nx = l->shape.nx;
+    map->ny = l->shape.ny;
+    map->dx = l->dx;
+    map->dy = l->dy;
     strcpy(map->unit, "m");
-    map->si = l.dz;
+    map->si = l->dz;
     map->fill = fill_heights;
-    rc_maps_key(maps, "file.date", rc_piece_of(l.date));
-    rc_maps_key(maps, "file.version", rc_piece_of(l.program));
-    rc_tiff_free(l.tiff);
-    return status;
+    rc_maps_key(maps, "file.date", rc_piece_of(l->date));
+    rc_maps_key(maps, "file.version", rc_piece_of(l->program));
+    return RC_OK;
 }
 
 /* ---- the entry in formats.list ---- */

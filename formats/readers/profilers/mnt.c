@@ -241,6 +241,18 @@ read_heights(const struct surface *s, const struct rc_map *map, double *v, struc
     return border == 0 ? RC_OK : apply_mask(s, room, v, err);
 }
 
+/* The stream of a document. */
+struct document {
+    unsigned char *stream;
+    size_t n;
+};
+
+static void
+document_close(void *opened)
+{
+    free(((struct document *)opened)->stream);
+}
+
 /* The surface that is number `wanted` in the document, from 0. */
 static bool
 find_surface(struct part stream, size_t wanted, struct surface *s)
@@ -257,14 +269,12 @@ find_surface(struct part stream, size_t wanted, struct surface *s)
 static enum rc_status
 fill_heights(const struct rc_file *file, const struct rc_map *map, double *v, struct rc_err *err)
 {
-    struct part stream;
-    RC_OWNED unsigned char *data = rc_ole_stream(file, stream_name, &stream.n, err);
+    const struct document *d = map->opened;
     struct surface s;
 
-    stream.data = data;
-    if (data == NULL)
-        return RC_FAIL;
-    if (!find_surface(stream, map->more, &s) || s.nx != map->nx || s.ny != map->ny)
+    (void)file;
+    if (!find_surface((struct part){d->stream, d->n}, map->more, &s) || s.nx != map->nx ||
+        s.ny != map->ny)
         return rc_err_set(err, "surface %zu cannot be found again", map->more + 1);
     return read_heights(&s, map, v, err);
 }
@@ -299,15 +309,14 @@ add_surface(const struct rc_file *file, const struct surface *s, size_t number,
 static enum rc_status
 mnt_find(const struct rc_file *file, struct rc_maps *maps, struct rc_err *err)
 {
-    struct part stream, rest, object;
-    RC_OWNED unsigned char *data = rc_ole_stream(file, stream_name, &stream.n, err);
+    struct document *d = rc_maps_open(maps, sizeof *d, document_close, err);
+    struct part rest, object;
     struct surface s;
     unsigned tag;
 
-    if (data == NULL)
+    if (d == NULL || (d->stream = rc_ole_stream(file, stream_name, &d->n, err)) == NULL)
         return RC_FAIL;
-    stream.data = data;
-    rest = objects_of(stream);
+    rest = objects_of((struct part){d->stream, d->n});
     for (size_t number = 0; next_entry(&rest, 8, &tag, &object);)
         if (tag == 1 && take_surface(object, &s) &&
             add_surface(file, &s, number++, maps, err) != RC_OK)

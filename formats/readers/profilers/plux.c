@@ -103,7 +103,7 @@ plux_open(struct plux *p, const struct rc_file *file, struct rc_err *err)
 {
     size_t member, n;
 
-    *p = (struct plux){.dx = NAN, .dy = NAN};
+    p->dx = p->dy = NAN;
     if ((p->archive = rc_zip_read_new(file, err)) == NULL)
         return RC_FAIL;
     if (find(p->archive, "index.xml", &member, NULL) != RC_OK)
@@ -122,23 +122,9 @@ plux_open(struct plux *p, const struct rc_file *file, struct rc_err *err)
 }
 
 static void
-plux_free(struct plux *p)
+plux_close(void *opened)
 {
-    if (p != NULL)
-        rc_zip_read_free(p->archive);
-    free(p);
-}
-RC_OWNER(plux)
-
-/* NULL with the reason. */
-static struct plux *
-plux_new(const struct rc_file *file, struct rc_err *err)
-{
-    RC_OWN(plux, p) = malloc(sizeof *p);
-
-    if (p == NULL)
-        return rc_err_null(err, "out of memory for reading a PLUX file");
-    return plux_open(p, file, err) == RC_OK ? rc_give(&p) : NULL;
+    rc_zip_read_free(((struct plux *)opened)->archive);
 }
 
 /* ---- heights ---- */
@@ -156,24 +142,18 @@ take_values(void *arg, const unsigned char *bytes, size_t n, struct rc_err *err)
 }
 
 static enum rc_status
-read_layer(const struct plux *p, const struct rc_map *map, double *v, struct rc_err *err)
+fill_layer(const struct rc_file *file, const struct rc_map *map, double *v, struct rc_err *err)
 {
+    const struct plux *p = map->opened;
     uint64_t size, wanted = (uint64_t)map->nx * map->ny * 4;
     size_t member;
 
+    (void)file;
     if (find(p->archive, p->file[map->more], &member, err) != RC_OK ||
         rc_zip_read_size(p->archive, member, &size, err) != RC_OK ||
         rc_bytes_agree("heights", wanted, size, err) != RC_OK)
         return RC_FAIL;
     return rc_zip_read_member(p->archive, member, wanted, take_values, &v, NULL, err);
-}
-
-static enum rc_status
-fill_layer(const struct rc_file *file, const struct rc_map *map, double *v, struct rc_err *err)
-{
-    RC_OWN(plux, p) = plux_new(file, err);
-
-    return p == NULL ? RC_FAIL : read_layer(p, map, v, err);
 }
 
 static void
@@ -198,9 +178,9 @@ plux_find(const struct rc_file *file, struct rc_maps *maps, struct rc_err *err)
 {
     static const struct rc_keep keys[] = {
         {"Device", "file.model"}, {"Objective", "file.probe"}, {"Technique", "file.mode"}};
-    RC_OWN(plux, p) = plux_new(file, err);
+    struct plux *p = rc_maps_open(maps, sizeof *p, plux_close, err);
 
-    if (p == NULL)
+    if (p == NULL || plux_open(p, file, err) != RC_OK)
         return RC_FAIL;
     rc_maps_key(maps, "file.date", rc_piece_of(p->date));
     for (size_t k = 0; k < ITEMS_MOST; k++) {

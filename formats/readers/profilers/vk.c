@@ -55,12 +55,11 @@ unpack_member(struct rc_zip_read *archive, size_t member, const struct rc_file *
  * the archive count from the start of the file or of the archive, PK 3 4. The picture may contain these bytes
  * by chance. */
 static unsigned char *
-unpack(const struct rc_file *file, const struct rc_map *map, size_t *n, struct rc_err *err)
+unpack(const struct rc_file *file, size_t *n, struct rc_err *err)
 {
     struct rc_piece rest = rc_file_piece(file);
     const char *at = rest.text;
 
-    (void)map;
     for (size_t k = 0; k < STARTS_MOST && at != NULL; k++) {
         size_t start = (size_t)(at - (const char *)file->data), member;
         struct rc_file part = {file->name, file->data + start, file->size - start};
@@ -144,15 +143,15 @@ static enum rc_status
 find_packed(const struct rc_file *file, struct rc_maps *maps, struct rc_err *err)
 {
     struct rc_file inner = {.name = member_name};
-    RC_OWNED unsigned char *bytes = unpack(file, NULL, &inner.size, err);
+    unsigned char **bytes = rc_maps_open(maps, sizeof *bytes, rc_release, err);
     enum rc_status status;
 
-    if (bytes == NULL)
+    if (bytes == NULL || (*bytes = unpack(file, &inner.size, err)) == NULL)
         return RC_FAIL;
-    inner.data = bytes;
+    inner.data = *bytes;
     status = find_plain(&inner, maps, err);
     for (size_t k = 0; k < maps->n && status == RC_OK; k++) {
-        maps->map[k].unpack = unpack;
+        maps->map[k].within = inner;
         status = rc_map_bound(&maps->map[k], file, (double)inner.size, err);
     }
     return status;

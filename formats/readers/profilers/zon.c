@@ -27,8 +27,16 @@ enum {
 static const char heights_name[] = "4cdb0c75-5706-48cc-a9a1-adf395d609ae";
 static const char marks_name[] = "9e7ca6dd-0e6a-4d7b-8986-f0a7b773c916";
 
+/* An array: its head, and its bytes. */
+struct array {
+    size_t nx, ny, row;
+    unsigned char *bytes;
+    size_t n;
+};
+
 struct zon {
     struct rc_zip_read *archive;
+    struct array heights;
     double pixel, count; /* m */
     struct rc_maps *maps;
 };
@@ -92,20 +100,22 @@ member_bytes(const struct zon *z, const struct rc_file *file, size_t member, con
     return rc_zstd_unpack(what, packed, packed_n, most / 2, n, err);
 }
 
-/* Reads an array: its head, and its bytes, which the caller frees. */
-struct array {
-    size_t nx, ny, row;
-    unsigned char *bytes;
-    size_t n;
-};
-
 static void
 array_free(struct array *a)
 {
     free(a->bytes);
 }
 
-/* `width`: bytes that an element must have. */
+static void
+zon_close(void *opened)
+{
+    struct zon *z = opened;
+
+    rc_zip_read_free(z->archive);
+    array_free(&z->heights);
+}
+
+/* Reads an array, which the caller frees. `width`: bytes that an element must have. */
 static enum rc_status
 read_array(const struct zon *z, const struct rc_file *file, const char *name, size_t width,
            struct array *a, struct rc_err *err)
@@ -221,43 +231,40 @@ apply_marks(const struct zon *z, const struct rc_file *file, const struct rc_map
 static enum rc_status
 fill_heights(const struct rc_file *file, const struct rc_map *map, double *v, struct rc_err *err)
 {
-    RC_OWN(rc_zip_read, archive) = open_archive(file, err);
-    struct zon z = {.archive = archive};
-    RC_ENDS(array_free) struct array a = {0};
-    struct rc_bytes b;
+    const struct zon *z = map->opened;
+    struct rc_bytes b = {.data = z->heights.bytes, .size = z->heights.n};
 
-    if (archive == NULL || read_array(&z, file, heights_name, 4, &a, err) != RC_OK)
-        return RC_FAIL;
-    b = (struct rc_bytes){.data = a.bytes, .size = a.n};
     for (size_t j = 0; j < map->ny; j++) {
-        b.at = HEAD + j * a.row;
+        b.at = HEAD + j * z->heights.row;
         rc_bytes_values(&b, RC_RAW_I32, v + j * map->nx, map->nx);
     }
-    return apply_marks(&z, file, map, v, err);
+    return apply_marks(z, file, map, v, err);
 }
 
 static enum rc_status
 zon_find(const struct rc_file *file, struct rc_maps *maps, struct rc_err *err)
 {
-    RC_OWN(rc_zip_read, archive) = open_archive(file, err);
-    struct zon z = {.archive = archive, .pixel = NAN, .count = NAN, .maps = maps};
-    RC_ENDS(array_free) struct array a = {0};
+    struct zon *z = rc_maps_open(maps, sizeof *z, zon_close, err);
     struct rc_map *map;
 
-    if (archive == NULL || read_elements(&z, file, err) != RC_OK ||
-        read_array(&z, file, heights_name, 4, &a, err) != RC_OK)
+    if (z == NULL)
+        return RC_FAIL;
+    z->pixel = z->count = NAN;
+    z->maps = maps;
+    if ((z->archive = open_archive(file, err)) == NULL || read_elements(z, file, err) != RC_OK ||
+        read_array(z, file, heights_name, 4, &z->heights, err) != RC_OK)
         return RC_FAIL;
     map = rc_maps_add(maps, rc_piece_of(""));
-    map->nx = a.nx;
-    map->ny = a.ny;
-    map->dx = map->dy = z.pixel;
+    map->nx = z->heights.nx;
+    map->ny = z->heights.ny;
+    map->dx = map->dy = z->pixel;
     map->fill = fill_heights;
-    if (!isnan(z.count)) {
+    if (!isnan(z->count)) {
         strcpy(map->unit, "m");
-        map->scale = z.count;
+        map->scale = z->count;
     }
     rc_maps_key(maps, "file.manufacturer", rc_piece_of("Keyence"));
-    return rc_map_bound(map, file, 2 * (double)a.n, err);
+    return rc_map_bound(map, file, 2 * (double)z->heights.n, err);
 }
 
 const struct rc_format rc_format_zon = {

@@ -47,10 +47,21 @@ enum {
     IMAGES_MOST = 64 /* images that are read from one file */
 };
 
-/* One of the images of a file. */
+/* One of the images of a file: a table of heights with its header, and its rows and columns without
+ * heights. */
 struct image {
     struct rc_ascii_head head;
     struct rc_lines lines; /* its numbers, and comments between them */
+    struct rc_number_table table;
+    struct rc_labels labels;
+    size_t nx, ny; /* columns and rows of heights */
+};
+
+struct matrix {
+    struct image image[IMAGES_MOST];
+    size_t images; /* also those that are not kept */
+    const struct rc_titled_table
+        *titled; /* has the table of the only image; NULL: it is behind a header */
 };
 
 /* Takes the next image from *rest on, and moves *rest to the header of the following one. A header below
@@ -82,61 +93,16 @@ next_image(struct rc_lines *rest, struct image *image)
     rest->at = rest->end;
 }
 
+/* Opens the table behind the header of an image. */
 static enum rc_status
-find_image(const struct rc_file *file, size_t index, struct image *image, size_t *n,
-           struct rc_err *err)
-{
-    struct rc_lines rest = rc_piece_lines(rc_file_piece(file));
-    struct image other;
-
-    image->head = (struct rc_ascii_head){0};
-    *n = 0;
-    if (rc_file_is_utf16(file))
-        return rc_err_set(err, "the text is UTF-16: convert it first (iconv -f UTF-16 -t UTF-8)");
-    if (rc_file_holds(file, 0, "\xef\xbb\xbf", 3))
-        rest.at += 3; /* the byte order mark of UTF-8 */
-    do
-        next_image(&rest, *n == index ? image : &other);
-    while (++*n, rest.at < rest.end);
-    if (index < *n)
-        return RC_OK;
-    if (*n == 1)
-        return rc_err_set(err, "a text matrix has one channel, not %zu", index + 1);
-    return rc_err_set(err, "there is no channel %zu: the file has %zu", index + 1, *n);
-}
-
-/* A table of heights with its header, and its rows and columns without heights. */
-struct matrix {
-    struct rc_ascii_head head;
-    struct rc_number_table table;
-    struct rc_titled_table titled; /* has the table where is_titled */
-    bool is_titled;
-    struct rc_labels labels;
-    size_t nx, ny; /* columns and rows of heights */
-    size_t images;
-};
-
-static void
-matrix_close(struct matrix *m)
-{
-    rc_titled_table_close(&m->titled);
-}
-
-/* Finds image `index` of the file, a table behind its header. */
-static enum rc_status
-open_behind_head(struct matrix *m, const struct rc_file *file, const struct rc_wish *wish,
-                 size_t index, struct rc_err *err)
+open_behind_head(struct image *m, const struct rc_wish *wish, struct rc_err *err)
 {
     const struct rc_ascii_head *h = &m->head;
     struct rc_wish said = *wish;
-    struct image image;
 
-    if (find_image(file, index, &image, &m->images, err) != RC_OK)
-        return RC_FAIL;
-    m->head = image.head;
     if (said.separator == NULL && h->separator[0] != '\0')
         said.separator = h->separator;
-    if (rc_number_table_open(&m->table, &image.lines, &said, err) != RC_OK)
+    if (rc_number_table_open(&m->table, &m->lines, &said, err) != RC_OK)
         return RC_FAIL;
     if ((h->nx != 0 && h->nx != m->table.columns) || (h->ny != 0 && h->ny != m->table.rows))
         return rc_err_set(err,
@@ -149,6 +115,23 @@ open_behind_head(struct matrix *m, const struct rc_file *file, const struct rc_w
                           "(--format profile takes them for heights)",
                           m->table.rows);
     return RC_OK;
+}
+
+/* Finds the images of the file, and opens the first. */
+static enum rc_status
+open_images(struct matrix *m, const struct rc_titled_table *t, struct rc_err *err)
+{
+    struct rc_lines rest = rc_piece_lines(rc_file_piece(t->file));
+    struct image other;
+
+    if (rc_file_is_utf16(t->file))
+        return rc_err_set(err, "the text is UTF-16: convert it first (iconv -f UTF-16 -t UTF-8)");
+    if (rc_file_holds(t->file, 0, "\xef\xbb\xbf", 3))
+        rest.at += 3; /* the byte order mark of UTF-8 */
+    do
+        next_image(&rest, m->images < IMAGES_MOST ? &m->image[m->images] : &other);
+    while (++m->images, rest.at < rest.end);
+    return open_behind_head(&m->image[0], t->wish, err);
 }
 
 /* True if a line above the numbers looks like a row of them that is damaged. */
@@ -168,61 +151,42 @@ is_damaged_row(const struct rc_titled_table *t)
            !rc_titled_table_is_matrix(t);
 }
 
-/* A matrix below titles or other text, in UTF-16 too. Keeps the earlier reason if no header is known. */
-static enum rc_status
-open_below_titles(struct matrix *m, const struct rc_file *file, const struct rc_wish *wish)
+/* A matrix below titles or other text, in UTF-16 too. */
+static bool
+open_below_titles(struct matrix *m, const struct rc_titled_table *t)
 {
-    enum rc_status status = RC_FAIL;
-
-    if (rc_file_is_text(file) || rc_file_is_utf16(file))
-        status = rc_titled_table_open(&m->titled, file, 2, wish, NULL);
-    m->is_titled = true;
+    m->titled = t;
     m->images = 1;
-    m->head = (struct rc_ascii_head){.width = NAN,
-                                     .height = NAN,
-                                     .pixel = NAN,
-                                     .step_x = NAN,
-                                     .step_y = NAN,
-                                     .z = rc_piece_metres(m->titled.axis_unit[2])};
-    m->table = m->titled.numbers;
-    if (status == RC_OK && (!rc_titled_table_is_matrix(&m->titled) || is_damaged_row(&m->titled) ||
-                            (rc_file_is_utf16(file) && m->titled.skipped > 0)))
-        status = RC_FAIL;
-    return status;
+    m->image[0].head = (struct rc_ascii_head){.width = NAN,
+                                              .height = NAN,
+                                              .pixel = NAN,
+                                              .step_x = NAN,
+                                              .step_y = NAN,
+                                              .z = rc_piece_metres(t->axis_unit[2])};
+    m->image[0].table = t->numbers;
+    return (rc_file_is_text(t->file) || rc_file_is_utf16(t->file)) && t->status == RC_OK &&
+           rc_titled_table_is_matrix(t) && !is_damaged_row(t) &&
+           !(rc_file_is_utf16(t->file) && t->skipped > 0);
 }
 
+/* Where no header is known and there is no matrix below titles either, the reason is that of the numbers. */
 static enum rc_status
-ascii_open(struct matrix *m, const struct rc_file *file, const struct rc_wish *wish, size_t index,
-           struct rc_err *err)
+matrix_open(void *found, struct rc_titled_table *table, struct rc_err *err)
 {
-    *m = (struct matrix){.labels = {.height_unit = {"", 0}}};
-    if (open_behind_head(m, file, wish, index, err) != RC_OK &&
-        (m->head.known || index > 0 || open_below_titles(m, file, wish) != RC_OK))
-        return RC_FAIL;
-    m->nx = m->table.columns;
-    m->ny = m->table.rows;
-    return RC_OK;
+    struct matrix *m = found;
+
+    return open_images(m, table, err) == RC_OK ||
+                   (!m->image[0].head.known && open_below_titles(m, table))
+               ? RC_OK
+               : RC_FAIL;
 }
 
-/* The same, and finds the labels or positions of the table. */
-static enum rc_status
-ascii_open_all(struct matrix *m, const struct rc_file *file, const struct rc_wish *wish,
-               size_t index, struct rc_err *err)
-{
-    if (ascii_open(m, file, wish, index, err) != RC_OK)
-        return RC_FAIL;
-    if (m->head.known)
-        return RC_OK;
-    if (rc_labels_find(&m->table, m->is_titled ? &m->titled : NULL, wish, &m->labels, err) != RC_OK)
-        return RC_FAIL;
-    m->nx -= m->labels.columns;
-    m->ny -= m->labels.rows;
-    return RC_OK;
-}
+static const struct rc_table_kind kind = {RC_TABLE_MATRIX, sizeof(struct matrix), matrix_open,
+                                          NULL};
 
 /* Spacing as the header or the positions have it, NAN where they do not say. */
 static enum rc_status
-spacing(const struct matrix *m, const struct rc_wish *wish, double *dx, double *dy,
+spacing(const struct image *m, const struct rc_wish *wish, double *dx, double *dy,
         struct rc_err *err)
 {
     const struct rc_ascii_head *h = &m->head;
@@ -268,7 +232,7 @@ is_rising(const double *v, size_t rows)
 }
 
 static enum rc_status
-refuse_coordinates(const struct matrix *m, const double *v, struct rc_err *err)
+refuse_coordinates(const struct image *m, const double *v, struct rc_err *err)
 {
     const struct rc_ascii_head *h = &m->head;
 
@@ -286,7 +250,7 @@ refuse_coordinates(const struct matrix *m, const double *v, struct rc_err *err)
 
 /* Puts the heights into v, without labels and positions. */
 static enum rc_status
-read_heights(struct matrix *m, double *v, struct rc_err *err)
+read_heights(struct image *m, double *v, struct rc_err *err)
 {
     const struct rc_labels *l = &m->labels;
     size_t n = m->table.rows * m->table.columns;
@@ -305,111 +269,107 @@ read_heights(struct matrix *m, double *v, struct rc_err *err)
 }
 
 static void
-note_skipped(const struct matrix *m, struct rc_notes *notes)
+note_skipped(const struct rc_titled_table *t, struct rc_notes *notes)
 {
-    if (m->is_titled && m->titled.skipped > 0)
-        rc_note(notes, "%zu line%s above the numbers %s passed over, the first is '%s'",
-                m->titled.skipped, m->titled.skipped == 1 ? "" : "s",
-                m->titled.skipped == 1 ? "is" : "are", rc_piece_shown(m->titled.first_skipped));
-    if (m->is_titled && m->titled.titles == m->table.columns &&
-        !rc_titled_table_numbered(&m->titled))
+    if (t->skipped > 0)
+        rc_note(notes, "%zu line%s above the numbers %s passed over, the first is '%s'", t->skipped,
+                t->skipped == 1 ? "" : "s", t->skipped == 1 ? "is" : "are",
+                rc_piece_shown(t->first_skipped));
+    if (t->titles == t->numbers.columns && !rc_titled_table_numbered(t))
         rc_note(notes, "the titles, '%s' and so on, name no axis: the table is read as a matrix",
-                rc_piece_shown(rc_titled_table_name(&m->titled, 0)));
-    rc_labels_note(&m->labels, notes);
+                rc_piece_shown(rc_titled_table_name(t, 0)));
 }
 
 /* ---- the entry in formats.list ---- */
 
 static int
-ascii_score(const struct rc_file *file)
+ascii_score(struct rc_maps *maps)
 {
     enum rc_status status;
-    struct matrix m;
-    unsigned char c;
+    const struct matrix *m = rc_table_as(maps, &kind, &status, NULL);
+    bool known = m != NULL && m->image[0].head.known;
+    unsigned char c = maps->file->data[0];
 
-    if (!rc_file_is_text(file) && !rc_file_is_utf16(file))
-        return 0;
-    status = ascii_open(&m, file, &rc_no_wish, 0, NULL);
-    matrix_close(&m);
     if (status == RC_OK)
-        return m.head.known ? 90 : 40;
-    if (rc_file_is_utf16(file))
+        return known ? 90 : 40;
+    if (rc_file_is_utf16(maps->file))
         return 2;
     /* A low score for a file that begins like numbers, so that the refusal names the error. */
-    c = file->data[0];
-    return m.head.known ? 30 : (c >= '0' && c <= '9') || strchr("- \"", c) != NULL ? 5 : 0;
+    return known ? 30 : (c >= '0' && c <= '9') || strchr("- \"", c) != NULL ? 5 : 0;
 }
 
 static enum rc_status
 fill_matrix(const struct rc_file *file, const struct rc_map *map, double *v, struct rc_err *err)
 {
-    struct matrix m;
-    enum rc_status status = ascii_open_all(&m, file, map->wish, map->more, err);
+    struct matrix *m = ((struct rc_titled_table *)map->opened)->as[RC_TABLE_MATRIX].found;
+    struct image *image = &m->image[map->more];
 
-    if (status == RC_OK)
-        status = read_heights(&m, v, err);
-    if (status == RC_OK)
-        status = refuse_coordinates(&m, v, err);
-    if (status == RC_OK)
-        note_skipped(&m, map->notes);
-    matrix_close(&m);
-    return status;
+    (void)file;
+    if (read_heights(image, v, err) != RC_OK || refuse_coordinates(image, v, err) != RC_OK)
+        return RC_FAIL;
+    if (m->titled != NULL)
+        note_skipped(m->titled, map->notes);
+    rc_labels_note(&image->labels, map->notes);
+    return RC_OK;
 }
 
 /* The unit is a length, or another one of a file with several images; of a single image it is refused. */
 static void
-set_unit(const struct matrix *m, struct rc_map *map)
+set_unit(const struct image *m, bool single, struct rc_map *map)
 {
     const struct rc_ascii_head *h = &m->head;
     double metres = isnan(h->z) ? rc_piece_metres(m->labels.height_unit) : h->z;
 
-    map->heights = m->images == 1;
+    map->heights = single;
     strcpy(map->unit, isnan(metres) ? h->unit : "m");
     if (!isnan(metres))
         map->si = metres;
-    else if (m->images > 1)
+    else if (!single)
         rc_map_unit(map, rc_piece_of(h->unit));
 }
 
+/* Finds the labels or positions of image k, and adds its map. */
 static enum rc_status
-add_matrix(const struct matrix *m, size_t image, struct rc_maps *maps, struct rc_err *err)
+add_image(struct matrix *m, size_t k, struct rc_maps *maps, struct rc_err *err)
 {
-    const struct rc_labels *l = &m->labels;
     const struct rc_wish *wish = maps->wish;
-    struct rc_map *map = rc_maps_add(maps, m->head.channel);
+    struct image *image = &m->image[k];
+    struct rc_labels *l = &image->labels;
+    struct rc_map *map;
     size_t n;
 
-    if (rc_number_table_size(&m->table, &n, err) != RC_OK)
+    l->height_unit = rc_piece_of("");
+    if ((k > 0 && open_behind_head(image, wish, err) != RC_OK) ||
+        (!image->head.known && rc_labels_find(&image->table, m->titled, wish, l, err) != RC_OK))
         return RC_FAIL;
-    map->nx = m->nx;
-    map->ny = m->ny;
+    image->nx = image->table.columns - l->columns;
+    image->ny = image->table.rows - l->rows;
+    map = rc_maps_add(maps, image->head.channel);
+    if (rc_number_table_size(&image->table, &n, err) != RC_OK)
+        return RC_FAIL;
+    map->nx = image->nx;
+    map->ny = image->ny;
     map->fill = fill_matrix;
-    map->more = image;
+    map->more = k;
     map->right_first = l->falls[0];
     map->bottom_first = l->falls[1];
     if (l->rows + l->columns > 0)
         map->beside = 8 * (double)n;
-    set_unit(m, map);
+    set_unit(image, m->images == 1, map);
     /* --dx gives the unit of the positions, of y too */
     map->own_dy = l->positions && isnan(l->metres[0]) && isnan(wish->dy) && !isnan(wish->dx);
-    return spacing(m, wish, &map->dx, &map->dy, err);
+    return spacing(image, wish, &map->dx, &map->dy, err);
 }
 
 static enum rc_status
 ascii_find(const struct rc_file *file, struct rc_maps *maps, struct rc_err *err)
 {
-    enum rc_status status = RC_OK;
-    size_t images = 1;
+    enum rc_status status;
+    struct matrix *m = rc_table_as(maps, &kind, &status, err);
 
-    for (size_t k = 0; status == RC_OK && k < images && k < IMAGES_MOST; k++) {
-        struct matrix m;
-
-        status = ascii_open_all(&m, file, maps->wish, k, err);
-        if (status == RC_OK)
-            status = add_matrix(&m, k, maps, err);
-        images = m.images;
-        matrix_close(&m);
-    }
+    (void)file;
+    for (size_t k = 0; status == RC_OK && k < m->images && k < IMAGES_MOST; k++)
+        status = add_image(m, k, maps, err);
     return status;
 }
 
@@ -417,6 +377,6 @@ const struct rc_format rc_format_ascii = {
     .name = "ascii",
     .suffixes = ".txt .asc .csv",
     .summary = "matrices of heights as text, with or without a header",
-    .score = ascii_score,
+    .score_open = ascii_score,
     .find = ascii_find,
 };

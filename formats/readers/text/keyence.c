@@ -118,7 +118,7 @@ keyence_open(const struct rc_file *file, const struct rc_wish *wish, struct keye
     struct rc_piece start = {(const char *)file->data, file->size < SEEN ? file->size : SEEN};
     struct rc_lines lines = rc_piece_lines(rc_file_piece(file)), header;
 
-    *k = (struct keyence){.pitch = NAN, .metres = NAN};
+    k->pitch = k->metres = NAN;
     if (rc_piece_find(start, magic) == NULL)
         return rc_err_set(err, "no image data of Keyence: there is no '%s' in its header", magic);
     if (read_header(&lines, k, &header, err) != RC_OK ||
@@ -135,31 +135,30 @@ keyence_open(const struct rc_file *file, const struct rc_wish *wish, struct keye
 static enum rc_status
 fill_heights(const struct rc_file *file, const struct rc_map *map, double *v, struct rc_err *err)
 {
-    struct keyence k;
+    struct keyence *k = map->opened;
 
-    (void)map;
-    return keyence_open(file, map->wish, &k, err) != RC_OK ? RC_FAIL
-                                                           : rc_number_table_read(&k.table, v, err);
+    (void)file;
+    return rc_number_table_read(&k->table, v, err);
 }
 
 static enum rc_status
 keyence_find(const struct rc_file *file, struct rc_maps *maps, struct rc_err *err)
 {
+    struct keyence *k = rc_maps_open(maps, sizeof *k, NULL, err);
     struct rc_map *map;
-    struct keyence k;
     size_t n;
 
-    if (keyence_open(file, maps->wish, &k, err) != RC_OK ||
-        rc_number_table_size(&k.table, &n, err) != RC_OK)
+    if (k == NULL || keyence_open(file, maps->wish, k, err) != RC_OK ||
+        rc_number_table_size(&k->table, &n, err) != RC_OK)
         return RC_FAIL;
-    map = rc_maps_add(maps, k.title);
-    map->nx = k.table.columns;
-    map->ny = k.table.rows;
-    map->dx = map->dy = k.pitch;
+    map = rc_maps_add(maps, k->title);
+    map->nx = k->table.columns;
+    map->ny = k->table.rows;
+    map->dx = map->dy = k->pitch;
     map->fill = fill_heights;
-    if (!isnan(k.metres)) {
+    if (!isnan(k->metres)) {
         strcpy(map->unit, "m");
-        map->si = k.metres;
+        map->si = k->metres;
     }
     return RC_OK;
 }

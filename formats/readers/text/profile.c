@@ -10,16 +10,19 @@
 #include "formats/format.h"
 
 struct profile {
-    struct rc_titled_table table;
-    size_t x, z, valid;                   /* columns; valid = columns: none */
+    struct rc_titled_table *table;
+    size_t x, valid;                      /* columns; valid = columns: none */
+    size_t height[RC_MAPS_MOST], heights; /* columns of heights */
     bool falls;                           /* the positions do */
-    size_t height[RC_MAPS_MOST], heights; /* columns of heights; z is the first */
+    bool known;                           /* the columns are */
+    double *at;                           /* positions, rising; NULL: a single column */
+    struct rc_even even;
 };
 
 static const double *
 column(const struct profile *p, size_t c)
 {
-    return p->table.v + c;
+    return p->table->v + c;
 }
 
 /* ---- columns ---- */
@@ -28,21 +31,21 @@ static bool
 counts(const struct profile *p, size_t c)
 {
     const double *v = column(p, c);
-    size_t rows = p->table.numbers.rows, columns = p->table.numbers.columns;
+    size_t rows = p->table->numbers.rows, columns = p->table->numbers.columns;
 
-    if (rc_titled_table_role(&p->table, c) == RC_ROLE_INDEX)
+    if (rc_titled_table_role(p->table, c) == RC_ROLE_INDEX)
         return true;
     for (size_t k = 0; k < rows; k++)
         if (v[k * columns] != v[0] + (double)k)
             return false;
-    return rows > 1 && (v[0] == 0 || v[0] == 1) && rc_titled_table_unit(&p->table, c, 'x').n == 0;
+    return rows > 1 && (v[0] == 0 || v[0] == 1) && rc_titled_table_unit(p->table, c, 'x').n == 0;
 }
 
 /* The column of positions: by its title, otherwise the first that does not number the points. */
 static size_t
 positions_of(const struct profile *p)
 {
-    const struct rc_titled_table *t = &p->table;
+    const struct rc_titled_table *t = p->table;
     size_t columns = t->numbers.columns, x = rc_titled_table_column(t, RC_ROLE_X);
 
     if (x == columns && rc_titled_table_column(t, RC_ROLE_Z) < columns)
@@ -56,7 +59,7 @@ positions_of(const struct profile *p)
 static void
 find_heights(struct profile *p)
 {
-    const struct rc_titled_table *t = &p->table;
+    const struct rc_titled_table *t = p->table;
     size_t columns = t->numbers.columns;
 
     for (size_t c = 0; c < columns; c++)
@@ -69,16 +72,13 @@ find_heights(struct profile *p)
 static enum rc_status
 pick_columns(struct profile *p, struct rc_err *err)
 {
-    const struct rc_titled_table *t = &p->table;
+    struct rc_titled_table *t = p->table;
     size_t columns = t->numbers.columns;
+    enum rc_status status;
 
-    p->heights = 0;
     if (columns == 1) {
-        p->z = 0;
-        p->valid = 1;
-        p->height[0] = 0;
-        p->heights = 1;
-        return rc_titled_table_read(&p->table, err);
+        p->valid = p->heights = 1;
+        return rc_titled_table_read(t, err);
     }
     if (columns > 2 && t->titles < 2)
         return rc_err_set(err,
@@ -94,12 +94,13 @@ pick_columns(struct profile *p, struct rc_err *err)
         rc_titled_table_column(t, RC_ROLE_Z) < columns)
         return rc_err_set(err, "the titles name x, y and z: that is a list of points, no profile; "
                                "--format xyz reads it");
-    if (rc_titled_table_read(&p->table, err) != RC_OK)
+    status = rc_titled_table_read(t, err);
+    p->known = t->v != NULL;
+    if (status != RC_OK)
         return RC_FAIL;
     p->valid = rc_titled_table_column(t, RC_ROLE_VALID);
     p->x = positions_of(p);
     find_heights(p);
-    p->z = p->height[0];
     if (p->x == p->valid || p->heights == 0)
         return rc_err_set(err, "there are no columns of positions and heights in the table");
     return RC_OK;
@@ -107,14 +108,18 @@ pick_columns(struct profile *p, struct rc_err *err)
 
 /* ---- positions ---- */
 
+/* Takes the positions; those that fall are turned round: the last point becomes the first node, at the same
+ * place as before. */
 static enum rc_status
-judge_direction(struct profile *p, struct rc_err *err)
+take_positions(struct profile *p, struct rc_err *err)
 {
-    size_t rows = p->table.numbers.rows, columns = p->table.numbers.columns;
+    size_t rows = p->table->numbers.rows, columns = p->table->numbers.columns;
     const double *x = column(p, p->x);
 
     if (rows < 3)
         return rc_err_set(err, "a profile has 3 points at least, this table has %zu rows", rows);
+    if ((p->at = calloc(rows, sizeof *p->at)) == NULL)
+        return rc_err_set(err, "out of memory for %zu points", rows);
     p->falls = x[columns] < x[0];
     for (size_t k = 0; k < rows; k++) {
         double d = k == 0 ? 1 : (x[k * columns] - x[(k - 1) * columns]) * (p->falls ? -1 : 1);
@@ -123,145 +128,113 @@ judge_direction(struct profile *p, struct rc_err *err)
                               "the positions change direction at row %zu of the table, which is "
                               "read as a profile; for a matrix give --format ascii",
                               k + 1);
+        p->at[p->falls ? rows - 1 - k : k] = x[k * columns];
     }
     return RC_OK;
 }
 
 static enum rc_status
-profile_open(struct profile *p, const struct rc_file *file, const struct rc_wish *wish,
-             struct rc_err *err)
+profile_open(void *found, struct rc_titled_table *table, struct rc_err *err)
 {
+    struct profile *p = found;
     struct rc_piece unit;
 
-    if (rc_titled_table_open(&p->table, file, 2, wish, NULL) != RC_OK) {
-        rc_titled_table_close(&p->table);
-        if (rc_titled_table_open(&p->table, file, 1, wish, err) != RC_OK)
-            return RC_FAIL;
-    }
-    if (pick_columns(p, err) != RC_OK)
+    p->table = table;
+    if (rc_titled_table_check(table, err) != RC_OK || pick_columns(p, err) != RC_OK)
         return RC_FAIL;
-    p->falls = false;
-    if (p->table.numbers.columns == 1)
+    p->even.n = table->numbers.rows;
+    if (table->numbers.columns == 1)
         return RC_OK;
-    unit = rc_titled_table_unit(&p->table, p->x, 'x');
+    unit = rc_titled_table_unit(table, p->x, 'x');
     if (unit.n > 0 && isnan(rc_piece_metres(unit)))
         return rc_err_set(err, "the positions are in '%s', which is not a length",
                           rc_piece_shown(unit));
-    return judge_direction(p, err);
+    return take_positions(p, err);
 }
+
+static void
+profile_close(void *found)
+{
+    free(((struct profile *)found)->at);
+}
+
+static const struct rc_table_kind kind = {RC_TABLE_PROFILE, sizeof(struct profile), profile_open,
+                                          profile_close};
 
 /* ---- the map ---- */
-
-static double
-height_of(const struct profile *p, size_t row)
-{
-    const double *v = p->table.v + row * p->table.numbers.columns;
-
-    return p->valid < p->table.numbers.columns && v[p->valid] == 0 ? NAN : v[p->z];
-}
-
-/* Places even nodes along the profile and, unless v is NULL, stores their heights in v. A profile whose
- * positions fall is turned round: its last point becomes the first node, at the same place as before. */
-static enum rc_status
-lay_nodes(const struct profile *p, const struct rc_file *file, const struct rc_wish *wish,
-          struct rc_even *even, double *v, struct rc_notes *notes, struct rc_err *err)
-{
-    size_t rows = p->table.numbers.rows, columns = p->table.numbers.columns;
-    RC_OWNED double *x = calloc(rows, 2 * sizeof *x);
-    double *z;
-    double metres = rc_piece_metres(rc_titled_table_unit(&p->table, p->x, 'x'));
-    enum rc_status status;
-
-    if (isnan(metres) && wish->xy_unit > 0)
-        metres = wish->xy_unit;
-
-    if (x == NULL)
-        return rc_err_set(err, "out of memory for %zu points", rows);
-    z = x + rows;
-    for (size_t k = 0; k < rows; k++) {
-        size_t row = p->falls ? rows - 1 - k : k;
-        x[k] = column(p, p->x)[row * columns];
-        z[k] = height_of(p, row);
-    }
-    status = rc_even_new(x, rows, metres, file, wish, even, err);
-    if (status == RC_OK && v != NULL)
-        rc_even_heights(even, x, z, rows, v, notes);
-    return status;
-}
 
 static enum rc_status
 fill_heights(const struct rc_file *file, const struct rc_map *map, double *v, struct rc_err *err)
 {
-    enum rc_status status;
-    struct rc_even even;
-    struct profile p;
+    const struct rc_titled_table *t = map->opened;
+    const struct profile *p = t->as[RC_TABLE_PROFILE].found;
+    size_t rows = t->numbers.rows, columns = t->numbers.columns;
+    RC_OWNED double *z = malloc(rows * sizeof *z);
 
-    status = profile_open(&p, file, map->wish, err);
-    p.z = map->more;
-    if (status == RC_OK && p.table.numbers.columns > 1)
-        status = lay_nodes(&p, file, map->wish, &even, v, map->notes, err);
-    else
-        for (size_t k = 0; k < map->nx && status == RC_OK; k++)
-            v[k] = height_of(&p, k);
-    if (status == RC_OK)
-        rc_titled_table_left_out(&p.table, map->notes);
-    rc_titled_table_close(&p.table);
-    return status;
+    (void)file;
+    if (z == NULL)
+        return rc_err_set(err, "out of memory for %zu points", rows);
+    for (size_t k = 0; k < rows; k++) {
+        const double *row = t->v + (p->falls ? rows - 1 - k : k) * columns;
+
+        z[k] = p->valid < columns && row[p->valid] == 0 ? NAN : row[map->more];
+    }
+    rc_even_heights(&p->even, p->at, z, rows, v, map->notes);
+    rc_titled_table_left_out(t, map->notes);
+    return RC_OK;
 }
 
 static void
-add_heights(const struct profile *p, size_t c, const struct rc_even *even, struct rc_maps *maps)
+add_heights(const struct profile *p, size_t c, struct rc_maps *maps)
 {
     struct rc_map *map =
-        rc_maps_add(maps, p->heights > 1 ? rc_titled_table_name(&p->table, c) : rc_piece_of(""));
+        rc_maps_add(maps, p->heights > 1 ? rc_titled_table_name(p->table, c) : rc_piece_of(""));
 
-    map->nx = even->n;
+    map->nx = p->even.n;
     map->ny = 1;
     map->more = c;
-    if (p->table.numbers.columns > 1)
-        rc_map_steps(map, even->step, even->step, rc_titled_table_unit(&p->table, p->x, 'x'));
+    if (p->at != NULL)
+        rc_map_steps(map, p->even.step, p->even.step, rc_titled_table_unit(p->table, p->x, 'x'));
     map->fill = fill_heights;
-    rc_map_unit(map, rc_titled_table_unit(&p->table, c, 'z'));
+    rc_map_unit(map, rc_titled_table_unit(p->table, c, 'z'));
 }
 
+/* Places even nodes along the profile. */
 static enum rc_status
 profile_find(const struct rc_file *file, struct rc_maps *maps, struct rc_err *err)
 {
     enum rc_status status;
-    struct rc_even even = {0};
-    struct profile p;
+    struct profile *p = rc_table_as(maps, &kind, &status, err);
+    double metres;
 
-    status = profile_open(&p, file, maps->wish, err);
-    even.n = p.table.numbers.rows;
-    if (status == RC_OK && p.table.numbers.columns > 1)
-        status = lay_nodes(&p, file, maps->wish, &even, NULL, NULL, err);
-    for (size_t k = 0; status == RC_OK && k < p.heights; k++)
-        add_heights(&p, p.height[k], &even, maps);
-    rc_titled_table_close(&p.table);
-    return status;
+    if (status != RC_OK)
+        return RC_FAIL;
+    metres = rc_piece_metres(rc_titled_table_unit(p->table, p->x, 'x'));
+    if (isnan(metres) && maps->wish->xy_unit > 0)
+        metres = maps->wish->xy_unit;
+    if (p->at != NULL &&
+        rc_even_new(p->at, p->even.n, metres, file, maps->wish, &p->even, err) != RC_OK)
+        return RC_FAIL;
+    for (size_t k = 0; k < p->heights; k++)
+        add_heights(p, p->height[k], maps);
+    return RC_OK;
 }
 
+/* 3: the refusal of a table names its error; one column could have any meaning. */
 static int
-profile_score(const struct rc_file *file)
+profile_score(struct rc_maps *maps)
 {
-    struct profile p;
-    int score;
+    enum rc_status status;
+    const struct profile *p = rc_table_as(maps, &kind, &status, NULL);
 
-    if (!rc_file_is_text(file) && !rc_file_is_utf16(file))
-        return 0;
-    score = profile_open(&p, file, &rc_no_wish, NULL) == RC_OK ? 60 : 3;
-    /* 3: the refusal of a table names its error; one column could have any meaning */
-    if (p.table.v == NULL || p.table.numbers.columns < 2)
-        score = 0;
-    rc_titled_table_close(&p.table);
-    return score;
+    return p == NULL || !p->known ? 0 : status == RC_OK ? 60 : 3;
 }
 
 const struct rc_format rc_format_profile = {
     .name = "profile",
     .suffixes = ".txt .csv .asc .hfm",
     .summary = "profiles as text: positions and heights",
-    .score = profile_score,
+    .score_open = profile_score,
     .find = profile_find,
     .columns = true,
 };

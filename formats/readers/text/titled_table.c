@@ -376,31 +376,30 @@ comma_parts_titles(struct rc_piece before, struct rc_piece row)
 
 /* The text of the file, as UTF-8 or Latin-1, without its mark. */
 static enum rc_status
-text_of(struct rc_titled_table *t, const struct rc_file *file, struct rc_piece *text,
-        struct rc_err *err)
+text_of(struct rc_titled_table *t, struct rc_piece *text, struct rc_err *err)
 {
-    *text = rc_file_piece(file);
-    if (rc_file_is_utf16(file)) {
-        if ((t->own = narrow(file, &text->n)) == NULL)
-            return rc_err_set(err, "out of memory for %zu characters", file->size / 2);
+    *text = rc_file_piece(t->file);
+    if (rc_file_is_utf16(t->file)) {
+        if ((t->own = narrow(t->file, &text->n)) == NULL)
+            return rc_err_set(err, "out of memory for %zu characters", t->file->size / 2);
         text->text = t->own;
-    } else if (rc_file_holds(file, 0, "\xef\xbb\xbf", 3)) /* the byte order mark of UTF-8 */
+    } else if (rc_file_holds(t->file, 0, "\xef\xbb\xbf", 3)) /* the byte order mark of UTF-8 */
         *text = (struct rc_piece){text->text + 3, text->n - 3};
     return RC_OK;
 }
 
-enum rc_status
-rc_titled_table_open(struct rc_titled_table *t, const struct rc_file *file, size_t columns,
-                     const struct rc_wish *wish, struct rc_err *err)
+/* Finds the first table of at least so many columns: rows and titles. */
+static enum rc_status
+find_table(struct rc_titled_table *t, struct rc_piece text, size_t columns, struct rc_err *err)
 {
-    struct rc_piece text, line, before = {"", 0}, above = {"", 0};
-    struct rc_wish said = *wish;
+    struct rc_piece line, before = {"", 0}, above = {"", 0};
+    struct rc_wish said = *t->wish;
     struct rc_lines lines, ahead;
     char separator[2] = "";
 
-    *t = (struct rc_titled_table){.axis_unit = {{"", 0}, {"", 0}, {"", 0}}};
-    if (text_of(t, file, &text, err) != RC_OK)
-        return RC_FAIL;
+    t->skipped = 0;
+    for (size_t k = 0; k < sizeof t->axis_unit / sizeof *t->axis_unit; k++)
+        t->axis_unit[k] = (struct rc_piece){"", 0};
     lines = ahead = rc_piece_lines(text);
     for (;;) {
         if (lines.number == HEADER_MOST || !rc_lines_next(&ahead, &line.text, &line.n))
@@ -430,21 +429,73 @@ rc_titled_table_open(struct rc_titled_table *t, const struct rc_file *file, size
     return RC_OK;
 }
 
+static void
+table_close(void *opened)
+{
+    struct rc_titled_table *t = opened;
+
+    for (size_t k = 0; k < RC_TABLE_KINDS; k++) {
+        if (t->as[k].found != NULL && t->as[k].kind->close != NULL)
+            t->as[k].kind->close(t->as[k].found);
+        free(t->as[k].found);
+    }
+    free(t->own);
+    free(t->v);
+}
+
+/* NULL when memory is out. */
+static struct rc_titled_table *
+table_of(struct rc_maps *maps, struct rc_err *err)
+{
+    struct rc_titled_table *t = maps->opened;
+    struct rc_piece text;
+
+    if (t != NULL || (t = rc_maps_open(maps, sizeof *t, table_close, err)) == NULL)
+        return t;
+    t->file = maps->file;
+    t->wish = maps->wish;
+    t->status = text_of(t, &text, &t->why);
+    if (t->status == RC_OK && find_table(t, text, 2, NULL) != RC_OK)
+        t->status = find_table(t, text, 1, &t->why);
+    return t;
+}
+
+void *
+rc_table_as(struct rc_maps *maps, const struct rc_table_kind *kind, enum rc_status *status,
+            struct rc_err *err)
+{
+    struct rc_titled_table *t = table_of(maps, err);
+    struct rc_table_found *as = t == NULL ? NULL : &t->as[kind->index];
+
+    *status = RC_FAIL;
+    if (as != NULL && as->kind == NULL && (as->found = calloc(1, kind->size)) != NULL) {
+        as->kind = kind;
+        as->status = kind->open(as->found, t, &as->why);
+    }
+    if (as == NULL || as->found == NULL)
+        return rc_err_null(err, "out of memory for a table");
+    if ((*status = as->status) != RC_OK)
+        rc_err_set(err, "%s", as->why.text);
+    return as->found;
+}
+
+enum rc_status
+rc_titled_table_check(const struct rc_titled_table *t, struct rc_err *err)
+{
+    return t->status == RC_OK ? RC_OK : rc_err_set(err, "%s", t->why.text);
+}
+
 enum rc_status
 rc_titled_table_read(struct rc_titled_table *t, struct rc_err *err)
 {
     size_t n;
 
-    if (rc_number_table_size(&t->numbers, &n, err) != RC_OK)
-        return RC_FAIL;
-    if ((t->v = malloc(n * sizeof *t->v)) == NULL)
-        return rc_err_set(err, "out of memory for %zu values", n);
-    return rc_number_table_read(&t->numbers, t->v, err);
-}
-
-void
-rc_titled_table_close(struct rc_titled_table *t)
-{
-    free(t->own);
-    free(t->v);
+    if (t->v == NULL) {
+        t->read = rc_number_table_size(&t->numbers, &n, &t->unread);
+        if (t->read == RC_OK && (t->v = malloc(n * sizeof *t->v)) == NULL)
+            t->read = rc_err_set(&t->unread, "out of memory for %zu values", n);
+        if (t->read == RC_OK)
+            t->read = rc_number_table_read(&t->numbers, t->v, &t->unread);
+    }
+    return t->read == RC_OK ? RC_OK : rc_err_set(err, "%s", t->unread.text);
 }

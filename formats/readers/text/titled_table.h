@@ -1,5 +1,6 @@
 /* Tables of numbers in text that come behind a header of whatever kind, with or without titles; in
- * UTF-8, Latin-1 or UTF-16 with its mark. */
+ * UTF-8, Latin-1 or UTF-16 with its mark. A file is opened once for its three readers: matrices (ascii.c),
+ * profiles (profile.c) and lists of points (xyz.c). */
 #ifndef RC_TITLED_TABLE_H
 #define RC_TITLED_TABLE_H
 
@@ -9,7 +10,24 @@ enum {
     RC_TITLES_MOST = 64
 };
 
+struct rc_titled_table;
+
+/* What one reader finds in the table. */
+struct rc_table_kind {
+    enum {
+        RC_TABLE_MATRIX,
+        RC_TABLE_PROFILE,
+        RC_TABLE_POINTS,
+        RC_TABLE_KINDS
+    } index;
+    size_t size; /* of the struct that it fills, which is zero before */
+    enum rc_status (*open)(void *found, struct rc_titled_table *table, struct rc_err *err);
+    void (*close)(void *found); /* also after a failure */
+};
+
 struct rc_titled_table {
+    const struct rc_file *file;
+    const struct rc_wish *wish;
     char *own; /* the text, where it was converted */
     struct rc_number_table numbers;
     struct rc_piece title[RC_TITLES_MOST]; /* titles of the columns, from the line before the
@@ -22,7 +40,17 @@ struct rc_titled_table {
     size_t skipped; /* lines above that are not empty, not titles and unknown */
     struct rc_piece first_skipped;
     struct rc_piece axis_unit[3]; /* units from lines `x-unit = um` and so on above it */
-    double *v;                    /* numbers.rows * numbers.columns values; NULL: not yet read */
+    enum rc_status status;        /* RC_FAIL: there is no table in the file, for this reason */
+    struct rc_err why;
+    double *v; /* numbers.rows * numbers.columns values; NULL: not yet read */
+    enum rc_status read;
+    struct rc_err unread;
+    struct rc_table_found {
+        const struct rc_table_kind *kind; /* NULL: not yet looked for */
+        void *found;
+        enum rc_status status;
+        struct rc_err why;
+    } as[RC_TABLE_KINDS];
 };
 
 /* The kind of a column by its title. */
@@ -35,11 +63,14 @@ enum rc_role {
     RC_ROLE_VALID  /* 0 where the point is missing  */
 };
 
-/* Finds the first table of at least so many columns: rows and titles. RC_FAIL when there is none.
- * The caller closes it in either case. */
-enum rc_status rc_titled_table_open(struct rc_titled_table *table, const struct rc_file *file,
-                                    size_t columns, const struct rc_wish *wish, struct rc_err *err);
-/* Then reads its values. RC_FAIL names the first row that differs from the first one in its
+/* What the kind finds in the file, which is opened and looked at the first time only; its status is RC_FAIL
+ * where the kind refuses the file. NULL when memory is out. */
+void *rc_table_as(struct rc_maps *maps, const struct rc_table_kind *kind, enum rc_status *status,
+                  struct rc_err *err);
+/* For the kinds. RC_FAIL when the file has no table of numbers: rows of at least two columns, otherwise of
+ * one. */
+enum rc_status rc_titled_table_check(const struct rc_titled_table *table, struct rc_err *err);
+/* Reads its values, the first time. RC_FAIL names the first row that differs from the first one in its
  * columns. */
 enum rc_status rc_titled_table_read(struct rc_titled_table *table, struct rc_err *err);
 /* The unit of a column is the text in brackets in its title, otherwise a word in the title that is a length.
@@ -61,6 +92,5 @@ bool rc_titled_table_is_matrix(const struct rc_titled_table *table);
 bool rc_title_next(struct rc_piece *line, char separator, struct rc_piece *title);
 /* Notes the unused columns: counters and marks. */
 void rc_titled_table_left_out(const struct rc_titled_table *table, struct rc_notes *notes);
-void rc_titled_table_close(struct rc_titled_table *table);
 
 #endif

@@ -45,7 +45,7 @@ static const struct rc_keep texts[] = {
     {"Note", "file.comment"},
 };
 
-/* Reads up to the line of the heights; texts are kept where `maps` is not NULL. */
+/* Reads up to the line of the heights. */
 static enum rc_status
 read_header(const struct rc_file *file, struct wyko *w, struct rc_maps *maps, struct rc_err *err)
 {
@@ -65,8 +65,7 @@ read_header(const struct rc_file *file, struct wyko *w, struct rc_maps *maps, st
         }
         /* a block: its type and length before its value */
         if (rc_piece_part(value, "\t", &line, &rest) && rc_piece_part(rest, "\t", &line, &value)) {
-            if (maps != NULL)
-                rc_maps_keep(maps, texts, sizeof texts / sizeof *texts, key, value);
+            rc_maps_keep(maps, texts, sizeof texts / sizeof *texts, key, value);
         } else if (!rc_piece_is(key, "X Size|Y Size"))
             continue;
         if (rc_field_take(fields, sizeof fields / sizeof *fields, key, value, w, err) != RC_OK)
@@ -116,17 +115,16 @@ next_point(struct rc_lines *lines, double point[3], struct rc_err *err)
 static enum rc_status
 fill_points(const struct rc_file *file, const struct rc_map *map, double *v, struct rc_err *err)
 {
+    struct rc_lines lines = *(struct rc_lines *)map->opened;
     double point[3], x = NAN;
-    struct wyko w;
 
-    if (read_header(file, &w, NULL, err) != RC_OK)
-        return RC_FAIL;
+    (void)file;
     for (size_t k = 0; k < map->nx * map->ny; k++) {
-        if (next_point(&w.heights, point, err) != RC_OK)
+        if (next_point(&lines, point, err) != RC_OK)
             return RC_FAIL;
         if ((point[0] == x) == (k % map->ny == 0))
             return rc_err_set(err, "line %zu is at x = %g: the %zu points of a column are at one x",
-                              w.heights.number, point[0], map->ny);
+                              lines.number, point[0], map->ny);
         x = point[0];
         v[k] = point[2];
     }
@@ -163,12 +161,12 @@ wykotext_find(const struct rc_file *file, struct rc_maps *maps, struct rc_err *e
 {
     struct wyko w = {
         .nx = NAN, .ny = NAN, .wavelength = NAN, .pixel = NAN, .aspect = 1, .factor = 1};
+    struct rc_lines *heights = rc_maps_open(maps, sizeof *heights, NULL, err), lines;
     struct rc_piece line = {"", 0};
-    struct rc_lines lines;
     struct rc_map *map;
     size_t words;
 
-    if (read_header(file, &w, maps, err) != RC_OK)
+    if (heights == NULL || read_header(file, &w, maps, err) != RC_OK)
         return RC_FAIL;
     map = rc_maps_add(maps, rc_piece_of(""));
     if (rc_map_size(map, w.nx, "X Size", w.ny, "Y Size", err) != RC_OK ||
@@ -181,7 +179,7 @@ wykotext_find(const struct rc_file *file, struct rc_maps *maps, struct rc_err *e
         map->doubt =
             "Mult is not 1: heights in wavelengths are divided by it, as in OPD files, those in "
             "nanometres are not; other programs multiply by it: override with --z-unit";
-    lines = w.heights;
+    lines = *heights = w.heights;
     next_line(&lines, &line);
     words = words_of(line);
     if (words != map->ny && words != 3)

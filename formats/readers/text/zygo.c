@@ -109,12 +109,10 @@ bad_point(const struct rc_lines *lines, struct rc_piece line, struct rc_err *err
 static enum rc_status
 fill_points(const struct rc_file *file, const struct rc_map *map, double *v, struct rc_err *err)
 {
+    struct zygo z = *(struct zygo *)map->opened;
     struct rc_piece line, rest;
-    struct zygo z;
-    bool xyz;
 
-    if (read_header(file, &z, &xyz, err) != RC_OK)
-        return RC_FAIL;
+    (void)file;
     for (size_t k = 0; k < map->nx * map->ny; k++)
         v[k] = NAN;
     while (rc_lines_next(&z.points, &line.text, &line.n)) {
@@ -140,32 +138,33 @@ fill_points(const struct rc_file *file, const struct rc_map *map, double *v, str
 static enum rc_status
 zygo_find(const struct rc_file *file, struct rc_maps *maps, struct rc_err *err)
 {
+    struct zygo *z = rc_maps_open(maps, sizeof *z, NULL, err);
     struct rc_map *map;
-    struct zygo z;
     bool xyz;
 
-    if (read_header(file, &z, &xyz, err) != RC_OK)
+    if (z == NULL || read_header(file, z, &xyz, err) != RC_OK)
         return RC_FAIL;
-    rc_maps_key(maps, "file.comment", z.comment);
+    rc_maps_key(maps, "file.comment", z->comment);
     map = rc_maps_add(maps, rc_piece_of(""));
-    if (rc_map_size(map, z.rect[2], "line 4", z.rect[3], "line 4", err) != RC_OK ||
+    if (rc_map_size(map, z->rect[2], "line 4", z->rect[3], "line 4", err) != RC_OK ||
         rc_map_fits(file, map->nx, map->ny, err) != RC_OK)
         return RC_FAIL;
-    map->dx = map->dy = z.system[6] == 0 ? NAN : z.system[6];
+    map->dx = map->dy = z->system[6] == 0 ? NAN : z->system[6];
     rc_map_unit(map, rc_piece_of(xyz ? "um" : "m"));
     if (xyz) {
         map->fill = fill_points;
         return RC_OK;
     }
-    if (z.resolution != 0 && z.resolution != 1 && z.resolution != 2)
-        return rc_err_set(err, "the phase resolution (line 11) is %g, not 0, 1 or 2", z.resolution);
-    map->scale = z.system[1] * z.system[4] * z.system[2] /
-                 (z.resolution == 0   ? 4096
-                  : z.resolution == 1 ? 32768
-                                      : 131072);
+    if (z->resolution != 0 && z->resolution != 1 && z->resolution != 2)
+        return rc_err_set(err, "the phase resolution (line 11) is %g, not 0, 1 or 2",
+                          z->resolution);
+    map->scale = z->system[1] * z->system[4] * z->system[2] /
+                 (z->resolution == 0   ? 4096
+                  : z->resolution == 1 ? 32768
+                                       : 131072);
     map->missing_from = 2147483640;
     map->missing_to = INFINITY;
-    return rc_map_is_text(map, file, (size_t)(z.points.at - (const char *)file->data), err);
+    return rc_map_is_text(map, file, (size_t)(z->points.at - (const char *)file->data), err);
 }
 
 const struct rc_format rc_format_zygo = {

@@ -46,8 +46,7 @@ hdf5_is_read(void **state)
             b = hdf_end(file);
             made = file_of(&b, "made");
             assert_ptr_equal(rc_format_find(&made, NULL), &rc_format_hdf5);
-            assert_int_equal(rc_format_list(&rc_format_hdf5, &made, &rc_no_wish, channel, 4, NULL),
-                             1);
+            assert_int_equal(list_maps(&rc_format_hdf5, &made, &rc_no_wish, channel, 4, NULL), 1);
             assert_string_equal(channel->name, "scan/z");
             assert_string_equal(channel->unit, "m");
             g = read_well(&rc_format_hdf5, &b, 0);

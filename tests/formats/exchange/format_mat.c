@@ -61,7 +61,7 @@ several_arrays(void **state)
     add_rising(&m, "Z", DOUBLE, 3, 4, 1);
     add_rising(&m, "row", DOUBLE, 1, 9, 1);
     file = file_of(&m, "a.mat");
-    assert_int_equal(rc_format_list(&rc_format_mat, &file, &rc_no_wish, channel, 4, NULL), 2);
+    assert_int_equal(list_maps(&rc_format_mat, &file, &rc_no_wish, channel, 4, NULL), 2);
     assert_string_equal(channel[0].name, "phase");
     assert_string_equal(channel[1].name, "Z");
     assert_string_equal(channel[1].unit, "");
@@ -233,7 +233,7 @@ version_7_3(void **state)
     b = hdf_behind_header(file);
     made = file_of(&b, "made");
     assert_ptr_equal(rc_format_find(&made, NULL), &rc_format_mat73);
-    assert_int_equal(rc_format_list(&rc_format_mat73, &made, &rc_no_wish, channel, 4, NULL), 1);
+    assert_int_equal(list_maps(&rc_format_mat73, &made, &rc_no_wish, channel, 4, NULL), 1);
     assert_string_equal(channel->name, "h");
     g = read_well(&rc_format_mat73, &b, 0);
     check_map(g, 3, 2, 2e-6, 3e-6, wanted);

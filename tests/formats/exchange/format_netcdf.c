@@ -376,7 +376,7 @@ scans_of_gxsm(void **state)
                               : "nm"; /* the lengths are in Angstrom, whatever the display unit */
         b = gxsm_file(&g);
         file = file_of(&b, "scan.nc");
-        assert_int_equal(rc_format_list(&rc_format_netcdf, &file, &wish, channel, 4, NULL), 1);
+        assert_int_equal(list_maps(&rc_format_netcdf, &file, &wish, channel, 4, NULL), 1);
         assert_string_equal(channel[0].name, variant == 1 ? "H" : "FloatField");
         for (size_t k = 0; k < 6; k++)
             v[k] = counts[k] * 0.25e-10;
@@ -414,7 +414,7 @@ other_scans_of_gxsm(void **state)
     g.times = 2;
     b = gxsm_file(&g);
     file = file_of(&b, "scan.nc");
-    assert_int_equal(rc_format_list(&rc_format_netcdf, &file, &rc_no_wish, channel, 4, NULL), 0);
+    assert_int_equal(list_maps(&rc_format_netcdf, &file, &rc_no_wish, channel, 4, NULL), 0);
     refuse(&rc_format_netcdf, &b, "variables has two dimensions");
     drop(&b);
 }

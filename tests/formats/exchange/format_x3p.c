@@ -400,7 +400,7 @@ maps_with_positions(void **state)
         struct rc_channel channel;
         struct rc_grid *g;
 
-        assert_int_equal(rc_format_list(&rc_format_x3p, &file, &rc_no_wish, &channel, 1, NULL), 1);
+        assert_int_equal(list_maps(&rc_format_x3p, &file, &rc_no_wish, &channel, 1, NULL), 1);
         g = read_file(&file, &notes);
         assert_true(fabs(g->dx - 1.1e-6) <= last_digit * 1.1e-6 && channel.dx == g->dx);
         assert_true(fabs(g->dy - 1.29e-6) <= 2 * float_rounding * 2e-6 && channel.dy == g->dy);
@@ -680,7 +680,7 @@ list_tells_size_and_spacing(void **state)
     struct rc_err err;
 
     (void)state;
-    assert_int_equal(rc_format_list(&rc_format_x3p, &file, &rc_no_wish, &channel, 1, &err), 1);
+    assert_int_equal(list_maps(&rc_format_x3p, &file, &rc_no_wish, &channel, 1, &err), 1);
     assert_int_equal(channel.nx, 3);
     assert_int_equal(channel.ny, 2);
     assert_true(channel.dx == 1.1e-6 && channel.dy == 1.29e-6);

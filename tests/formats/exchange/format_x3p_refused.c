@@ -205,7 +205,7 @@ survives(const unsigned char *data, size_t n)
 
     memcpy(copy, data, n);
     rc_format_find(&file, &err);
-    rc_format_list(&rc_format_x3p, &file, &rc_no_wish, &channel, 1, &err);
+    list_maps(&rc_format_x3p, &file, &rc_no_wish, &channel, 1, &err);
     g = read_with(&file, &rc_no_wish, &notes, &err);
     read = g != NULL;
     if (!read && err.text[0] == '\0')

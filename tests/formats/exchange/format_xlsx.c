@@ -76,7 +76,7 @@ blocks_are_read(void **state)
 
     (void)state;
     assert_ptr_equal(rc_format_find(&file, NULL), &rc_format_xlsx);
-    assert_int_equal(rc_format_list(&rc_format_xlsx, &file, &rc_no_wish, channel, 4, NULL), 2);
+    assert_int_equal(list_maps(&rc_format_xlsx, &file, &rc_no_wish, channel, 4, NULL), 2);
     assert_string_equal(channel[0].name, "Map AA3:AD5"); /* the larger one */
     assert_string_equal(channel[1].name, "First B3:C6");
     g = read_well(&rc_format_xlsx, &b, 1);
@@ -142,7 +142,7 @@ numbers_above(void **state)
         struct bytes b = book(none, sheet);
         struct rc_file file = file_of(&b, "a.xlsx");
 
-        assert_int_equal(rc_format_list(&rc_format_xlsx, &file, &rc_no_wish, &channel, 1, NULL), 1);
+        assert_int_equal(list_maps(&rc_format_xlsx, &file, &rc_no_wish, &channel, 1, NULL), 1);
         assert_string_equal(channel.name, "Map AA3:AD5");
         assert_int_equal(channel.ny, 3);
         drop(&b);

@@ -13,6 +13,7 @@
 
 #include "decoders.h"
 #include "formats/format.h"
+#include "tests/formats/made/open.h"
 
 /* Permitted errors: of a number `step` times the range and `part` times the largest; of a spacing. Then the
  * smallest number of nodes of an axis whose spacing the file holds. */
@@ -101,7 +102,7 @@ compare_reader(size_t f, const struct rc_grid *g, const struct written *made)
     file.name = "made";
     if (strcmp(formats[f].name, "npy") == 0 || strcmp(formats[f].name, "xyz") == 0)
         wish = (struct rc_wish){.dx = g->dx, .dy = g->dy, .z_unit = 1};
-    if ((back = rc_format_read(reader, &file, &wish, 0, &notes, &err)) == NULL)
+    if ((back = read_map(reader, &file, &wish, 0, &notes, &err)) == NULL)
         fail_msg("%s, type %d, %zu x %zu: our reader says: %s", formats[f].name, formats[f].type,
                  g->nx, g->ny, err.text);
     m = (struct map){back->nx, back->ny, back->dx, back->dy, back->v};

@@ -41,7 +41,7 @@ try_read(const struct rc_format *format, const struct bytes *b, const struct rc_
     struct rc_notes notes = {0};
 
     err->text[0] = '\0';
-    return rc_format_read(format, &file, wish, index, &notes, err);
+    return read_map(format, &file, wish, index, &notes, err);
 }
 
 /* Saves a file in the folder FOLDER/FORMAT if RC_SEEDS=FOLDER is in the environment, as a seed for
@@ -147,8 +147,8 @@ survive_changes(const struct rc_format *format, const struct bytes *b, size_t ti
             bad.data[(seed >> 16) % b->n] =
                 seed & 1 ? nasty[(seed >> 1) % sizeof nasty] : (unsigned char)(seed >> 8);
         }
-        rc_format_score(format, &file);
-        n = rc_format_list(format, &file, &rc_no_wish, channel, 8, &err);
+        rc_format_find(&file, NULL);
+        n = list_maps(format, &file, &rc_no_wish, channel, 8, &err);
         assert_true(n > 0 || err.text[0] != '\0');
         g = try_read(format, &bad, &rc_no_wish, 0, &err);
         if (g == NULL && err.text[0] == '\0')

@@ -14,6 +14,7 @@
 #include "formats/export.h"
 #include "formats/format.h"
 #include "tests/exact.h"
+#include "tests/formats/made/open.h"
 
 /* ---- bytes.c: a growing array of bytes ---- */
 

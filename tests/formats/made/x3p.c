@@ -108,7 +108,7 @@ read_with(const struct rc_file *file, const struct rc_wish *wish, struct rc_note
 {
     *notes = (struct rc_notes){0};
     err->text[0] = '\0';
-    return rc_format_read(&rc_format_x3p, file, wish, 0, notes, err);
+    return read_map(&rc_format_x3p, file, wish, 0, notes, err);
 }
 
 struct rc_grid *

@@ -54,7 +54,7 @@ plux_is_read(void **state)
 
     (void)state;
     assert_ptr_equal(rc_format_find(&file, NULL), &rc_format_plux);
-    assert_int_equal(rc_format_list(&rc_format_plux, &file, &rc_no_wish, channel, 4, NULL), 2);
+    assert_int_equal(list_maps(&rc_format_plux, &file, &rc_no_wish, channel, 4, NULL), 2);
     assert_string_equal(channel[1].name, "Layer 1");
     for (size_t layer = 0; layer < 2; layer++) {
         for (size_t k = 0; k < 6; k++)

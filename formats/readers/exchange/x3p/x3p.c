@@ -45,8 +45,10 @@ find_main(const struct rc_zip_read *a, size_t *member, char prefix[RC_X3P_NAME])
 }
 
 static void
-x3p_close(struct rc_x3p *x)
+x3p_close(void *opened)
 {
+    struct rc_x3p *x = opened;
+
     rc_zip_read_free(x->archive);
     free(x->list);
     for (size_t f = 0; f < RC_X3P_FIELDS; f++)
@@ -56,7 +58,6 @@ x3p_close(struct rc_x3p *x)
 static enum rc_status
 x3p_open(struct rc_x3p *x, const struct rc_file *file, struct rc_err *err)
 {
-    *x = (struct rc_x3p){0};
     if ((x->archive = rc_zip_read_new(file, err)) == NULL)
         return RC_FAIL;
     if (!find_main(x->archive, &x->main, x->prefix))
@@ -117,25 +118,17 @@ lay_nodes(struct rc_x3p *x, const struct rc_file *file, const struct rc_wish *wi
 static enum rc_status
 fill_heights(const struct rc_file *file, const struct rc_map *map, double *v, struct rc_err *err)
 {
-    struct rc_x3p x;
-    enum rc_status status = x3p_open(&x, file, err);
-    size_t points = 0;
+    struct rc_x3p *x = map->opened;
 
-    if (status == RC_OK && !x.absolute && x.binary)
-        status = rc_x3p_find_points(&x, &points, err);
-    if (status == RC_OK) {
-        rc_x3p_check_main(&x, map->notes);
-        if (x.old_root)
-            rc_note(map->notes,
-                    "the root of its main.xml is ISO5436, where the standard has ISO5436_2: it "
-                    "is read as if it were that");
-        if (x.turned)
-            rc_note(map->notes, "the file turns its axes by a rotation matrix: it is not applied");
-        status = x.absolute ? lay_nodes(&x, file, map->wish, v, map->notes, err)
-                            : rc_x3p_values(&x, file, points, v, map->notes, err);
-    }
-    x3p_close(&x);
-    return status;
+    rc_x3p_check_main(x, map->notes);
+    if (x->old_root)
+        rc_note(map->notes,
+                "the root of its main.xml is ISO5436, where the standard has ISO5436_2: it "
+                "is read as if it were that");
+    if (x->turned)
+        rc_note(map->notes, "the file turns its axes by a rotation matrix: it is not applied");
+    return x->absolute ? lay_nodes(x, file, map->wish, v, map->notes, err)
+                       : rc_x3p_values(x, file, x->points, v, map->notes, err);
 }
 
 static void
@@ -157,20 +150,15 @@ add_map(const struct rc_x3p *x, struct rc_maps *maps)
 static enum rc_status
 x3p_find(const struct rc_file *file, struct rc_maps *maps, struct rc_err *err)
 {
-    struct rc_x3p x;
-    enum rc_status status = x3p_open(&x, file, err);
-    size_t points;
+    struct rc_x3p *x = rc_maps_open(maps, sizeof *x, x3p_close, err);
 
-    if (status == RC_OK && x.absolute)
-        status = lay_nodes(&x, file, maps->wish, NULL, NULL, err);
-    else if (status == RC_OK && x.binary)
-        status = rc_x3p_find_points(&x, &points, err);
-    if (status == RC_OK && (x.absolute_x || x.absolute_y))
-        status = rc_x3p_axes(&x, file, NULL, NULL, err);
-    if (status == RC_OK)
-        add_map(&x, maps);
-    x3p_close(&x);
-    return status;
+    if (x == NULL || x3p_open(x, file, err) != RC_OK ||
+        (x->absolute && lay_nodes(x, file, maps->wish, NULL, NULL, err) != RC_OK) ||
+        (!x->absolute && x->binary && rc_x3p_find_points(x, &x->points, err) != RC_OK) ||
+        ((x->absolute_x || x->absolute_y) && rc_x3p_axes(x, file, NULL, NULL, err) != RC_OK))
+        return RC_FAIL;
+    add_map(x, maps);
+    return RC_OK;
 }
 
 const struct rc_format rc_format_x3p = {

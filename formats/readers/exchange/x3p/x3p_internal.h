@@ -38,7 +38,7 @@ enum rc_x3p_field {
 
 struct rc_x3p {
     struct rc_zip_read *archive;
-    size_t main;               /* member                                                       */
+    size_t main, points;       /* members; points: where they are binary                       */
     char prefix[RC_X3P_NAME];  /* the folder that main.xml lies in, with its slash, or ""      */
     char md5[RC_MD5_TEXT];     /* MD5 of main.xml */
     char *text[RC_X3P_FIELDS]; /* NULL: not in the file                                        */

@@ -353,104 +353,65 @@ say_where(const struct block *b, struct rc_err *err)
     rc_err_set(err, "%s: %.400s", name, why);
 }
 
-/* A block as a file of text, and the map in it. */
-struct opened {
-    struct text text;
-    struct rc_file file;
-    struct rc_wish wish;
-    struct rc_maps maps;
-};
-
-static void
-opened_free(struct opened *o)
-{
-    if (o != NULL)
-        free(o->text.bytes);
-    free(o);
-}
-RC_OWNER(opened)
-
-static enum rc_status
-describe(const struct rc_workbook *w, const struct block *b, struct opened *o, struct rc_err *err)
-{
-    const struct rc_format *format;
-
-    if (make_text(w, b, &o->text, err) != RC_OK)
-        return RC_FAIL;
-    o->file = (struct rc_file){"sheet.txt", (const unsigned char *)o->text.bytes, o->text.n};
-    format = b->right - b->left < 2 ? rc_format_named("profile") : rc_format_find(&o->file, err);
-    return format == NULL ? RC_FAIL
-                          : rc_maps_describe(format->find, &o->file, &o->wish, &o->maps, err);
-}
-
-/* NULL with the reason. */
-static struct opened *
-open_block(const struct rc_workbook *w, const struct block *b, const struct rc_wish *wish,
-           struct rc_err *err)
-{
-    RC_OWN(opened, o) = calloc(1, sizeof *o);
-
-    if (o == NULL)
-        return rc_err_null(err, "out of memory for a block of a workbook");
-    o->wish = *wish;
-    o->wish.separator = "\t";
-    o->wish.decimal = '.';
-    o->wish.missing = NULL;
-    if (describe(w, b, o, err) == RC_OK)
-        return rc_give(&o);
-    say_where(b, err);
-    return NULL;
-}
-
-/* A workbook and its blocks. */
+/* A workbook and its blocks, each as a file of text and the maps in it. */
 struct book {
     struct rc_workbook workbook;
     struct columns columns;
     struct blocks blocks;
+    struct rc_wish wish;
+    struct opened {
+        struct text text;
+        struct rc_file file;
+        struct rc_maps *maps;
+    } opened[BLOCKS_MOST];
 };
 
 static void
-book_free(struct book *k)
+book_close(void *opened)
 {
-    if (k != NULL)
-        rc_workbook_free(&k->workbook);
-    free(k);
-}
-RC_OWNER(book)
+    struct book *k = opened;
 
-/* NULL with the reason. */
-static struct book *
-book_new(const struct rc_file *file, struct rc_err *err)
-{
-    RC_OWN(book, k) = calloc(1, sizeof *k);
-
-    if (k == NULL)
-        return rc_err_null(err, "out of memory for reading a workbook");
-    if (rc_workbook_read(&k->workbook, file, err) != RC_OK)
-        return NULL;
-    for (size_t s = 0; s < k->workbook.sheets; s++) {
-        find_runs(&k->workbook.sheet[s], &k->columns);
-        find_blocks(&k->workbook.sheet[s], &k->columns, &k->blocks);
+    for (size_t n = 0; n < BLOCKS_MOST; n++) {
+        rc_maps_free(k->opened[n].maps);
+        free(k->opened[n].text.bytes);
     }
-    return rc_give(&k);
+    rc_workbook_free(&k->workbook);
+}
+
+/* Opens block n as text. */
+static enum rc_status
+open_block(struct book *k, size_t n, struct rc_err *err)
+{
+    const struct block *b = &k->blocks.block[n];
+    struct opened *o = &k->opened[n];
+
+    if (make_text(&k->workbook, b, &o->text, err) == RC_OK) {
+        o->file = (struct rc_file){"sheet.txt", (const unsigned char *)o->text.bytes, o->text.n};
+        o->maps = rc_format_open(b->right - b->left < 2 ? rc_format_named("profile") : NULL,
+                                 &o->file, &k->wish, err);
+    }
+    if (o->maps != NULL)
+        return RC_OK;
+    free(o->text.bytes);
+    o->text.bytes = NULL;
+    say_where(b, err);
+    return RC_FAIL;
 }
 
 static enum rc_status
 fill_block(const struct rc_file *file, const struct rc_map *map, double *v, struct rc_err *err)
 {
-    RC_OWN(book, k) = book_new(file, err);
-    RC_OWN(opened, o) =
-        k == NULL ? NULL : open_block(&k->workbook, &k->blocks.block[map->more], map->wish, err);
-    enum rc_status status = RC_FAIL;
+    struct book *k = map->opened;
+    struct opened *o = &k->opened[map->more];
+    struct rc_map *inner = &o->maps->map[0];
+    enum rc_status status;
 
-    if (o != NULL) {
-        struct rc_map *inner = &o->maps.map[0];
-
-        inner->wish = &o->wish;
-        inner->notes = map->notes;
-        if ((status = inner->fill(&o->file, inner, v, err)) != RC_OK)
-            say_where(&k->blocks.block[map->more], err);
-    }
+    (void)file;
+    inner->opened = o->maps->opened;
+    inner->wish = &k->wish;
+    inner->notes = map->notes;
+    if ((status = inner->fill(&o->file, inner, v, err)) != RC_OK)
+        say_where(&k->blocks.block[map->more], err);
     return status;
 }
 
@@ -459,25 +420,32 @@ static enum rc_status
 xlsx_find(const struct rc_file *file, struct rc_maps *maps, struct rc_err *err)
 {
     struct rc_err why = {""}, first = {"the workbook has no column of numbers"};
-    RC_OWN(book, k) = book_new(file, err);
+    struct book *k = rc_maps_open(maps, sizeof *k, book_close, err);
 
-    for (size_t n = 0; k != NULL && n < k->blocks.n; n++) {
-        const struct block *b = &k->blocks.block[n];
-        RC_OWN(opened, o) = open_block(&k->workbook, b, maps->wish, &why);
-        struct rc_map *map = o == NULL ? NULL : rc_maps_add(maps, rc_piece_of(""));
+    if (k == NULL || rc_workbook_read(&k->workbook, file, err) != RC_OK)
+        return RC_FAIL;
+    for (size_t s = 0; s < k->workbook.sheets; s++) {
+        find_runs(&k->workbook.sheet[s], &k->columns);
+        find_blocks(&k->workbook.sheet[s], &k->columns, &k->blocks);
+    }
+    k->wish = *maps->wish;
+    k->wish.separator = "\t";
+    k->wish.decimal = '.';
+    k->wish.missing = NULL;
+    for (size_t n = 0; n < k->blocks.n; n++) {
+        bool opened = open_block(k, n, &why) == RC_OK;
+        struct rc_map *map = opened ? rc_maps_add(maps, rc_piece_of("")) : NULL;
 
         if (n == 0)
             first = why;
         if (map == NULL)
             continue;
-        *map = o->maps.map[0];
-        block_name(b, map->name);
+        *map = k->opened[n].maps->map[0];
+        block_name(&k->blocks.block[n], map->name);
         map->fill = fill_block;
         map->more = n;
     }
-    if (k != NULL && maps->n == 0)
-        rc_err_set(err, "%s", first.text);
-    return maps->n > 0 ? RC_OK : RC_FAIL;
+    return maps->n > 0 ? RC_OK : rc_err_set(err, "%s", first.text);
 }
 
 const struct rc_format rc_format_xlsx = {
