@@ -112,7 +112,7 @@ is_told(const struct tool *t, size_t k)
 static void
 add_option(struct line *line, const struct tool *t, const struct opt *o)
 {
-    const void *at = (const char *)t->args + o->at;
+    const void *at = tool_value(t, o);
 
     if (o->type == OPT_STEP || o->type == OPT_TEXTS) {
         add_steps(line, at);

@@ -47,16 +47,20 @@ static const char letters[] = ":o:h"; /* one-letter options for getopt */
 /* ---- the table ---- */
 
 static void
-add_rows(struct tool *t, const struct opt *table, size_t at)
+add_rows(struct tool *t, const struct opt *table, void *base, size_t at)
 {
     for (const struct opt *o = table; o->name != NULL || o->group != NULL; o++) {
+        struct opt row = *o;
+        if (row.base == NULL) {
+            row.base = base;
+            row.at += at;
+        }
         if (o->group != NULL) {
-            add_rows(t, o->group, at + o->at);
+            add_rows(t, o->group, row.base, row.at);
             continue;
         }
         assert(t->option.n < TOOL_OPTIONS);
-        t->option.row[t->option.n] = *o;
-        t->option.row[t->option.n++].at += at;
+        t->option.row[t->option.n++] = row;
     }
 }
 
@@ -304,10 +308,8 @@ set_list(struct tool *t, const struct opt *o, struct numbers *list, const char *
 }
 
 static void
-set_value(struct tool *t, const struct opt *o, void *base, const char *text)
+set_value(struct tool *t, const struct opt *o, void *at, const char *text)
 {
-    void *at = (char *)base + o->at;
-
     switch (o->type) {
     case OPT_FLAG:
         *(bool *)at = true;
@@ -356,7 +358,7 @@ set_common(struct tool *t, const struct opt *o, const char *text)
         t->output.type_given = true;
         t->output.type = strcmp(choice(t, o, text), "f32") == 0 ? RC_F32 : RC_F64;
     } else {
-        set_value(t, o, t, text);
+        set_value(t, o, (char *)t + o->at, text);
     }
 }
 
@@ -492,7 +494,7 @@ warn_of_commas(struct tool *t)
         const struct numbers *list;
         if (text == NULL || o->whole || !unit_decimal_comma(text))
             continue;
-        list = (const void *)((const char *)t->args + o->at);
+        list = tool_value(t, o);
         comma = strchr(text, ',');
         tool_warn(t, "--%s %s: two values, %g%s%s and %g%s%s: for one number write %.*s.%s",
                   o->name, text, list->v[0], blank, unit, list->v[1], blank, unit,
@@ -553,7 +555,7 @@ options_read(struct tool *t, int argc, char **argv)
     const char *text;
     int what;
 
-    add_rows(t, t->info->opts, 0);
+    add_rows(t, t->info->opts, NULL, 0);
     /* for the build, which installs completions; not in the table and not in --help */
     if (argc == 3 && strcmp(argv[1], "--completions") == 0 && completions_print(t, argv[2]))
         exit(fflush(stdout) == 0 ? 0 : EXIT_IMPOSSIBLE);
@@ -577,7 +579,8 @@ options_read(struct tool *t, int argc, char **argv)
             text = optional_argument_of(&t->option.row[what - OWN], argc, argv);
             if (text != NULL || !t->option.row[what - OWN].optional ||
                 t->option.row[what - OWN].type == OPT_CHOICE)
-                set_value(t, &t->option.row[what - OWN], t->args, text);
+                set_value(t, &t->option.row[what - OWN], tool_value(t, &t->option.row[what - OWN]),
+                          text);
         } else {
             bad_option(t, what, argv, table);
         }

@@ -40,7 +40,7 @@ reports_to_output(const struct tool *t)
 {
     for (size_t k = 0; k < t->option.n; k++)
         if (t->option.row[k].type == OPT_REPORT && t->option.given[k] &&
-            strcmp(*(const char *const *)((const char *)t->args + t->option.row[k].at), "-") == 0)
+            strcmp(*(const char *const *)tool_value(t, &t->option.row[k]), "-") == 0)
             return true;
     return false;
 }

@@ -59,10 +59,12 @@ struct opt {
     enum opt_type type;
     enum unit unit;
     size_t at;       /* offsetof the value in the tool's args                              */
+    void *base;      /* or in this object; NULL: in the args                               */
     double min, max; /* bounds of each number, checked if min < max                        */
     bool above;      /* min itself is out of bounds                                        */
     bool real;       /* OPT_STEP without a unit: not only whole numbers                    */
     bool result;     /* changes the result: goes into the history and the marks of a checkpoint */
+    bool points;     /* its values are points of a history, which have marks of their own  */
     bool text;       /* with this option the tool writes text                              */
     bool optional;   /* the argument may be omitted: OPT_NUMBER then keeps the default,
                         OPT_CHOICE gets "" */
@@ -75,7 +77,8 @@ struct opt {
     const char *arg;  /* the name of the argument in --help: "FORCE"; NULL: no argument */
     const char *help; /* one line; %s is replaced by the words                */
     const void *of;   /* further data of the tool */
-    /* A row without a name: the rows of this table, whose .at are relative to that of the row. */
+    /* A row without a name: the rows of this table, whose .at are relative to that of the row, if they have
+     * no .base. */
     const struct opt *group;
 };
 
@@ -201,6 +204,12 @@ struct tool {
 /* Reads the command line into args (the struct of the table's offsets, which holds the defaults), handles
  * --help and --version, and opens the output. Does not return on failure. */
 void tool_start(struct tool *tool, const struct tool_info *info, int argc, char **argv, void *args);
+/* Where the value of an option of the tool is. */
+static inline void *
+tool_value(const struct tool *tool, const struct opt *o)
+{
+    return (char *)(o->base != NULL ? o->base : tool->args) + o->at;
+}
 /* True if an option of the tool's own table was given. */
 bool tool_given(const struct tool *tool, const char *name);
 /* This tool's line for the history of a stream: name, version, the options that change the result, in SI.

@@ -34,22 +34,22 @@ static const char *
 name_of(const struct drive *d, const struct drive_axis *axis)
 {
     for (size_t k = 0; k < d->t.option.n; k++)
-        if ((const char *)d->t.args + d->t.option.row[k].at == (const char *)axis->list)
+        if (tool_value(&d->t, &d->t.option.row[k]) == (const void *)axis->list)
             return d->t.option.row[k].name;
     return rc_axis_info(axis->axis)->name;
 }
 
-static void
-make_points(struct drive *d)
+void
+drive_make_points(struct drive *d, const struct drive_axis *axes)
 {
-    const struct drive_axis *longest = d->axes;
+    const struct drive_axis *longest = axes;
 
-    for (const struct drive_axis *a = d->axes; a->list != NULL; a++)
+    for (const struct drive_axis *a = axes; a->list != NULL; a++)
         if (a->list->n > longest->list->n)
             longest = a;
     d->points = longest->list->n;
     d->point = tool_room(&d->t, d->points, sizeof *d->point, "the points");
-    for (const struct drive_axis *a = d->axes; a->list != NULL; a++) {
+    for (const struct drive_axis *a = axes; a->list != NULL; a++) {
         if (a->list->n > 1 && a->list->n < d->points)
             tool_usage(
                 &d->t,
@@ -67,7 +67,7 @@ drive_open(struct drive *d, const struct drive_axis *axes)
     if ((d->args->resume || tool_given(&d->t, "interval")) && d->args->checkpoint == NULL)
         tool_usage(&d->t, "--resume and --interval need --checkpoint FILE");
     if (axes != NULL)
-        make_points(d);
+        drive_make_points(d, axes);
     d->course.t = &d->t;
     report_open(&d->report, &d->t, d->args->report);
     if (!d->args->dry_run)
@@ -174,7 +174,7 @@ mark_case(struct drive *d)
         return;
     for (size_t k = 0; k < d->t.option.n; k++) {
         const struct opt *o = &d->t.option.row[k];
-        if (o->result && !is_axis(d, o->name) && !is_among(o->name, d->changeable))
+        if (o->result && !o->points && !is_axis(d, o->name) && !is_among(o->name, d->changeable))
             course_mark(
                 c, d->bound != NULL && strcmp(o->name, d->bound) == 0 ? MARK_BOUND : MARK_OPTION,
                 o->name, tool_result_value(&d->t, k));

@@ -179,6 +179,8 @@ struct drive {
 /* Ends the tool where options contradict each other; the lists must have the same length, or one number. axes
  * NULL: the tool makes the points. */
 void drive_open(struct drive *d, const struct drive_axis *axes);
+/* The points of lists, for a tool that makes them in each case; the caller frees d->point. */
+void drive_make_points(struct drive *d, const struct drive_axis *axes);
 /* The next height map; NULL: none, or a signal came. */
 struct rc_grid *drive_next(struct drive *d);
 /* Leads the model, which it frees, through the points. m NULL: ends the tool with the error. */
