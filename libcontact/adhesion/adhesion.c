@@ -374,7 +374,7 @@ coarse_range(const struct rc_adhesion_solver *fine, const struct rc_adhesion_pro
              const struct rc_shape *shape)
 {
     const double length = sqrt(shape->dx) * sqrt(shape->dy);
-    const struct rc_adhesion_law *law = fine->gap.law.law;
+    const struct rc_adhesion_law *law = fine->gap.problem.law.law;
     double modulus, diagonal, least;
 
     if (rc_whole_scales(shape, &p->contact.pair, &modulus, &diagonal, NULL) != RC_OK)
@@ -397,7 +397,7 @@ coarse_new(const struct rc_adhesion_solver *fine, const struct rc_adhesion_probl
         shape.nx * shape.ny < COARSEST)
         return NULL;
     p.range = coarse_range(fine, problem, &shape);
-    if (!fine->gap.law.law->info.ranged) /* the first law, with a range of its own */
+    if (!fine->gap.problem.law.law->info.ranged) /* the first law, with a range of its own */
         p.law = NULL;
     if (p.contact.hardness_map != NULL) {
         if ((hards = rc_alloc(shape.nx * shape.ny, sizeof *hards)) == NULL)
@@ -457,8 +457,8 @@ most_load(const struct rc_adhesion_solver *a)
     double sum = 0;
 
     for (size_t k = 0; k < n; k++) {
-        double hard = a->gap.hards != NULL ? a->gap.hards[k] : a->gap.hard;
-        sum += fmax(hard - a->gap.law.strength, 0);
+        double hard = a->gap.problem.hards != NULL ? a->gap.problem.hards[k] : a->gap.problem.hard;
+        sum += fmax(hard - a->gap.problem.law.strength, 0);
     }
     return sum * a->whole->modulus * a->shape.dx * a->shape.dy;
 }
@@ -466,7 +466,7 @@ most_load(const struct rc_adhesion_solver *a)
 enum rc_status
 rc_adhesion_solver_set_load(struct rc_adhesion_solver *a, double load, struct rc_err *err)
 {
-    double cell = a->shape.dx * a->shape.dy, most = a->gap.yields ? most_load(a) : INFINITY;
+    double cell = a->shape.dx * a->shape.dy, most = a->gap.problem.yields ? most_load(a) : INFINITY;
 
     if (!isfinite(load))
         return rc_err_set(err, "load %g N: it must be finite", load);
@@ -477,7 +477,7 @@ rc_adhesion_solver_set_load(struct rc_adhesion_solver *a, double load, struct rc
             "the map carries only %.9g N: lower the load or raise the hardness",
             load, a->scales.strength, most);
     a->pull.on = false;
-    set(a, RC_GAP_LOAD, load / cell / a->whole->modulus / (double)a->gap.n);
+    set(a, RC_GAP_LOAD, load / cell / a->whole->modulus / (double)a->gap.problem.n);
     return RC_OK;
 }
 
@@ -548,7 +548,8 @@ estimate(const struct rc_adhesion_solver *a)
 static bool
 ends(const struct rc_adhesion_solver *a)
 {
-    return a->gap.told.vanishes || own_error(a) <= (a->gap.yields ? yielding_part : 1) * a->tol;
+    return a->gap.told.vanishes ||
+           own_error(a) <= (a->gap.problem.yields ? yielding_part : 1) * a->tol;
 }
 
 /* Poses the first state on the coarser grid. */
@@ -560,8 +561,8 @@ begin_coarse(struct rc_adhesion_solver *a)
     const double units =
         a->control != RC_GAP_LOAD
             ? ratio
-            : a->whole->modulus * (double)a->gap.n * a->shape.dx * a->shape.dy /
-                  (c->whole->modulus * (double)c->gap.n * c->shape.dx * c->shape.dy);
+            : a->whole->modulus * (double)a->gap.problem.n * a->shape.dx * a->shape.dy /
+                  (c->whole->modulus * (double)c->gap.problem.n * c->shape.dx * c->shape.dy);
 
     sample(&a->shape, a->h, ratio, c->h);
     c->mean_h = rc_sum(c->h, c->shape.nx * c->shape.ny) / (double)(c->shape.nx * c->shape.ny);
@@ -592,7 +593,7 @@ begin_part(struct rc_adhesion_solver *a)
     rc_gap_begin(&a->gap, a->control, a->way.to);
     if (freezes(a))
         rc_gap_freeze(&a->gap, true);
-    a->gap.convolutions += a->way.convolutions;
+    a->gap.run.convolutions += a->way.convolutions;
     a->stage = STAGE_DOWN;
 }
 
@@ -641,9 +642,9 @@ loss(struct rc_adhesion_solver *a, double *most)
 static void
 spend(struct rc_adhesion_solver *a)
 {
-    a->way.iterations += a->gap.iterations;
+    a->way.iterations += a->gap.run.iterations;
     a->way.eigen_steps += a->gap.mode.steps;
-    a->way.convolutions = a->gap.convolutions;
+    a->way.convolutions = a->gap.run.convolutions;
     a->way.parts++;
 }
 
@@ -679,7 +680,8 @@ go_further(struct rc_adhesion_solver *a)
 static enum rc_status
 finish(struct rc_adhesion_solver *a, bool converged)
 {
-    const double part = fabs(a->way.to - a->way.start.given), longest = most_way * a->gap.law.range;
+    const double part = fabs(a->way.to - a->way.start.given),
+                 longest = most_way * a->gap.problem.law.range;
 
     a->stage = STAGE_DONE;
     a->gap.frozen.on = false;
@@ -706,9 +708,9 @@ finish(struct rc_adhesion_solver *a, bool converged)
 static double
 convolutions(const struct rc_adhesion_solver *a)
 {
-    return a->stage != STAGE_COARSE
-               ? a->gap.convolutions
-               : convolutions(a->coarse) * (double)a->coarse->gap.n / (double)a->gap.n;
+    return a->stage != STAGE_COARSE ? a->gap.run.convolutions
+                                    : convolutions(a->coarse) * (double)a->coarse->gap.problem.n /
+                                          (double)a->gap.problem.n;
 }
 
 /* The state on the coarser grid is the start on this grid. Bodies that separate there start as without it. */
@@ -723,12 +725,12 @@ end_coarse(struct rc_adhesion_solver *a)
     sum = convolutions(a);
     if (!c->separated) {
         rc_gap_refine(&a->gap, &c->gap);
-        a->gap.control = a->control;
-        a->gap.given = a->given;
+        a->gap.set.control = a->control;
+        a->gap.set.given = a->given;
     }
     free_coarse(a);
     begin(a);
-    a->gap.convolutions += sum;
+    a->gap.run.convolutions += sum;
 }
 
 static void
@@ -745,7 +747,7 @@ static enum rc_status
 descend(struct rc_adhesion_solver *a)
 {
     move(a);
-    if (!a->gap.parting)
+    if (!a->gap.run.parting)
         return RC_MORE;
     a->separated = true;
     return finish(a, false);
@@ -759,7 +761,7 @@ thaws(struct rc_adhesion_solver *a)
     const struct way *w = &a->way;
 
     if (g->frozen.on && w->turns > 0 && w->turn == 0)
-        g->frozen.on = !(g->told.error <= near || g->stuck || w->turns == TURNS);
+        g->frozen.on = !(g->told.error <= near || g->run.stuck || w->turns == TURNS);
     return !g->frozen.on;
 }
 
@@ -772,13 +774,13 @@ turn(struct rc_adhesion_solver *a)
 
     if (w->turn == 0)
         w->turn = g->told.error;
-    else if (g->stuck || g->told.error <= turned * w->turn) {
+    else if (g->run.stuck || g->told.error <= turned * w->turn) {
         rc_gap_freeze(g, false);
         w->turns++;
         w->turn = 0;
         return RC_MORE;
     }
-    return g->iterations < a->max_iterations ? descend(a) : finish(a, false);
+    return g->run.iterations < a->max_iterations ? descend(a) : finish(a, false);
 }
 
 static enum rc_status
@@ -790,7 +792,7 @@ down(struct rc_adhesion_solver *a)
     if (!thaws(a))
         return turn(a);
     a->hidden = a->judged > 0 ? rc_gap_soft_error(g) : 0;
-    if (a->rough && (g->told.error <= coarse_tol || g->stuck))
+    if (a->rough && (g->told.error <= coarse_tol || g->run.stuck))
         return finish(a, true);
     if (ends(a)) {
         rc_gap_look_along(g);
@@ -802,14 +804,14 @@ down(struct rc_adhesion_solver *a)
         a->judged = 0;
         a->softness = INFINITY;
     }
-    if (a->below >= BELOW || g->stuck) {
+    if (a->below >= BELOW || g->run.stuck) {
         if (a->judged > 0)
             return finish(a, a->gap.told.vanishes || estimate(a) <= a->tol);
         rc_gap_eigen_begin(g);
         a->stage = STAGE_EIGEN;
         return RC_MORE;
     }
-    if (g->iterations >= a->max_iterations)
+    if (g->run.iterations >= a->max_iterations)
         return finish(a, false);
     return descend(a);
 }
@@ -839,7 +841,7 @@ eigen(struct rc_adhesion_solver *a)
     }
     if (negative)
         return finish(a, false);
-    if (ends(a) || g->stuck)
+    if (ends(a) || g->run.stuck)
         return finish(a, a->gap.told.vanishes || estimate(a) <= a->tol);
     if (a->hidden > softest(a) * g->told.error) /* most of the error is along the softest mode */
         rc_gap_turn(g);
@@ -886,19 +888,19 @@ place_of(struct rc_adhesion_solver *a)
 static void
 copy_gap(const struct rc_adhesion_solver *a, double *to, const double *from)
 {
-    memcpy(to, from, a->gap.n * sizeof *to);
+    memcpy(to, from, a->gap.problem.n * sizeof *to);
 }
 
 /* Makes the next state start from this gap, which belongs to c. */
 static void
 put_back(struct rc_adhesion_solver *a, const double *gap, double c)
 {
-    copy_gap(a, a->gap.x, gap);
+    copy_gap(a, a->gap.maps.x, gap);
     a->gap.mode.known = false; /* its softest mode belongs to another gap */
     a->way.steady = false;
     set_shift(a, c);
-    a->gap.control = a->control;
-    a->gap.given = a->given;
+    a->gap.set.control = a->control;
+    a->gap.set.given = a->given;
 }
 
 enum rc_status
@@ -910,19 +912,19 @@ rc_adhesion_solver_pull_off(struct rc_adhesion_solver *a, struct rc_err *err)
         return rc_err_set(
             err, "a retraction needs a state to start from: set a load or an approach first");
     for (size_t k = 0; k < RC_RETRACTION_KEPT; k++) {
-        double *kept = p->kept[k] != NULL ? p->kept[k] : rc_alloc(a->gap.n, sizeof *kept);
+        double *kept = p->kept[k] != NULL ? p->kept[k] : rc_alloc(a->gap.problem.n, sizeof *kept);
         if (kept == NULL)
-            return rc_err_set(err, "out of memory for a retraction of %zu nodes", a->gap.n);
+            return rc_err_set(err, "out of memory for a retraction of %zu nodes", a->gap.problem.n);
         p->kept[k] = kept;
     }
-    if (a->gap.yields)
+    if (a->gap.problem.yields)
         rc_adhesion_solver_keep_shape(a, NULL);
     p->on = true;
     p->short_of = false;
     p->iterations = p->eigen_steps = p->jumps = 0;
     p->convolutions = 0;
-    rc_retraction_begin(&p->search, a->gap.law.work, a->gap.law.range,
-                        20 * a->gap.law.range - a->mean_h);
+    rc_retraction_begin(&p->search, a->gap.problem.law.work, a->gap.problem.law.range,
+                        20 * a->gap.problem.law.range - a->mean_h);
     p->start = rc_gap_shift(&a->gap);
     set_shift(a, p->start);
     return RC_OK;
@@ -967,7 +969,7 @@ end_retraction(struct rc_adhesion_solver *a)
     f->jumps = p->jumps;
     f->iterations = p->iterations;
     f->eigen_steps = p->eigen_steps;
-    f->convolutions = p->convolutions + a->gap.convolutions;
+    f->convolutions = p->convolutions + a->gap.run.convolutions;
     f->converged = converged;
     return converged ? RC_OK : RC_SHORT;
 }
@@ -984,7 +986,7 @@ go_on(struct rc_adhesion_solver *a)
     count(a);
     more = rc_retraction_next(r, here);
     if (r->keep >= 0)
-        copy_gap(a, p->kept[r->keep], a->gap.x);
+        copy_gap(a, p->kept[r->keep], a->gap.maps.x);
     if (r->is_lowest)
         p->found = a->figures;
     if (!more)
@@ -1033,53 +1035,64 @@ at_edge(const struct rc_adhesion_solver *a)
 
     if (a->whole->boundary == RC_PERIODIC)
         return 0;
-    for (size_t j = 0; j < g->ny; j++)
-        for (size_t i = 0; i < g->nx; i++)
-            if ((g->ny > 1 && (j == 0 || j + 1 == g->ny)) ||
-                (g->nx > 1 && (i == 0 || i + 1 == g->nx)))
-                nearest = fmin(nearest, g->x[j * g->px + i]);
+    for (size_t j = 0; j < g->problem.ny; j++)
+        for (size_t i = 0; i < g->problem.nx; i++)
+            if ((g->problem.ny > 1 && (j == 0 || j + 1 == g->problem.ny)) ||
+                (g->problem.nx > 1 && (i == 0 || i + 1 == g->problem.nx)))
+                nearest = fmin(nearest, g->maps.x[j * g->problem.px + i]);
     if (isinf(nearest))
         return 0;
     nearest = fmax(nearest, 0);
-    g->law.law->at(&g->law, 1, &nearest, &v, &s, &d);
-    return s / g->law.strength;
+    g->problem.law.law->at(&g->problem.law, 1, &nearest, &v, &s, &d);
+    return s / g->problem.law.strength;
 }
 
+/* Sums over the map, and largest values. */
 enum {
-    MOST = RC_GAP_MOST
+    OF_PRESSURE,
+    OF_TRACTION,
+    OF_TRACTION_AREA, /* nodes with a traction above 1 % of the strength */
+    OF_CONTACT,       /* nodes */
+    OF_YIELD,         /* nodes with a gap below 0 */
+    OF_GAP,
+    MOST_PRESSURE = RC_GAP_MOST,
+    MOST_TENSION,
+    MOST_WRONG,     /* violation of the conditions of contact */
+    MOST_GAP_CHANGE /* correction of the gap */
 };
 
-/* The sums of a row are: p, sigma, the area of sigma, nodes in contact, nodes below 0, the gap. Largest
- * values: p, -p, violation, correction of the gap. */
 static void
 figures_row(void *ctx, size_t j, double *sums)
 {
     const struct rc_gap *g = ctx;
-    size_t m = rc_gap_on_map(g, j);
+    size_t m = rc_gap_on_map(&g->problem, j);
 
-    sums[MOST] = sums[MOST + 1] = -INFINITY;
+    sums[MOST_PRESSURE] = sums[MOST_TENSION] = -INFINITY;
     for (size_t i = 0; i < m; i += RC_GAP_LINE) {
         size_t n = m - i < RC_GAP_LINE ? m - i : RC_GAP_LINE;
-        const double *x = g->x + j * g->px + i;
+        const double *x = g->maps.x + j * g->problem.px + i;
         double v[RC_GAP_LINE], s[RC_GAP_LINE], d[RC_GAP_LINE];
-        g->law.law->at(&g->law, n, x, v, s, d);
+        g->problem.law.law->at(&g->problem.law, n, x, v, s, d);
         for (size_t k = 0; k < n; k++) {
-            double p = rc_gap_pressure_at(g, j * g->px + i + k), wrong = p + s[k];
-            double hard = g->hards != NULL ? g->hards[j * g->nx + i + k] : g->hard;
-            sums[0] += p;
-            sums[1] += s[k];
-            sums[2] += s[k] > g->law.strength / 100;
-            sums[3] += x[k] <= 0;
-            sums[4] += x[k] < 0;
-            sums[5] += x[k];
-            sums[MOST] = fmax(sums[MOST], p);
-            sums[MOST + 1] = fmax(sums[MOST + 1], -p);
+            double p = rc_gap_pressure_at(&g->set, g->maps.au, j * g->problem.px + i + k),
+                   wrong = p + s[k];
+            double hard = g->problem.hards != NULL ? g->problem.hards[j * g->problem.nx + i + k]
+                                                   : g->problem.hard;
+            sums[OF_PRESSURE] += p;
+            sums[OF_TRACTION] += s[k];
+            sums[OF_TRACTION_AREA] += s[k] > g->problem.law.strength / 100;
+            sums[OF_CONTACT] += x[k] <= 0;
+            sums[OF_YIELD] += x[k] < 0;
+            sums[OF_GAP] += x[k];
+            sums[MOST_PRESSURE] = fmax(sums[MOST_PRESSURE], p);
+            sums[MOST_TENSION] = fmax(sums[MOST_TENSION], -p);
             if (x[k] < 0)
                 wrong -= hard;
             else if (x[k] == 0)
                 wrong = fmin(wrong, 0) + fmax(wrong - hard, 0);
-            sums[MOST + 2] = fmax(sums[MOST + 2], fabs(wrong));
-            sums[MOST + 3] = fmax(sums[MOST + 3], fabs(g->z[j * g->px + i + k]));
+            sums[MOST_WRONG] = fmax(sums[MOST_WRONG], fabs(wrong));
+            sums[MOST_GAP_CHANGE] =
+                fmax(sums[MOST_GAP_CHANGE], fabs(g->maps.z[j * g->problem.px + i + k]));
         }
     }
 }
@@ -1098,29 +1111,29 @@ find_figures(struct rc_adhesion_solver *a)
                                     .states = 1,
                                     .edge_traction = at_edge(a)};
     rc_sums_rows(&g->sums, figures_row, g, sums);
-    f->load = sums[0] * e * cell;
-    f->mean_pressure = sums[0] * e / nodes;
-    f->attractive_load = sums[1] * e * cell;
-    f->repulsive_load = (sums[0] + sums[1]) * e * cell;
-    f->attractive_area = sums[2] * cell;
-    f->contact_nodes = (size_t)sums[3];
-    f->contact_area = sums[3] * cell;
-    f->contact_fraction = sums[3] / nodes;
-    f->plastic_nodes = (size_t)sums[4];
-    f->plastic_area = sums[4] * cell;
-    f->mean_gap = sums[5] * a->whole->length / nodes;
-    f->max_pressure = sums[MOST] * e;
-    f->min_pressure = -sums[MOST + 1] * e;
-    f->kkt_residual = sums[MOST + 2] / g->law.strength;
-    f->gap_error = sums[MOST + 3] * a->whole->length;
+    f->load = sums[OF_PRESSURE] * e * cell;
+    f->mean_pressure = sums[OF_PRESSURE] * e / nodes;
+    f->attractive_load = sums[OF_TRACTION] * e * cell;
+    f->repulsive_load = (sums[OF_PRESSURE] + sums[OF_TRACTION]) * e * cell;
+    f->attractive_area = sums[OF_TRACTION_AREA] * cell;
+    f->contact_nodes = (size_t)sums[OF_CONTACT];
+    f->contact_area = sums[OF_CONTACT] * cell;
+    f->contact_fraction = sums[OF_CONTACT] / nodes;
+    f->plastic_nodes = (size_t)sums[OF_YIELD];
+    f->plastic_area = sums[OF_YIELD] * cell;
+    f->mean_gap = sums[OF_GAP] * a->whole->length / nodes;
+    f->max_pressure = sums[MOST_PRESSURE] * e;
+    f->min_pressure = -sums[MOST_TENSION] * e;
+    f->kkt_residual = sums[MOST_WRONG] / g->problem.law.strength;
+    f->gap_error = sums[MOST_GAP_CHANGE] * a->whole->length;
     f->approach = rc_gap_shift(g) * a->whole->length;
     f->stability = a->judged > 0 ? softest(a) : NAN;
     f->stable = a->judged > 0 && softest(a) > 0;
     f->separated = a->separated;
     f->jumps = a->jumps;
-    f->iterations = a->way.iterations + g->iterations;
+    f->iterations = a->way.iterations + g->run.iterations;
     f->eigen_steps = a->way.eigen_steps + g->mode.steps;
-    f->convolutions = g->convolutions;
+    f->convolutions = g->run.convolutions;
     f->pressure_error = isinf(g->told.error) ? NAN : estimate(a);
     f->inherited_error = inherited_error(a);
     f->converged = a->converged;
@@ -1134,7 +1147,7 @@ rc_adhesion_solver_result(struct rc_adhesion_solver *a)
         end_coarse(a);
         rc_gap_look(&a->gap);
     }
-    if (!a->fresh && a->gap.iterations > 0)
+    if (!a->fresh && a->gap.run.iterations > 0)
         find_figures(a);
     return &a->figures;
 }
@@ -1142,20 +1155,22 @@ rc_adhesion_solver_result(struct rc_adhesion_solver *a)
 void
 rc_adhesion_solver_pressure(const struct rc_adhesion_solver *a, double *pressure)
 {
-    for (size_t j = 0; j < a->gap.ny; j++)
-        for (size_t i = 0; i < a->gap.nx; i++)
-            pressure[j * a->gap.nx + i] =
+    for (size_t j = 0; j < a->gap.problem.ny; j++)
+        for (size_t i = 0; i < a->gap.problem.nx; i++)
+            pressure[j * a->gap.problem.nx + i] =
                 a->stage == STAGE_COARSE
                     ? 0
-                    : rc_gap_pressure_at(&a->gap, j * a->gap.px + i) * a->whole->modulus;
+                    : rc_gap_pressure_at(&a->gap.set, a->gap.maps.au, j * a->gap.problem.px + i) *
+                          a->whole->modulus;
 }
 
 void
 rc_adhesion_solver_gap(const struct rc_adhesion_solver *a, double *gap)
 {
-    for (size_t j = 0; j < a->gap.ny; j++)
-        for (size_t i = 0; i < a->gap.nx; i++)
-            gap[j * a->gap.nx + i] = a->gap.x[j * a->gap.px + i] * a->whole->length;
+    for (size_t j = 0; j < a->gap.problem.ny; j++)
+        for (size_t i = 0; i < a->gap.problem.nx; i++)
+            gap[j * a->gap.problem.nx + i] =
+                a->gap.maps.x[j * a->gap.problem.px + i] * a->whole->length;
 }
 
 void
@@ -1164,10 +1179,11 @@ rc_adhesion_solver_displacement(const struct rc_adhesion_solver *a, double *disp
     const struct rc_gap *g = &a->gap;
     double c = rc_gap_shift(g);
 
-    for (size_t j = 0; j < g->ny; j++)
-        for (size_t i = 0; i < g->nx; i++)
-            displacement[j * g->nx + i] =
-                (g->x[j * g->px + i] + g->h[j * g->nx + i] + c) * a->whole->length;
+    for (size_t j = 0; j < g->problem.ny; j++)
+        for (size_t i = 0; i < g->problem.nx; i++)
+            displacement[j * g->problem.nx + i] =
+                (g->maps.x[j * g->problem.px + i] + g->problem.h[j * g->problem.nx + i] + c) *
+                a->whole->length;
 }
 
 void
@@ -1175,13 +1191,14 @@ rc_adhesion_solver_traction(const struct rc_adhesion_solver *a, double *traction
 {
     const struct rc_gap *g = &a->gap;
 
-    for (size_t j = 0; j < g->ny; j++)
-        for (size_t i = 0; i < g->nx; i += RC_GAP_LINE) {
-            size_t n = g->nx - i < RC_GAP_LINE ? g->nx - i : RC_GAP_LINE;
+    for (size_t j = 0; j < g->problem.ny; j++)
+        for (size_t i = 0; i < g->problem.nx; i += RC_GAP_LINE) {
+            size_t n = g->problem.nx - i < RC_GAP_LINE ? g->problem.nx - i : RC_GAP_LINE;
             double v[RC_GAP_LINE], d[RC_GAP_LINE];
-            g->law.law->at(&g->law, n, g->x + j * g->px + i, v, traction + j * g->nx + i, d);
+            g->problem.law.law->at(&g->problem.law, n, g->maps.x + j * g->problem.px + i, v,
+                                   traction + j * g->problem.nx + i, d);
             for (size_t k = 0; k < n; k++)
-                traction[j * g->nx + i + k] *= a->whole->modulus;
+                traction[j * g->problem.nx + i + k] *= a->whole->modulus;
         }
 }
 
@@ -1199,10 +1216,11 @@ rc_adhesion_solver_progress(const struct rc_adhesion_solver *a,
         .state = a->pull.on ? a->pull.search.states + 1 : 1,
         .coarser = at != a,
         .convolutions = convolutions(a),
-        .iterations = at->stage == STAGE_NEW ? 0 : at->way.iterations + g->iterations,
+        .iterations = at->stage == STAGE_NEW ? 0 : at->way.iterations + g->run.iterations,
         .eigenvalue = a->stage == STAGE_EIGEN,
         .load = a->control == RC_GAP_LOAD && a->held
-                    ? a->given * (double)a->gap.n * a->shape.dx * a->shape.dy * a->whole->modulus
+                    ? a->given * (double)a->gap.problem.n * a->shape.dx * a->shape.dy *
+                          a->whole->modulus
                     : NAN,
         .approach = a->control == RC_GAP_LOAD || !a->held ? NAN
                     : a->control == RC_GAP_SHIFT          ? a->given * a->whole->length
@@ -1218,9 +1236,9 @@ static void
 hold(struct rc_adhesion_solver *a, double c)
 {
     set_shift(a, c);
-    a->gap.control = a->control;
-    a->gap.given = a->given;
-    a->gap.level = 0;
+    a->gap.set.control = a->control;
+    a->gap.set.given = a->given;
+    a->gap.set.level = 0;
     a->held = false;
 }
 
@@ -1245,27 +1263,28 @@ rc_adhesion_solver_start(struct rc_adhesion_solver *a, const double *pressure, d
 
     if (!isfinite(approach))
         return rc_err_set(err, "approach %g m: it must be finite", approach);
-    for (size_t k = 0; k < g->nx * g->ny; k++)
+    for (size_t k = 0; k < g->problem.nx * g->problem.ny; k++)
         if (!isfinite(pressure[k]))
             return rc_err_set(err, "pressure %zu is not a finite number", k);
     free_coarse(a);
-    memset(g->d, 0, g->n * sizeof *g->d);
-    for (size_t j = 0; j < g->ny; j++)
-        for (size_t i = 0; i < g->nx; i++)
-            g->d[j * g->px + i] = pressure[j * g->nx + i] / a->whole->modulus;
-    rc_whole_apply(a->whole, g->d, g->x);
-    for (size_t j = 0; j < g->py; j++)
-        for (size_t i = 0; i < g->px; i++) {
-            double *x = g->x + j * g->px + i, p = g->d[j * g->px + i];
+    memset(g->maps.d, 0, g->problem.n * sizeof *g->maps.d);
+    for (size_t j = 0; j < g->problem.ny; j++)
+        for (size_t i = 0; i < g->problem.nx; i++)
+            g->maps.d[j * g->problem.px + i] = pressure[j * g->problem.nx + i] / a->whole->modulus;
+    rc_whole_apply(a->whole, g->maps.d, g->maps.x);
+    for (size_t j = 0; j < g->problem.py; j++)
+        for (size_t i = 0; i < g->problem.px; i++) {
+            double *x = g->maps.x + j * g->problem.px + i, p = g->maps.d[j * g->problem.px + i];
             *x -= c;
-            if (j >= g->ny || i >= g->nx)
+            if (j >= g->problem.ny || i >= g->problem.nx)
                 continue;
-            *x -= a->h[j * g->nx + i];
+            *x -= a->h[j * g->problem.nx + i];
             /* in contact within rounding; without a hardness no gap is negative */
-            if ((*x < 0 && !g->yields) || (fabs(*x) < 1e-6 * g->law.range && p > -g->law.strength))
+            if ((*x < 0 && !g->problem.yields) ||
+                (fabs(*x) < 1e-6 * g->problem.law.range && p > -g->problem.law.strength))
                 *x = 0;
         }
-    memcpy(g->au, g->d, g->n * sizeof *g->au);
+    memcpy(g->maps.au, g->maps.d, g->problem.n * sizeof *g->maps.au);
     hold(a, c);
     a->past.begun = a->way.steady = true;
     return RC_OK;
@@ -1281,21 +1300,21 @@ rc_adhesion_solver_set_heights(struct rc_adhesion_solver *a, const double *h, co
 
     if (check_heights(a, h, err) != RC_OK)
         return RC_FAIL;
-    for (size_t j = 0; j < g->ny; j++)
-        for (size_t i = 0; i < g->nx; i++)
-            g->x[j * g->px + i] += a->h[j * g->nx + i];
+    for (size_t j = 0; j < g->problem.ny; j++)
+        for (size_t i = 0; i < g->problem.nx; i++)
+            g->maps.x[j * g->problem.px + i] += a->h[j * g->problem.nx + i];
     take_heights(a, h, dent);
     a->past.dents[0] = a->past.dents[1] = 0;
     a->pull.on = false;
-    for (size_t j = 0; j < g->ny; j++)
-        for (size_t i = 0; i < g->nx; i++) {
-            double *x = g->x + j * g->px + i;
-            *x = fmax(*x - a->h[j * g->nx + i], 0);
+    for (size_t j = 0; j < g->problem.ny; j++)
+        for (size_t i = 0; i < g->problem.nx; i++) {
+            double *x = g->maps.x + j * g->problem.px + i;
+            *x = fmax(*x - a->h[j * g->problem.nx + i], 0);
         }
     if (!a->past.begun)
         rc_gap_apart(g, 0);
-    for (size_t k = 0; k < g->n; k++)
-        g->au[k] = rc_gap_pressure_at(g, k);
+    for (size_t k = 0; k < g->problem.n; k++)
+        g->maps.au[k] = rc_gap_pressure_at(&g->set, g->maps.au, k);
     hold(a, c);
     g->mode.known = a->way.steady = false;
     return RC_OK;
@@ -1307,16 +1326,16 @@ rc_adhesion_solver_keep_shape(struct rc_adhesion_solver *a, double *h)
     struct rc_gap *g = &a->gap;
     bool dented = false;
 
-    for (size_t j = 0; j < g->ny; j++)
-        for (size_t i = 0; i < g->nx; i++) {
-            double *x = g->x + j * g->px + i;
+    for (size_t j = 0; j < g->problem.ny; j++)
+        for (size_t i = 0; i < g->problem.nx; i++) {
+            double *x = g->maps.x + j * g->problem.px + i;
             if (!(*x < 0))
                 continue;
             dented = true;
-            a->h[j * g->nx + i] += *x;
-            a->mean_h += *x / (double)(g->nx * g->ny);
+            a->h[j * g->problem.nx + i] += *x;
+            a->mean_h += *x / (double)(g->problem.nx * g->problem.ny);
             if (h != NULL)
-                h[j * g->nx + i] += *x * a->whole->length;
+                h[j * g->problem.nx + i] += *x * a->whole->length;
             *x = 0;
         }
     if (dented && !isinf(g->told.error)) {

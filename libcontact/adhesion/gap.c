@@ -40,16 +40,9 @@ larger(double a, double b)
 }
 
 static double
-hard_at(const struct rc_gap *g, size_t j, size_t i)
+hard_at(const struct rc_gap_problem *problem, size_t j, size_t i)
 {
-    return g->hards != NULL ? g->hards[j * g->nx + i] : g->hard;
-}
-
-/* Applies a function to all rows of the grid; ctx is the state, or the state and a number. */
-static void
-rows(const struct rc_gap *g, rc_sums_work *work, void *ctx, double *sums)
-{
-    rc_sums_rows(&g->sums, work, ctx, sums);
+    return problem->hards != NULL ? problem->hards[j * problem->nx + i] : problem->hard;
 }
 
 /* The state and a number for a row function. */
@@ -60,14 +53,14 @@ struct by {
 
 /* The tangent of V at the frozen gaps. */
 static void
-frozen_law(const struct rc_gap *g, const float *frozen, size_t n, const double *gap, double *v,
-           double *s, double *d)
+frozen_law(const struct rc_attraction *law, const float *frozen, size_t n, const double *gap,
+           double *v, double *s, double *d)
 {
     double at[LINE] = {0};
 
     for (size_t k = 0; k < n; k++)
         at[k] = (double)frozen[k];
-    g->law.law->at(&g->law, n, at, v, s, d);
+    law->law->at(law, n, at, v, s, d);
     for (size_t k = 0; k < n; k++) {
         v[k] += s[k] * (gap[k] - at[k]);
         d[k] = 0;
@@ -76,18 +69,18 @@ frozen_law(const struct rc_gap *g, const float *frozen, size_t n, const double *
 
 /* sigma, V and D at n <= LINE gaps of row j from node i on, with the hardness. */
 void
-rc_gap_law(const struct rc_gap *g, size_t j, size_t i, size_t n, const double *gap, double *v,
-           double *s, double *d)
+rc_gap_law(const struct rc_gap_problem *problem, const struct rc_gap_frozen *frozen, size_t j,
+           size_t i, size_t n, const double *gap, double *v, double *s, double *d)
 {
-    if (g->frozen.on)
-        frozen_law(g, g->frozen.x + j * g->px + i, n, gap, v, s, d);
+    if (frozen->on)
+        frozen_law(&problem->law, frozen->x + j * problem->px + i, n, gap, v, s, d);
     else
-        g->law.law->at(&g->law, n, gap, v, s, d);
-    if (!g->yields)
+        problem->law.law->at(&problem->law, n, gap, v, s, d);
+    if (!problem->yields)
         return;
     for (size_t k = 0; k < n; k++)
         if (gap[k] < 0) {
-            double hard = hard_at(g, j, i + k);
+            double hard = hard_at(problem, j, i + k);
             v[k] -= hard * gap[k];
             s[k] -= hard;
         }
@@ -99,15 +92,19 @@ static bool
 u_in(void *ctx, size_t j, void *to)
 {
     const struct rc_gap *g = ctx;
-    const double c = g->control == RC_GAP_SHIFT ? g->given : 0;
+    const double c = g->set.control == RC_GAP_SHIFT ? g->set.given : 0;
     double *row = to;
 
-    for (size_t i = 0; i < g->px; i++)
-        row[i] = g->x[j * g->px + i] + c;
-    for (size_t i = 0; i < rc_gap_on_map(g, j); i++)
-        row[i] += g->h[j * g->nx + i];
+    for (size_t i = 0; i < g->problem.px; i++)
+        row[i] = g->maps.x[j * g->problem.px + i] + c;
+    for (size_t i = 0; i < rc_gap_on_map(&g->problem, j); i++)
+        row[i] += g->problem.h[j * g->problem.nx + i];
     return true;
 }
+
+enum {
+    AU_SUM
+};
 
 static bool
 u_out(void *ctx, size_t j, void *from)
@@ -116,65 +113,78 @@ u_out(void *ctx, size_t j, void *from)
     const double *row = from;
     double *sums = rc_sums_of(&g->sums, j);
 
-    memcpy(g->au + j * g->px, row, g->px * sizeof *row);
-    for (size_t i = 0; i < g->px; i++)
-        sums[0] += row[i];
+    memcpy(g->maps.au + j * g->problem.px, row, g->problem.px * sizeof *row);
+    for (size_t i = 0; i < g->problem.px; i++)
+        sums[AU_SUM] += row[i];
     return true;
 }
 
-/* Under a given load A ignores the mean. */
 static void
-take_mean(const struct rc_gap *g, double *v, double mean)
+take_mean(double *v, size_t n, double mean, int threads)
 {
-    if (g->control != RC_GAP_LOAD || mean == 0)
+    if (mean == 0)
         return;
-#pragma omp parallel for num_threads(g->sums.threads) schedule(static)
-    for (size_t k = 0; k < g->n; k++)
+#pragma omp parallel for num_threads(threads) schedule(static)
+    for (size_t k = 0; k < n; k++)
         v[k] -= mean;
 }
 
+/* Under a given load A ignores the mean. */
 static void
 find_au(struct rc_gap *g)
 {
     double sums[RC_GAP_SUMS];
 
     rc_sums_clear(&g->sums);
-    rc_whole_rows(g->whole, RC_WHOLE_INVERSE, u_in, u_out, g);
+    rc_whole_rows(g->problem.whole, RC_WHOLE_INVERSE, u_in, u_out, g);
     rc_sums_total(&g->sums, sums);
-    take_mean(g, g->au, sums[0] / (double)g->n);
-    g->convolutions++;
+    if (g->set.control == RC_GAP_LOAD)
+        take_mean(g->maps.au, g->problem.n, sums[AU_SUM] / (double)g->problem.n, g->sums.threads);
+    g->run.convolutions++;
     g->told.drift = g->told.cuts = 0;
 }
 
 /* ---- residual ---- */
+
+enum {
+    RESIDUAL_SUM, /* of open nodes */
+    RESIDUAL_OPEN /* their number */
+};
 
 /* Computes r = A u + S + sigma and its sum over open nodes. */
 static void
 residual_row(void *ctx, size_t j, double *sums)
 {
     struct rc_gap *g = ctx;
-    const double *x = g->x + j * g->px, *au = g->au + j * g->px;
-    const double load = g->control == RC_GAP_LOAD ? g->given : 0;
-    double *r = g->r + j * g->px;
-    size_t m = rc_gap_on_map(g, j);
+    const double *x = g->maps.x + j * g->problem.px, *au = g->maps.au + j * g->problem.px;
+    const double load = g->set.control == RC_GAP_LOAD ? g->set.given : 0;
+    double *r = g->maps.r + j * g->problem.px;
+    size_t m = rc_gap_on_map(&g->problem, j);
 
     for (size_t i = 0; i < m; i += LINE) {
         size_t n = m - i < LINE ? m - i : LINE;
         double v[LINE], s[LINE], d[LINE];
-        rc_gap_law(g, j, i, n, x + i, v, s, d);
+        rc_gap_law(&g->problem, &g->frozen, j, i, n, x + i, v, s, d);
         for (size_t k = 0; k < n; k++) {
             bool apart = x[i + k] != 0;
             r[i + k] = au[i + k] + load + s[k];
-            sums[0] += apart ? r[i + k] : 0;
-            sums[1] += apart;
+            sums[RESIDUAL_SUM] += apart ? r[i + k] : 0;
+            sums[RESIDUAL_OPEN] += apart;
         }
     }
-    for (size_t i = m; i < g->px; i++) {
+    for (size_t i = m; i < g->problem.px; i++) {
         r[i] = au[i] + load;
-        sums[0] += r[i];
+        sums[RESIDUAL_SUM] += r[i];
     }
-    sums[1] += (double)(g->px - m);
+    sums[RESIDUAL_OPEN] += (double)(g->problem.px - m);
 }
+
+enum {
+    HOLD_SUM,                  /* of the residual on free nodes */
+    HOLD_FREE,                 /* free nodes */
+    HOLD_CHANGED,              /* nodes held since now, and no longer held */
+    HOLD_LARGEST = RC_GAP_MOST /* residual */
+};
 
 /* Finds the held nodes and counts the changes. r becomes the negative residual on free nodes, and 0 on held
  * nodes. */
@@ -182,25 +192,25 @@ static void
 hold_row(void *ctx, size_t j, double *sums)
 {
     struct rc_gap *g = ctx;
-    const double *x = g->x + j * g->px;
-    double *r = g->r + j * g->px;
-    unsigned char *off = g->off + j * g->px;
-    size_t m = rc_gap_on_map(g, j);
+    const double *x = g->maps.x + j * g->problem.px;
+    double *r = g->maps.r + j * g->problem.px;
+    unsigned char *off = g->maps.off + j * g->problem.px;
+    size_t m = rc_gap_on_map(&g->problem, j);
 
-    for (size_t i = 0; i < g->px; i++) {
-        double at = r[i] - g->level;
+    for (size_t i = 0; i < g->problem.px; i++) {
+        double at = r[i] - g->set.level;
         bool held = false;
         if (i < m && x[i] == 0) {
-            double hard = g->yields ? hard_at(g, j, i) : INFINITY;
+            double hard = g->problem.yields ? hard_at(&g->problem, j, i) : INFINITY;
             held = at >= 0 && at <= hard;
             at = at > hard ? at - hard : at;
         }
-        sums[2] += off[i] != held;
+        sums[HOLD_CHANGED] += off[i] != held;
         off[i] = held;
         r[i] = held ? 0 : -at;
-        sums[0] += r[i];
-        sums[1] += !held;
-        sums[RC_GAP_MOST] = larger(sums[RC_GAP_MOST], fabs(r[i]));
+        sums[HOLD_SUM] += r[i];
+        sums[HOLD_FREE] += !held;
+        sums[HOLD_LARGEST] = larger(sums[HOLD_LARGEST], fabs(r[i]));
     }
 }
 
@@ -209,15 +219,17 @@ find_residual(struct rc_gap *g)
 {
     double sums[RC_GAP_SUMS];
 
-    rows(g, residual_row, g, sums);
-    g->level = g->control == RC_GAP_MEAN && sums[1] > 0 ? sums[0] / sums[1] : 0;
-    rows(g, hold_row, g, sums);
-    g->free = (size_t)sums[1];
-    g->way.same = sums[2] == 0;
-    g->mean_r = g->control != RC_GAP_MEAN ? sums[0] / (double)g->n
-                : g->free > 0             ? sums[0] / sums[1]
-                                          : 0;
-    g->scale = sums[RC_GAP_MOST];
+    rc_sums_rows(&g->sums, residual_row, g, sums);
+    g->set.level = g->set.control == RC_GAP_MEAN && sums[RESIDUAL_OPEN] > 0
+                       ? sums[RESIDUAL_SUM] / sums[RESIDUAL_OPEN]
+                       : 0;
+    rc_sums_rows(&g->sums, hold_row, g, sums);
+    g->residual.free = (size_t)sums[HOLD_FREE];
+    g->way.same = sums[HOLD_CHANGED] == 0;
+    g->residual.mean = g->set.control != RC_GAP_MEAN ? sums[HOLD_SUM] / (double)g->problem.n
+                       : g->residual.free > 0        ? sums[HOLD_SUM] / sums[HOLD_FREE]
+                                                     : 0;
+    g->residual.largest = sums[HOLD_LARGEST];
 }
 
 /* ---- z = K r ---- */
@@ -226,36 +238,42 @@ static bool
 r_in(void *ctx, size_t j, void *to)
 {
     const struct rc_gap *g = ctx;
-    const unsigned char *off = g->off + j * g->px;
-    double *r = g->r + j * g->px, per = 1 / g->scale;
+    const unsigned char *off = g->maps.off + j * g->problem.px;
+    double *r = g->maps.r + j * g->problem.px, per = 1 / g->residual.largest;
     float *row = to;
     bool any = false;
 
-    for (size_t i = 0; i < g->px; i++) {
-        if (g->control == RC_GAP_MEAN && !off[i])
-            r[i] -= g->mean_r;
+    for (size_t i = 0; i < g->problem.px; i++) {
+        if (g->set.control == RC_GAP_MEAN && !off[i])
+            r[i] -= g->residual.mean;
         row[i] = (float)(r[i] * per);
         any |= row[i] != 0;
     }
     return any;
 }
 
-/* The sums are: r z, r times the z of the previous step, z, and |z|. */
+enum {
+    Z_RZ,     /* r'z */
+    Z_RZ_OLD, /* r'z with the z of the last step */
+    Z_SUM
+};
+
 static bool
 z_out(void *ctx, size_t j, void *from)
 {
     struct rc_gap *g = ctx;
-    const unsigned char *off = g->off + j * g->px;
-    const double *r = g->r + j * g->px;
+    const unsigned char *off = g->maps.off + j * g->problem.px;
+    const double *r = g->maps.r + j * g->problem.px;
     const float *row = from;
-    double *z = g->z + j * g->px, *sums = rc_sums_of(&g->sums, j);
+    double *z = g->maps.z + j * g->problem.px, *sums = rc_sums_of(&g->sums, j);
 
-    for (size_t i = 0; i < g->px; i++) {
-        double is = off[i] ? 0 : (double)row[i] * g->scale + g->lift * g->mean_r;
-        sums[1] += r[i] * z[i];
+    for (size_t i = 0; i < g->problem.px; i++) {
+        double is =
+            off[i] ? 0 : (double)row[i] * g->residual.largest + g->set.lift * g->residual.mean;
+        sums[Z_RZ_OLD] += r[i] * z[i];
         z[i] = is;
-        sums[0] += r[i] * is;
-        sums[2] += is;
+        sums[Z_RZ] += r[i] * is;
+        sums[Z_SUM] += is;
     }
     return true;
 }
@@ -277,10 +295,17 @@ to_single(const double *v, size_t n, double per, float *to)
 
 /* True if a node at 0 must not move along d, because its residual points the other way. */
 static bool
-barred(const struct rc_gap *g, size_t at, bool map)
+barred(const struct rc_gap_maps *maps, size_t at, bool map)
 {
-    return map && g->x[at] == 0 && g->d[at] * g->r[at] < 0;
+    return map && maps->x[at] == 0 && maps->d[at] * maps->r[at] < 0;
 }
+
+enum {
+    DIRECTION_RD, /* r'd */
+    DIRECTION_SUM,
+    DIRECTION_MOVING, /* nodes */
+    DIRECTION_LARGEST = RC_GAP_MOST
+};
 
 /* d = z + beta d within the bounds, minus `a`: the mean of z if the mean of d must be 0. */
 static void
@@ -288,18 +313,18 @@ direction_row(void *ctx, size_t j, double *sums)
 {
     const struct by *c = ctx;
     struct rc_gap *g = c->g;
-    size_t m = rc_gap_on_map(g, j);
+    size_t m = rc_gap_on_map(&g->problem, j);
 
-    for (size_t i = 0; i < g->px; i++) {
-        size_t at = j * g->px + i;
-        double is = g->off[at] ? 0 : g->z[at] - c->a + g->way.beta * g->d[at];
-        g->d[at] = is;
-        if (barred(g, at, i < m))
-            g->d[at] = is = 0;
-        sums[0] += g->r[at] * is;
-        sums[1] += is;
-        sums[2] += is != 0;
-        sums[RC_GAP_MOST] = larger(sums[RC_GAP_MOST], fabs(is));
+    for (size_t i = 0; i < g->problem.px; i++) {
+        size_t at = j * g->problem.px + i;
+        double is = g->maps.off[at] ? 0 : g->maps.z[at] - c->a + g->way.beta * g->maps.d[at];
+        g->maps.d[at] = is;
+        if (barred(&g->maps, at, i < m))
+            g->maps.d[at] = is = 0;
+        sums[DIRECTION_RD] += g->maps.r[at] * is;
+        sums[DIRECTION_SUM] += is;
+        sums[DIRECTION_MOVING] += is != 0;
+        sums[DIRECTION_LARGEST] = larger(sums[DIRECTION_LARGEST], fabs(is));
     }
 }
 
@@ -308,18 +333,18 @@ level_row(void *ctx, size_t j, double *sums)
 {
     const struct by *c = ctx;
     struct rc_gap *g = c->g;
-    size_t m = rc_gap_on_map(g, j);
+    size_t m = rc_gap_on_map(&g->problem, j);
 
-    for (size_t i = 0; i < g->px; i++) {
-        size_t at = j * g->px + i;
-        if (g->d[at] == 0)
+    for (size_t i = 0; i < g->problem.px; i++) {
+        size_t at = j * g->problem.px + i;
+        if (g->maps.d[at] == 0)
             continue;
-        g->d[at] -= c->a;
-        if (barred(g, at, i < m))
-            g->d[at] = 0;
-        sums[0] += g->r[at] * g->d[at];
-        sums[1] += g->d[at];
-        sums[2] += g->d[at] != 0;
+        g->maps.d[at] -= c->a;
+        if (barred(&g->maps, at, i < m))
+            g->maps.d[at] = 0;
+        sums[DIRECTION_RD] += g->maps.r[at] * g->maps.d[at];
+        sums[DIRECTION_SUM] += g->maps.d[at];
+        sums[DIRECTION_MOVING] += g->maps.d[at] != 0;
     }
 }
 
@@ -327,18 +352,19 @@ level_row(void *ctx, size_t j, double *sums)
 static double
 set_direction(struct rc_gap *g, double sum_z)
 {
-    struct by by = {g, g->control == RC_GAP_MEAN ? sum_z / (double)g->free : 0};
+    struct by by = {g, g->set.control == RC_GAP_MEAN ? sum_z / (double)g->residual.free : 0};
     double sums[RC_GAP_SUMS];
 
-    rows(g, direction_row, &by, sums);
-    g->way.unit = sums[RC_GAP_MOST];
-    g->way.whole = (size_t)sums[2] == g->free;
-    for (int k = 0; k < PROJECT && g->control == RC_GAP_MEAN && sums[2] > 0; k++) {
-        by.a = sums[1] / sums[2];
-        rows(g, level_row, &by, sums);
+    rc_sums_rows(&g->sums, direction_row, &by, sums);
+    g->way.unit = sums[DIRECTION_LARGEST];
+    g->way.whole = (size_t)sums[DIRECTION_MOVING] == g->residual.free;
+    for (int k = 0; k < PROJECT && g->set.control == RC_GAP_MEAN && sums[DIRECTION_MOVING] > 0;
+         k++) {
+        by.a = sums[DIRECTION_SUM] / sums[DIRECTION_MOVING];
+        rc_sums_rows(&g->sums, level_row, &by, sums);
     }
-    g->way.whole &= (size_t)sums[2] == g->free;
-    return sums[0];
+    g->way.whole &= (size_t)sums[DIRECTION_MOVING] == g->residual.free;
+    return sums[DIRECTION_RD];
 }
 
 /* ---- A d ---- */
@@ -348,46 +374,60 @@ d_in(void *ctx, size_t j, void *to)
 {
     const struct rc_gap *g = ctx;
 
-    return to_single(g->d + j * g->px, g->px, 1 / g->way.unit, to);
+    return to_single(g->maps.d + j * g->problem.px, g->problem.px, 1 / g->way.unit, to);
 }
+
+enum {
+    AD_CHANGE,   /* sum of |A z| on the map */
+    AD_PRESSURE, /* sum of |p| on the map */
+    AD_DAD,      /* d'A d */
+    AD_SUM,      /* of A d */
+    AD_D,        /* sum of d */
+    AD_DAD_SIZE, /* sum of |d A d| */
+    AD_MOVES     /* sum of |A d| on the map */
+};
 
 static bool
 ad_out(void *ctx, size_t j, void *from)
 {
     struct rc_gap *g = ctx;
     const float *row = from;
-    const double *d = g->d + j * g->px, *au = g->au + j * g->px;
-    const double plus = (g->control == RC_GAP_LOAD ? g->given : 0) - g->level;
-    double *ad = g->ad + j * g->px, *sums = rc_sums_of(&g->sums, j);
-    float *az = g->mode.e[RC_GAP_AZ] + j * g->px;
-    size_t m = rc_gap_on_map(g, j);
+    const double *d = g->maps.d + j * g->problem.px, *au = g->maps.au + j * g->problem.px;
+    const double plus = (g->set.control == RC_GAP_LOAD ? g->set.given : 0) - g->set.level;
+    double *ad = g->maps.ad + j * g->problem.px, *sums = rc_sums_of(&g->sums, j);
+    float *az = g->mode.e[RC_GAP_AZ] + j * g->problem.px;
+    size_t m = rc_gap_on_map(&g->problem, j);
 
-    for (size_t i = 0; i < g->px; i++) {
+    for (size_t i = 0; i < g->problem.px; i++) {
         double is = (double)row[i] * g->way.unit;
         if (i < m) {
-            sums[0] += fabs(is - g->way.beta * ad[i]);
-            sums[1] += fabs(au[i] + plus);
-            sums[6] += fabs(is);
+            sums[AD_CHANGE] += fabs(is - g->way.beta * ad[i]);
+            sums[AD_PRESSURE] += fabs(au[i] + plus);
+            sums[AD_MOVES] += fabs(is);
         }
-        sums[2] += is * d[i];
-        sums[3] += is;
-        sums[4] += d[i];
-        sums[5] += fabs(is * d[i]);
+        sums[AD_DAD] += is * d[i];
+        sums[AD_SUM] += is;
+        sums[AD_D] += d[i];
+        sums[AD_DAD_SIZE] += fabs(is * d[i]);
         az[i] = (float)(is - g->way.beta * ad[i]);
         ad[i] = is;
     }
     return true;
 }
 
+enum {
+    MARK_CHANGE
+};
+
 static void
 mark_row(void *ctx, size_t j, double *sums)
 {
     struct rc_gap *g = ctx;
-    float *mark = g->told.at_mark + j * g->px;
+    float *mark = g->told.at_mark + j * g->problem.px;
 
-    for (size_t i = 0; i < rc_gap_on_map(g, j); i++) {
-        float p = (float)rc_gap_pressure_at(g, j * g->px + i);
-        sums[0] += fabs((double)p - (double)mark[i]);
+    for (size_t i = 0; i < rc_gap_on_map(&g->problem, j); i++) {
+        float p = (float)rc_gap_pressure_at(&g->set, g->maps.au, j * g->problem.px + i);
+        sums[MARK_CHANGE] += fabs((double)p - (double)mark[i]);
         mark[i] = p;
     }
 }
@@ -403,35 +443,35 @@ measure_ratio(struct rc_gap *g)
     g->told.last = g->told.error;
     if (last > 0 && off > last / 2)
         return;
-    rows(g, mark_row, g, sums);
+    rc_sums_rows(&g->sums, mark_row, g, sums);
     g->told.mark = off;
     if (last == 0)
         return;
     g->told.ratios[1] = g->told.ratios[0];
-    g->told.ratios[0] = sums[0] / (last - off);
+    g->told.ratios[0] = sums[MARK_CHANGE] / (last - off);
     if (isinf(g->told.ratios[1]))
         g->told.ratios[1] = g->told.ratios[0];
 }
 
 /* Finds the error. Changes that are negligible compared with the traction are rounding. */
 static void
-find_error(struct rc_gap *g)
+find_error(const struct rc_gap_problem *problem, struct rc_gap_told *told)
 {
-    double off = g->told.change + g->told.drift;
+    double off = told->change + told->drift;
 
-    g->told.vanishes = off <= vanishing * g->law.strength * (double)(g->nx * g->ny);
+    told->vanishes = off <= vanishing * problem->law.strength * (double)(problem->nx * problem->ny);
     if (off == 0)
-        g->told.error = rounding;
+        told->error = rounding;
     else
-        g->told.error = g->told.size > 0 ? off / g->told.size + rounding : INFINITY;
+        told->error = told->size > 0 ? off / told->size + rounding : INFINITY;
 }
 
 static void
-forget_error(struct rc_gap *g)
+forget_error(struct rc_gap_told *told)
 {
-    g->told.error = g->told.last = g->told.calm = g->told.ratios[0] = g->told.ratios[1] = INFINITY;
-    g->told.mark = 0;
-    g->told.vanishes = false;
+    told->error = told->last = told->calm = told->ratios[0] = told->ratios[1] = INFINITY;
+    told->mark = 0;
+    told->vanishes = false;
 }
 
 /* Returns d'A d; finds the error and the mean of d. */
@@ -441,65 +481,71 @@ find_ad(struct rc_gap *g)
     double sums[RC_GAP_SUMS], mean;
 
     rc_sums_clear(&g->sums);
-    rc_whole_rows(g->whole, RC_WHOLE_ROUGH_INVERSE, d_in, ad_out, g);
+    rc_whole_rows(g->problem.whole, RC_WHOLE_ROUGH_INVERSE, d_in, ad_out, g);
     rc_sums_total(&g->sums, sums);
-    g->convolutions += 0.5;
-    mean = g->control == RC_GAP_LOAD ? sums[3] / (double)g->n : 0;
-    take_mean(g, g->ad, mean);
-    g->told.size = sums[1];
-    g->told.moves = sums[6];
-    g->told.change = sums[0];
-    find_error(g);
-    g->way.mean = sums[4] / (double)g->n;
-    return fmax(sums[2] - mean * sums[4], single * sums[5]);
+    g->run.convolutions += 0.5;
+    mean = g->set.control == RC_GAP_LOAD ? sums[AD_SUM] / (double)g->problem.n : 0;
+    take_mean(g->maps.ad, g->problem.n, mean, g->sums.threads);
+    g->told.size = sums[AD_PRESSURE];
+    g->told.moves = sums[AD_MOVES];
+    g->told.change = sums[AD_CHANGE];
+    find_error(&g->problem, &g->told);
+    g->way.mean = sums[AD_D] / (double)g->problem.n;
+    return fmax(sums[AD_DAD] - mean * sums[AD_D], single * sums[AD_DAD_SIZE]);
 }
 
 /* ---- along the direction ---- */
 
-/* Sums over a row: V(x + a d) - V(x) - a sigma(x) d; (sigma(x + a d) - sigma(x)) d; D d^2; |V|. */
+enum {
+    LINE_RISE,  /* V(x + a d) - V(x) - a sigma(x) d */
+    LINE_SLOPE, /* (sigma(x + a d) - sigma(x)) d */
+    LINE_BEND,  /* D d^2 */
+    LINE_SIZE   /* sum of |V| */
+};
+
 static void
 line_row(void *ctx, size_t j, double *sums)
 {
     const struct by *c = ctx;
     const struct rc_gap *g = c->g;
-    const double *x = g->x + j * g->px, *d = g->d + j * g->px, a = c->a;
-    size_t m = rc_gap_on_map(g, j);
+    const double *x = g->maps.x + j * g->problem.px, *d = g->maps.d + j * g->problem.px, a = c->a;
+    size_t m = rc_gap_on_map(&g->problem, j);
 
     for (size_t i = 0; i < m; i += LINE) {
         size_t n = m - i < LINE ? m - i : LINE;
         double v[2][LINE], s[2][LINE], k[LINE], at[LINE];
         for (size_t q = 0; q < n; q++)
             at[q] = x[i + q] + a * d[i + q];
-        rc_gap_law(g, j, i, n, x + i, v[0], s[0], k);
-        rc_gap_law(g, j, i, n, at, v[1], s[1], k);
+        rc_gap_law(&g->problem, &g->frozen, j, i, n, x + i, v[0], s[0], k);
+        rc_gap_law(&g->problem, &g->frozen, j, i, n, at, v[1], s[1], k);
         for (size_t q = 0; q < n; q++) {
             double way = d[i + q];
-            sums[0] += v[1][q] - v[0][q] - a * s[0][q] * way;
-            sums[1] += (s[1][q] - s[0][q]) * way;
-            sums[2] += k[q] * way * way;
-            sums[3] += fabs(v[1][q]);
+            sums[LINE_RISE] += v[1][q] - v[0][q] - a * s[0][q] * way;
+            sums[LINE_SLOPE] += (s[1][q] - s[0][q]) * way;
+            sums[LINE_BEND] += k[q] * way * way;
+            sums[LINE_SIZE] += fabs(v[1][q]);
         }
     }
 }
 
-/* step = a d clipped to the bounds; sums[0] counts clipped nodes. */
+/* step = a d clipped to the bounds. */
 static void
 clip_row(void *ctx, size_t j, double *sums)
 {
     const struct by *c = ctx;
     struct rc_gap *g = c->g;
-    size_t m = rc_gap_on_map(g, j);
+    size_t m = rc_gap_on_map(&g->problem, j);
 
-    for (size_t i = 0; i < g->px; i++) {
-        size_t at = j * g->px + i;
-        double x = g->x[at], to = x + c->a * g->d[at];
-        if (i < m && ((x >= 0 && to < 0 && !(x == 0 && g->yields)) || (x < 0 && to > 0))) {
+    for (size_t i = 0; i < g->problem.px; i++) {
+        size_t at = j * g->problem.px + i;
+        double x = g->maps.x[at], to = x + c->a * g->maps.d[at];
+        if (i < m && ((x >= 0 && to < 0 && !(x == 0 && g->problem.yields)) || (x < 0 && to > 0))) {
             to = 0;
-            sums[0]++;
+            sums[RC_GAP_CLIPPED]++;
         }
-        sums[1] += to;
-        sums[2] += i >= m || to > 0;
-        g->step[at] = to - x;
+        sums[RC_GAP_CLIP_SUM] += to;
+        sums[RC_GAP_CLIP_OPEN] += i >= m || to > 0;
+        g->maps.step[at] = to - x;
     }
 }
 
@@ -509,29 +555,29 @@ lower_row(void *ctx, size_t j, double *sums)
 {
     const struct by *c = ctx;
     struct rc_gap *g = c->g;
-    for (size_t i = 0; i < g->px; i++) {
-        size_t at = j * g->px + i;
-        double to = g->x[at] + g->step[at];
+    for (size_t i = 0; i < g->problem.px; i++) {
+        size_t at = j * g->problem.px + i;
+        double to = g->maps.x[at] + g->maps.step[at];
         if (to > 0) {
             to = larger(0, to - c->a);
-            g->step[at] = to - g->x[at];
+            g->maps.step[at] = to - g->maps.x[at];
         }
-        sums[1] += to;
-        sums[2] += to > 0;
+        sums[RC_GAP_CLIP_SUM] += to;
+        sums[RC_GAP_CLIP_OPEN] += to > 0;
     }
 }
 
 static void
 keep_mean(struct rc_gap *g, double sum, double count)
 {
-    const double want = g->given * (double)g->n;
-    double sums[RC_GAP_SUMS] = {0, sum, count};
+    const double want = g->set.given * (double)g->problem.n;
+    double sums[RC_GAP_SUMS] = {[RC_GAP_CLIP_SUM] = sum, [RC_GAP_CLIP_OPEN] = count};
 
-    for (int k = 0; k < NEWTON && sums[2] > 0; k++) {
-        struct by by = {g, (sums[1] - want) / sums[2]};
-        if (fabs(sums[1] - want) <= 1e-15 * want)
+    for (int k = 0; k < NEWTON && sums[RC_GAP_CLIP_OPEN] > 0; k++) {
+        struct by by = {g, (sums[RC_GAP_CLIP_SUM] - want) / sums[RC_GAP_CLIP_OPEN]};
+        if (fabs(sums[RC_GAP_CLIP_SUM] - want) <= 1e-15 * want)
             return;
-        rows(g, lower_row, &by, sums);
+        rc_sums_rows(&g->sums, lower_row, &by, sums);
     }
 }
 
@@ -540,24 +586,31 @@ step_in(void *ctx, size_t j, void *to)
 {
     const struct rc_gap *g = ctx;
 
-    return to_single(g->step + j * g->px, g->px, 1 / g->way.unit, to);
+    return to_single(g->maps.step + j * g->problem.px, g->problem.px, 1 / g->way.unit, to);
 }
 
-/* Sums over A s for the step s: s'A s/2, s'A u, A s, s, and |A s| on the map. */
+enum {
+    STEP_SAS, /* s'A s/2 of the step s */
+    STEP_SAU, /* s'A u */
+    STEP_AS,  /* sum of A s */
+    STEP_SUM,
+    STEP_MOVES /* sum of |A s| on the map */
+};
+
 static void
 step_row(void *ctx, size_t j, double *sums)
 {
     const struct rc_gap *g = ctx;
-    const double *step = g->step + j * g->px, *au = g->au + j * g->px;
-    const double *to = g->a_step + j * g->px;
-    size_t m = rc_gap_on_map(g, j);
+    const double *step = g->maps.step + j * g->problem.px, *au = g->maps.au + j * g->problem.px;
+    const double *to = g->maps.a_step + j * g->problem.px;
+    size_t m = rc_gap_on_map(&g->problem, j);
 
-    for (size_t i = 0; i < g->px; i++) {
-        sums[0] += step[i] * to[i] / 2;
-        sums[1] += step[i] * au[i];
-        sums[2] += to[i];
-        sums[3] += step[i];
-        sums[4] += i < m ? fabs(to[i]) : 0;
+    for (size_t i = 0; i < g->problem.px; i++) {
+        sums[STEP_SAS] += step[i] * to[i] / 2;
+        sums[STEP_SAU] += step[i] * au[i];
+        sums[STEP_AS] += to[i];
+        sums[STEP_SUM] += step[i];
+        sums[STEP_MOVES] += i < m ? fabs(to[i]) : 0;
     }
 }
 
@@ -567,30 +620,34 @@ step_out(void *ctx, size_t j, void *from)
     struct rc_gap *g = ctx;
     const float *row = from;
 
-    for (size_t i = 0; i < g->px; i++)
-        g->a_step[j * g->px + i] = (double)row[i] * g->way.unit;
+    for (size_t i = 0; i < g->problem.px; i++)
+        g->maps.a_step[j * g->problem.px + i] = (double)row[i] * g->way.unit;
     step_row(g, j, rc_sums_of(&g->sums, j));
     return true;
 }
 
-/* Sums of the change of V by the step, and of |V|. */
+enum {
+    STEP_V,     /* change of the sum of V */
+    STEP_V_SIZE /* sum of |V| */
+};
+
 static void
 step_law_row(void *ctx, size_t j, double *sums)
 {
     const struct rc_gap *g = ctx;
-    const double *x = g->x + j * g->px, *step = g->step + j * g->px;
-    size_t m = rc_gap_on_map(g, j);
+    const double *x = g->maps.x + j * g->problem.px, *step = g->maps.step + j * g->problem.px;
+    size_t m = rc_gap_on_map(&g->problem, j);
 
     for (size_t i = 0; i < m; i += LINE) {
         size_t n = m - i < LINE ? m - i : LINE;
         double v[2][LINE], s[LINE], k[LINE], at[LINE];
         for (size_t q = 0; q < n; q++)
             at[q] = x[i + q] + step[i + q];
-        rc_gap_law(g, j, i, n, x + i, v[0], s, k);
-        rc_gap_law(g, j, i, n, at, v[1], s, k);
+        rc_gap_law(&g->problem, &g->frozen, j, i, n, x + i, v[0], s, k);
+        rc_gap_law(&g->problem, &g->frozen, j, i, n, at, v[1], s, k);
         for (size_t q = 0; q < n; q++) {
-            sums[0] += v[1][q] - v[0][q];
-            sums[1] += fabs(v[1][q]);
+            sums[STEP_V] += v[1][q] - v[0][q];
+            sums[STEP_V_SIZE] += fabs(v[1][q]);
         }
     }
 }
@@ -599,24 +656,25 @@ step_law_row(void *ctx, size_t j, double *sums)
 static double
 rise(struct rc_gap *g, bool known, double *least)
 {
-    double sums[RC_GAP_SUMS], law[RC_GAP_SUMS], load = g->control == RC_GAP_LOAD ? g->given : 0,
-                                                mean;
+    double sums[RC_GAP_SUMS], law[RC_GAP_SUMS],
+        load = g->set.control == RC_GAP_LOAD ? g->set.given : 0, mean;
 
     if (known) {
-        rows(g, step_row, g, sums);
+        rc_sums_rows(&g->sums, step_row, g, sums);
     } else {
         rc_sums_clear(&g->sums);
-        rc_whole_rows(g->whole, RC_WHOLE_ROUGH_INVERSE, step_in, step_out, g);
+        rc_whole_rows(g->problem.whole, RC_WHOLE_ROUGH_INVERSE, step_in, step_out, g);
         rc_sums_total(&g->sums, sums);
-        g->convolutions += 0.5;
+        g->run.convolutions += 0.5;
         g->told.cut = 0;
     }
-    mean = g->control == RC_GAP_LOAD ? sums[2] / (double)g->n : 0;
-    take_mean(g, g->a_step, mean);
-    rows(g, step_law_row, g, law);
-    *least = 1e-14 * (law[1] + fabs(sums[1])) + single * fabs(sums[0]);
-    g->told.moves = sums[4];
-    return sums[0] - mean * sums[3] / 2 + sums[1] + load * sums[3] + law[0];
+    mean = g->set.control == RC_GAP_LOAD ? sums[STEP_AS] / (double)g->problem.n : 0;
+    take_mean(g->maps.a_step, g->problem.n, mean, g->sums.threads);
+    rc_sums_rows(&g->sums, step_law_row, g, law);
+    *least = 1e-14 * (law[STEP_V_SIZE] + fabs(sums[STEP_SAU])) + single * fabs(sums[STEP_SAS]);
+    g->told.moves = sums[STEP_MOVES];
+    return sums[STEP_SAS] - mean * sums[STEP_SUM] / 2 + sums[STEP_SAU] + load * sums[STEP_SUM] +
+           law[STEP_V];
 }
 
 /* `a` times a step, with A times it. */
@@ -632,9 +690,9 @@ take_row(void *ctx, size_t j, double *sums)
     const struct taken *t = ctx;
     struct rc_gap *g = t->g;
     (void)sums;
-    for (size_t k = j * g->px; k < (j + 1) * g->px; k++) {
-        g->x[k] += t->a * t->step[k];
-        g->au[k] += t->a * t->a_step[k];
+    for (size_t k = j * g->problem.px; k < (j + 1) * g->problem.px; k++) {
+        g->maps.x[k] += t->a * t->step[k];
+        g->maps.au[k] += t->a * t->a_step[k];
     }
 }
 
@@ -649,18 +707,18 @@ look(struct rc_gap *g, struct line *l, double a)
 {
     double sums[RC_GAP_SUMS];
 
-    rows(g, line_row, &(struct by){g, a}, sums);
-    l->phi = a * (a * l->q / 2 - l->rd) + sums[0];
-    l->slope = a * l->q - l->rd + sums[1];
-    l->bend = l->q - sums[2];
-    l->rounding = 1e-14 * (sums[3] + a * a * l->q);
+    rc_sums_rows(&g->sums, line_row, &(struct by){g, a}, sums);
+    l->phi = a * (a * l->q / 2 - l->rd) + sums[LINE_RISE];
+    l->slope = a * l->q - l->rd + sums[LINE_SLOPE];
+    l->bend = l->q - sums[LINE_BEND];
+    l->rounding = 1e-14 * (sums[LINE_SIZE] + a * a * l->q);
 }
 
 /* The stiffness along d, with the curvature `bend` at a = 0. */
 static double
-way_of(const struct rc_gap *g, const struct line *l)
+way_of(const struct rc_gap_way *way, const struct line *l)
 {
-    return g->way.dwd > 0 ? l->bend / g->way.dwd : INFINITY;
+    return way->dwd > 0 ? l->bend / way->dwd : INFINITY;
 }
 
 /* The minimum along d by Newton's method from a = 0. Once slopes of both signs are known, the iterates stay
@@ -671,7 +729,7 @@ line_minimum(struct rc_gap *g, struct line *l, double most)
     double a = 0, low = 0, high = INFINITY;
 
     look(g, l, 0);
-    g->way.stiffness = way_of(g, l);
+    g->way.stiffness = way_of(&g->way, l);
     for (int k = 0; k < NEWTON; k++) {
         double bend = fmax(l->bend, curvature * l->q);
         double next = bend > 0 ? a - l->slope / bend : most;
@@ -701,37 +759,42 @@ go(struct rc_gap *g, struct line *l, double a)
     for (int k = 0; k < SHORTEN; k++, by.a *= shorter) {
         double least, up;
         bool near;
-        rows(g, clip_row, &by, sums);
-        if (sums[0] == 0) {
+        rc_sums_rows(&g->sums, clip_row, &by, sums);
+        if (sums[RC_GAP_CLIPPED] == 0) {
             if (k > 0)
                 look(g, l, by.a);
             g->told.drift += float_rounding * by.a * g->told.moves;
-            rows(g, take_row, &(struct taken){g, by.a, g->d, g->ad}, sums);
+            rc_sums_rows(&g->sums, take_row, &(struct taken){g, by.a, g->maps.d, g->maps.ad}, sums);
             return;
         }
-        g->way.restart = sums[0] > clipped_anew * (double)g->free;
-        near = rc_gap_near(g, by.a, (size_t)sums[0], sums[1]);
-        if (!near && g->control == RC_GAP_MEAN)
-            keep_mean(g, sums[1], sums[2]);
+        g->way.restart = sums[RC_GAP_CLIPPED] > clipped_anew * (double)g->residual.free;
+        near = rc_gap_near(g, by.a, (size_t)sums[RC_GAP_CLIPPED], sums[RC_GAP_CLIP_SUM]);
+        if (!near && g->set.control == RC_GAP_MEAN)
+            keep_mean(g, sums[RC_GAP_CLIP_SUM], sums[RC_GAP_CLIP_OPEN]);
         up = rise(g, near, &least);
         if (up <= least) {
             g->told.drift += float_rounding * g->told.moves + g->told.cut;
             g->told.cuts += g->told.cut;
-            rows(g, take_row, &(struct taken){g, 1, g->step, g->a_step}, sums);
+            rc_sums_rows(&g->sums, take_row, &(struct taken){g, 1, g->maps.step, g->maps.a_step},
+                         sums);
             return;
         }
         g->way.restart = true;
     }
-    g->stuck = true;
+    g->run.stuck = true;
 }
+
+enum {
+    MOST = RC_GAP_MOST
+};
 
 static void
 largest_row(void *ctx, size_t j, double *sums)
 {
     const struct rc_gap *g = ctx;
 
-    for (size_t i = 0; i < rc_gap_on_map(g, j); i++)
-        sums[RC_GAP_MOST] = larger(sums[RC_GAP_MOST], fabs(g->d[j * g->px + i]));
+    for (size_t i = 0; i < rc_gap_on_map(&g->problem, j); i++)
+        sums[MOST] = larger(sums[MOST], fabs(g->maps.d[j * g->problem.px + i]));
 }
 
 /* The largest step before an open node reaches 0. */
@@ -739,11 +802,11 @@ static void
 reach_row(void *ctx, size_t j, double *sums)
 {
     const struct rc_gap *g = ctx;
-    const double *x = g->x + j * g->px, *d = g->d + j * g->px;
+    const double *x = g->maps.x + j * g->problem.px, *d = g->maps.d + j * g->problem.px;
 
-    for (size_t i = 0; i < rc_gap_on_map(g, j); i++)
+    for (size_t i = 0; i < rc_gap_on_map(&g->problem, j); i++)
         if (x[i] > 0 && d[i] < 0)
-            sums[RC_GAP_MOST] = larger(sums[RC_GAP_MOST], -x[i] / d[i]);
+            sums[MOST] = larger(sums[MOST], -x[i] / d[i]);
 }
 
 static void
@@ -751,9 +814,9 @@ nearest_row(void *ctx, size_t j, double *sums)
 {
     const struct rc_gap *g = ctx;
 
-    sums[RC_GAP_MOST] = -INFINITY;
-    for (size_t i = 0; i < rc_gap_on_map(g, j); i++)
-        sums[RC_GAP_MOST] = larger(sums[RC_GAP_MOST], -g->x[j * g->px + i]);
+    sums[MOST] = -INFINITY;
+    for (size_t i = 0; i < rc_gap_on_map(&g->problem, j); i++)
+        sums[MOST] = larger(sums[MOST], -g->maps.x[j * g->problem.px + i]);
 }
 
 /* The longest step under a given load, where a uniform motion has no other bound. If the bodies separate,
@@ -764,12 +827,12 @@ longest(struct rc_gap *g)
 {
     double sums[RC_GAP_SUMS];
 
-    if (g->control != RC_GAP_LOAD || g->way.mean == 0 || (g->way.mean > 0 && g->given >= 0))
+    if (g->set.control != RC_GAP_LOAD || g->way.mean == 0 || (g->way.mean > 0 && g->set.given >= 0))
         return INFINITY;
-    rows(g, g->way.mean < 0 ? reach_row : largest_row, g, sums);
+    rc_sums_rows(&g->sums, g->way.mean < 0 ? reach_row : largest_row, g, sums);
     if (g->way.mean < 0)
-        return sums[RC_GAP_MOST] > 0 ? sums[RC_GAP_MOST] : INFINITY;
-    return 4 * g->law.range / sums[RC_GAP_MOST];
+        return sums[MOST] > 0 ? sums[MOST] : INFINITY;
+    return 4 * g->problem.law.range / sums[MOST];
 }
 
 void
@@ -778,10 +841,10 @@ rc_gap_look_along(struct rc_gap *g)
     struct line line = {.rd = g->way.rd, .q = g->way.dad};
 
     g->way.stiffness = INFINITY;
-    if (g->stuck || !(g->way.rd > 0))
+    if (g->run.stuck || !(g->way.rd > 0))
         return;
     look(g, &line, 0);
-    g->way.stiffness = way_of(g, &line);
+    g->way.stiffness = way_of(&g->way, &line);
 }
 
 static double
@@ -789,18 +852,18 @@ find_z(struct rc_gap *g, double *old, double *sum_z)
 {
     double sums[RC_GAP_SUMS];
 
-    if (g->scale == 0) {
-        memset(g->z, 0, g->n * sizeof *g->z);
+    if (g->residual.largest == 0) {
+        memset(g->maps.z, 0, g->problem.n * sizeof *g->maps.z);
         *old = *sum_z = 0;
         return 0;
     }
     rc_sums_clear(&g->sums);
-    rc_whole_rows(g->whole, RC_WHOLE_ROUGH, r_in, z_out, g);
+    rc_whole_rows(g->problem.whole, RC_WHOLE_ROUGH, r_in, z_out, g);
     rc_sums_total(&g->sums, sums);
-    g->convolutions += 0.5;
-    *old = sums[1];
-    *sum_z = sums[2];
-    return sums[0];
+    g->run.convolutions += 0.5;
+    *old = sums[Z_RZ_OLD];
+    *sum_z = sums[Z_SUM];
+    return sums[Z_RZ];
 }
 
 static void
@@ -812,21 +875,20 @@ refresh(struct rc_gap *g)
 
 /* True if most of the error comes from A u in single precision. */
 static bool
-drifted(const struct rc_gap *g)
+drifted(const struct rc_gap_told *told)
 {
-    return g->told.drift > 10 * g->told.change || g->told.cuts > most_cut * g->told.change;
+    return told->drift > 10 * told->change || told->cuts > most_cut * told->change;
 }
 
 /* Computes d'W d, where W is the inverse of K on the free nodes, from r'z = z'W z and r = W z. NAN if the set
  * of free nodes has changed since the last direction. */
 static void
-measure_way(struct rc_gap *g, double rz)
+measure_way(struct rc_gap_way *way, double rz)
 {
-    double along = g->way.rd - rz; /* beta times r'd of the last direction */
-    double last =
-        g->way.beta > 0 ? (g->way.same ? g->way.beta * g->way.beta * g->way.dwd : NAN) : 0;
+    double along = way->rd - rz; /* beta times r'd of the last direction */
+    double last = way->beta > 0 ? (way->same ? way->beta * way->beta * way->dwd : NAN) : 0;
 
-    g->way.dwd = g->way.whole ? rz + 2 * along + last : NAN;
+    way->dwd = way->whole ? rz + 2 * along + last : NAN;
 }
 
 void
@@ -834,7 +896,7 @@ rc_gap_look(struct rc_gap *g)
 {
     double rz, old, sum_z;
 
-    if (g->told.error <= fresh * g->told.fresh || drifted(g))
+    if (g->told.error <= fresh * g->told.fresh || drifted(&g->told))
         refresh(g);
     find_residual(g);
     rz = find_z(g, &old, &sum_z);
@@ -844,15 +906,15 @@ rc_gap_look(struct rc_gap *g)
         g->way.beta = 0;
         g->way.rd = set_direction(g, sum_z);
     }
-    measure_way(g, rz);
+    measure_way(&g->way, rz);
     g->way.rz = rz;
     g->way.restart = false;
-    g->iterations++;
+    g->run.iterations++;
     if (g->way.rd > 0) {
         g->way.dad = find_ad(g);
         measure_ratio(g);
         if (!g->mode.known && !g->frozen.on && g->told.error < linear)
-            rc_gap_track(g, g->control == RC_GAP_MEAN ? sum_z / (double)g->free : 0);
+            rc_gap_track(g, g->set.control == RC_GAP_MEAN ? sum_z / (double)g->residual.free : 0);
         return;
     }
     if (g->told.drift > 0) { /* the residual is rounding, perhaps of A u: compute A u again */
@@ -860,9 +922,9 @@ rc_gap_look(struct rc_gap *g)
         g->way.restart = true;
         return;
     }
-    g->stuck = true;
+    g->run.stuck = true;
     if (rz > 0 && g->told.size > 0)
-        find_error(g);
+        find_error(&g->problem, &g->told);
     else
         g->told.error = rounding;
 }
@@ -873,33 +935,37 @@ rc_gap_move(struct rc_gap *g)
     struct line line = {.rd = g->way.rd, .q = g->way.dad};
     double sums[RC_GAP_SUMS];
 
-    if (g->stuck || !(g->way.rd > 0))
+    if (g->run.stuck || !(g->way.rd > 0))
         return;
     go(g, &line, line_minimum(g, &line, longest(g)));
-    if (g->stuck && drifted(g)) { /* first compute A u again */
+    if (g->run.stuck && drifted(&g->told)) { /* first compute A u again */
         refresh(g);
         g->way.restart = true;
-        g->stuck = false;
+        g->run.stuck = false;
     }
-    g->parting = g->control == RC_GAP_LOAD && g->given < 0 && g->way.mean > 0;
-    if (g->parting) {
-        rows(g, nearest_row, g, sums);
-        g->parting = -sums[RC_GAP_MOST] > 20 * g->law.range;
+    g->run.parting = g->set.control == RC_GAP_LOAD && g->set.given < 0 && g->way.mean > 0;
+    if (g->run.parting) {
+        rc_sums_rows(&g->sums, nearest_row, g, sums);
+        g->run.parting = -sums[MOST] > 20 * g->problem.law.range;
     }
 }
 
 /* ---- states ---- */
 
+enum {
+    MEAN_SUM /* of u - c */
+};
+
 static void
 mean_row(void *ctx, size_t j, double *sums)
 {
     const struct rc_gap *g = *(const struct rc_gap *const *)ctx;
-    size_t m = rc_gap_on_map(g, j);
+    size_t m = rc_gap_on_map(&g->problem, j);
 
-    for (size_t i = 0; i < g->px; i++)
-        sums[0] += g->x[j * g->px + i];
+    for (size_t i = 0; i < g->problem.px; i++)
+        sums[MEAN_SUM] += g->maps.x[j * g->problem.px + i];
     for (size_t i = 0; i < m; i++)
-        sums[0] += g->h[j * g->nx + i];
+        sums[MEAN_SUM] += g->problem.h[j * g->problem.nx + i];
 }
 
 double
@@ -907,25 +973,31 @@ rc_gap_shift(const struct rc_gap *g)
 {
     double sums[RC_GAP_SUMS], mean;
 
-    if (g->control == RC_GAP_SHIFT)
-        return g->given;
-    rows(g, mean_row, &g, sums);
-    mean = sums[0] / (double)g->n;
-    return (g->control == RC_GAP_LOAD ? g->whole->mean * g->given : 0) - mean;
+    if (g->set.control == RC_GAP_SHIFT)
+        return g->set.given;
+    rc_sums_rows(&g->sums, mean_row, &g, sums);
+    mean = sums[MEAN_SUM] / (double)g->problem.n;
+    return (g->set.control == RC_GAP_LOAD ? g->problem.whole->mean * g->set.given : 0) - mean;
 }
 
 void
 rc_gap_apart(struct rc_gap *g, double clearance)
 {
-    for (size_t j = 0; j < g->py; j++)
-        for (size_t i = 0; i < g->px; i++) {
-            bool map = j < g->ny && i < g->nx;
-            g->x[j * g->px + i] = clearance - (map ? g->h[j * g->nx + i] : 0);
+    for (size_t j = 0; j < g->problem.py; j++)
+        for (size_t i = 0; i < g->problem.px; i++) {
+            bool map = j < g->problem.ny && i < g->problem.nx;
+            g->maps.x[j * g->problem.px + i] =
+                clearance - (map ? g->problem.h[j * g->problem.nx + i] : 0);
         }
-    g->control = g->whole->boundary == RC_FREE ? RC_GAP_SHIFT : RC_GAP_MEAN;
-    g->given = -clearance;
+    g->set.control = g->problem.whole->boundary == RC_FREE ? RC_GAP_SHIFT : RC_GAP_MEAN;
+    g->set.given = -clearance;
     g->mode.known = false;
 }
+
+enum {
+    SHIFT_SUM, /* of x */
+    SHIFT_OPEN /* nodes that are open or beyond the map */
+};
 
 /* Moves the open nodes of the map, and the nodes beyond the map, by `a`. */
 static void
@@ -933,14 +1005,14 @@ shift_row(void *ctx, size_t j, double *sums)
 {
     const struct by *c = ctx;
     struct rc_gap *g = c->g;
-    size_t m = rc_gap_on_map(g, j);
+    size_t m = rc_gap_on_map(&g->problem, j);
 
-    for (size_t i = 0; i < g->px; i++) {
-        double *x = g->x + j * g->px + i;
+    for (size_t i = 0; i < g->problem.px; i++) {
+        double *x = g->maps.x + j * g->problem.px + i;
         if (i >= m || *x > 0)
             *x = i < m ? fmax(*x + c->a, 0) : *x + c->a;
-        sums[1] += *x;
-        sums[2] += i >= m || *x > 0;
+        sums[SHIFT_SUM] += *x;
+        sums[SHIFT_OPEN] += i >= m || *x > 0;
     }
 }
 
@@ -950,42 +1022,43 @@ shift(struct rc_gap *g, double a)
     struct by by = {g, a};
     double sums[RC_GAP_SUMS];
 
-    rows(g, shift_row, &by, sums);
-    if (g->control == RC_GAP_MEAN && sums[2] == 0) { /* no node is open, so that none would move */
-        for (size_t k = 0; k < g->n; k++)
-            g->x[k] = g->given;
+    rc_sums_rows(&g->sums, shift_row, &by, sums);
+    if (g->set.control == RC_GAP_MEAN &&
+        sums[SHIFT_OPEN] == 0) { /* no node is open, so that none would move */
+        for (size_t k = 0; k < g->problem.n; k++)
+            g->maps.x[k] = g->set.given;
         return;
     }
-    for (int k = 0; k < NEWTON && g->control == RC_GAP_MEAN && sums[2] > 0; k++) {
-        by.a = (g->given * (double)g->n - sums[1]) / sums[2];
-        if (fabs(by.a) <= 1e-15 * g->given)
+    for (int k = 0; k < NEWTON && g->set.control == RC_GAP_MEAN && sums[SHIFT_OPEN] > 0; k++) {
+        by.a = (g->set.given * (double)g->problem.n - sums[SHIFT_SUM]) / sums[SHIFT_OPEN];
+        if (fabs(by.a) <= 1e-15 * g->set.given)
             break;
-        rows(g, shift_row, &by, sums);
+        rc_sums_rows(&g->sums, shift_row, &by, sums);
     }
 }
 
 static void
-keep(const struct rc_gap *g, float *to)
+keep(const double *x, size_t n, int threads, float *to)
 {
-#pragma omp parallel for num_threads(g->sums.threads) schedule(static)
-    for (size_t k = 0; k < g->n; k++)
-        to[k] = (float)g->x[k];
+#pragma omp parallel for num_threads(threads) schedule(static)
+    for (size_t k = 0; k < n; k++)
+        to[k] = (float)x[k];
 }
 
 void
 rc_gap_keep(struct rc_gap *g)
 {
-    keep(g, g->start);
+    keep(g->maps.x, g->problem.n, g->sums.threads, g->maps.start);
 }
 
 void
 rc_gap_return(struct rc_gap *g, enum rc_gap_control control, double given)
 {
 #pragma omp parallel for num_threads(g->sums.threads) schedule(static)
-    for (size_t k = 0; k < g->n; k++)
-        g->x[k] = (double)g->start[k];
-    g->control = control;
-    g->given = given;
+    for (size_t k = 0; k < g->problem.n; k++)
+        g->maps.x[k] = (double)g->maps.start[k];
+    g->set.control = control;
+    g->set.given = given;
     g->mode.known = false; /* its softest mode belongs to another gap */
 }
 
@@ -993,13 +1066,13 @@ void
 rc_gap_freeze(struct rc_gap *g, bool at_start)
 {
     if (at_start)
-        memcpy(g->frozen.x, g->start, g->n * sizeof *g->start);
+        memcpy(g->frozen.x, g->maps.start, g->problem.n * sizeof *g->maps.start);
     else
-        keep(g, g->frozen.x);
+        keep(g->maps.x, g->problem.n, g->sums.threads, g->frozen.x);
     g->way.restart = g->frozen.on = true;
     g->way.rz = 0;
-    g->stuck = false;
-    forget_error(g);
+    g->run.stuck = false;
+    forget_error(&g->told);
 }
 
 void
@@ -1007,58 +1080,70 @@ rc_gap_begin(struct rc_gap *g, enum rc_gap_control control, double given)
 {
     double c = rc_gap_shift(g);
 
-    g->control = control;
-    g->given = given;
+    g->set.control = control;
+    g->set.given = given;
     if (control == RC_GAP_SHIFT && given != c)
         shift(g, c - given);
     if (control == RC_GAP_MEAN)
         shift(g, 0);
     /* under a load, lifts the factor of the mean to twice the largest factor; otherwise K has the mean */
-    g->lift = control == RC_GAP_LOAD ? (2 * g->whole->most - g->whole->mean) : 0;
-    g->level = 0;
+    g->set.lift =
+        control == RC_GAP_LOAD ? (2 * g->problem.whole->most - g->problem.whole->mean) : 0;
+    g->set.level = 0;
     g->way.restart = true;
     g->way.rz = 0;
-    forget_error(g);
+    forget_error(&g->told);
     g->told.fresh = 1;
-    g->stuck = g->parting = g->frozen.on = false;
-    g->iterations = g->mode.steps = 0;
-    g->convolutions = 0;
+    g->run.stuck = g->run.parting = g->frozen.on = false;
+    g->run.iterations = g->mode.steps = 0;
+    g->run.convolutions = 0;
     g->near.known = false;
-    memset(g->z, 0, g->n * sizeof *g->z);
-    memset(g->d, 0, g->n * sizeof *g->d);
-    memset(g->ad, 0, g->n * sizeof *g->ad);
+    memset(g->maps.z, 0, g->problem.n * sizeof *g->maps.z);
+    memset(g->maps.d, 0, g->problem.n * sizeof *g->maps.d);
+    memset(g->maps.ad, 0, g->problem.n * sizeof *g->maps.ad);
     g->mode.tracked = false;
     find_au(g);
 }
 
 /* ---- energy ---- */
 
-/* Sums over x, u = x + h, p, u p, V; over |p|, |u p|, |V|; nodes in contact. */
+enum {
+    ENERGY_X, /* sums over x, u = x + h, p, u p, V */
+    ENERGY_U,
+    ENERGY_P,
+    ENERGY_UP,
+    ENERGY_V,
+    ENERGY_P_SIZE, /* sums over |p|, |u p|, |V| */
+    ENERGY_UP_SIZE,
+    ENERGY_V_SIZE,
+    ENERGY_CONTACT /* nodes */
+};
+
 static void
 energy_row(void *ctx, size_t j, double *sums)
 {
     const struct rc_gap *g = ctx;
-    const double *x = g->x + j * g->px;
-    size_t m = rc_gap_on_map(g, j);
+    const double *x = g->maps.x + j * g->problem.px;
+    size_t m = rc_gap_on_map(&g->problem, j);
 
-    for (size_t i = 0; i < g->px; i++) {
-        double u = i < m ? x[i] + g->h[j * g->nx + i] : x[i];
-        double p = rc_gap_pressure_at(g, j * g->px + i);
-        sums[0] += x[i];
-        sums[1] += u;
-        sums[2] += p;
-        sums[3] += u * p;
-        sums[5] += fabs(p);
-        sums[6] += fabs(u * p);
+    for (size_t i = 0; i < g->problem.px; i++) {
+        double u = i < m ? x[i] + g->problem.h[j * g->problem.nx + i] : x[i];
+        double p = rc_gap_pressure_at(&g->set, g->maps.au, j * g->problem.px + i);
+        sums[ENERGY_X] += x[i];
+        sums[ENERGY_U] += u;
+        sums[ENERGY_P] += p;
+        sums[ENERGY_UP] += u * p;
+        sums[ENERGY_P_SIZE] += fabs(p);
+        sums[ENERGY_UP_SIZE] += fabs(u * p);
     }
     for (size_t i = 0; i < m; i += LINE) {
         size_t n = m - i < LINE ? m - i : LINE;
         double v[LINE], s[LINE], d[LINE];
-        rc_gap_law(g, j, i, n, x + i, v, s, d);
+        rc_gap_law(&g->problem, &g->frozen, j, i, n, x + i, v, s, d);
         for (size_t k = 0; k < n; k++) {
-            sums[4] += v[k];
-            sums[7] += fabs(v[k]);
-            sums[8] += x[i + k] <= 0;
+            sums[ENERGY_V] += v[k];
+            sums[ENERGY_V_SIZE] += fabs(v[k]);
+            sums[ENERGY_CONTACT] += x[i + k] <= 0;
         }
     }
 }
@@ -1068,25 +1153,25 @@ energy_row(void *ctx, size_t j, double *sums)
 struct rc_gap_energy
 rc_gap_energy(struct rc_gap *g, enum rc_gap_control control)
 {
-    double sums[RC_GAP_SUMS], n = (double)g->n, c = rc_gap_shift(g);
+    double sums[RC_GAP_SUMS], n = (double)g->problem.n, c = rc_gap_shift(g);
     struct rc_gap_energy e;
 
-    rows(g, energy_row, g, sums);
-    e.phi_scale = sums[6] + sums[7] + fabs(c) * sums[5];
-    e.pressure = sums[5];
-    e.contact = sums[8];
-    e.force_scale = control == RC_GAP_LOAD ? sums[0] : sums[5];
+    rc_sums_rows(&g->sums, energy_row, g, sums);
+    e.phi_scale = sums[ENERGY_UP_SIZE] + sums[ENERGY_V_SIZE] + fabs(c) * sums[ENERGY_P_SIZE];
+    e.pressure = sums[ENERGY_P_SIZE];
+    e.contact = sums[ENERGY_CONTACT];
+    e.force_scale = control == RC_GAP_LOAD ? sums[ENERGY_X] : sums[ENERGY_P_SIZE];
     if (control == RC_GAP_SHIFT) {
         e.given = c;
-        e.force = sums[2];
-        e.phi = (sums[3] + c * sums[2]) / 2 + sums[4];
+        e.force = sums[ENERGY_P];
+        e.phi = (sums[ENERGY_UP] + c * sums[ENERGY_P]) / 2 + sums[ENERGY_V];
         return e;
     }
-    e.given = (control == RC_GAP_LOAD ? sums[2] : sums[0]) / n;
-    e.force = control == RC_GAP_LOAD ? sums[0] : -sums[2];
-    e.phi = (sums[3] - sums[1] * sums[2] / n) / 2 + sums[4];
+    e.given = (control == RC_GAP_LOAD ? sums[ENERGY_P] : sums[ENERGY_X]) / n;
+    e.force = control == RC_GAP_LOAD ? sums[ENERGY_X] : -sums[ENERGY_P];
+    e.phi = (sums[ENERGY_UP] - sums[ENERGY_U] * sums[ENERGY_P] / n) / 2 + sums[ENERGY_V];
     if (control == RC_GAP_LOAD)
-        e.phi += e.given * sums[0];
+        e.phi += e.given * sums[ENERGY_X];
     return e;
 }
 
@@ -1099,38 +1184,40 @@ rc_gap_new(struct rc_gap *g, struct rc_whole *whole, const struct rc_attraction 
            const double *h, double hard, double *hards, struct rc_err *err)
 {
     size_t n = whole->grid.nx * whole->grid.ny;
-    double **room[DOUBLES] = {&g->x, &g->au, &g->r, &g->z, &g->d, &g->ad, &g->step};
+    double **room[DOUBLES] = {&g->maps.x, &g->maps.au, &g->maps.r,   &g->maps.z,
+                              &g->maps.d, &g->maps.ad, &g->maps.step};
 
-    *g = (struct rc_gap){.whole = whole,
-                         .law = *law,
-                         .nx = whole->map.nx,
-                         .ny = whole->map.ny,
-                         .px = whole->grid.nx,
-                         .py = whole->grid.ny,
-                         .n = n,
-                         .h = h,
-                         .hard = hard,
-                         .hards = hards,
-                         .yields = hards != NULL || !isinf(hard)};
+    *g = (struct rc_gap){.problem = {.whole = whole,
+                                     .law = *law,
+                                     .nx = whole->map.nx,
+                                     .ny = whole->map.ny,
+                                     .px = whole->grid.nx,
+                                     .py = whole->grid.ny,
+                                     .n = n,
+                                     .h = h,
+                                     .hard = hard,
+                                     .hards = hards,
+                                     .yields = hards != NULL || !isinf(hard)}};
     for (size_t k = 0; k < DOUBLES; k++)
         *room[k] = rc_store_take(&g->own, n, sizeof(double));
-    if (g->step != NULL)
+    if (g->maps.step != NULL)
         for (size_t k = 1; k <= 2; k++)
-            g->mode.e[RC_GAP_AZ - k] = (float *)g->step + (2 - k) * n;
+            g->mode.e[RC_GAP_AZ - k] = (float *)g->maps.step + (2 - k) * n;
     for (size_t k = 0; k < RC_GAP_FLOATS; k++)
         if (g->mode.e[k] == NULL)
             g->mode.e[k] = rc_store_take(&g->own, n, sizeof(float));
     g->told.at_mark = rc_store_take(&g->own, n, sizeof(float));
     g->near.ah = rc_store_take(&g->own, n, sizeof(float));
     g->frozen.x = rc_store_take(&g->own, n, sizeof(float));
-    g->start = rc_store_take(&g->own, n, sizeof(float));
-    g->off = rc_store_zeros(&g->own, n, 1);
-    g->a_step = g->r;
-    if (rc_sums_new(&g->sums, g->py, RC_GAP_MOST, RC_GAP_SUMS - RC_GAP_MOST, whole->threads) ==
-            RC_OK &&
+    g->maps.start = rc_store_take(&g->own, n, sizeof(float));
+    g->maps.off = rc_store_zeros(&g->own, n, 1);
+    g->maps.a_step = g->maps.r;
+    if (rc_sums_new(&g->sums, g->problem.py, RC_GAP_MOST, RC_GAP_SUMS - RC_GAP_MOST,
+                    whole->threads) == RC_OK &&
         !g->own.failed)
         return RC_OK;
-    return rc_err_set(err, "out of memory for the adhesion of %zu x %zu nodes", g->nx, g->ny);
+    return rc_err_set(err, "out of memory for the adhesion of %zu x %zu nodes", g->problem.nx,
+                      g->problem.ny);
 }
 
 void
@@ -1139,7 +1226,7 @@ rc_gap_free(struct rc_gap *g)
     rc_store_free(&g->own);
     free(g->near.a);
     free(g->sums.row);
-    free(g->hards);
+    free(g->problem.hards);
 }
 
 /* ---- along the softest mode, and off a saddle ---- */
@@ -1176,6 +1263,6 @@ rc_gap_down(struct rc_gap *g, double first)
     go(g, &line, a);
     g->way.restart = true;
     g->way.rz = 0;
-    g->stuck = false;
-    forget_error(g);
+    g->run.stuck = false;
+    forget_error(&g->told);
 }

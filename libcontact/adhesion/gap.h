@@ -34,6 +34,13 @@ enum {
     RC_GAP_LINE = 512  /* most nodes of a row in one call of a law */
 };
 
+/* Sums of a step that is clipped at the bounds: clipped nodes, x after the step, open nodes after it. */
+enum {
+    RC_GAP_CLIPPED,
+    RC_GAP_CLIP_SUM,
+    RC_GAP_CLIP_OPEN
+};
+
 /* The direction d of the next step, z + beta times the last one. W is defined in stability.c; `stiffness`
  * bounds the smallest eigenvalue from above. dwd NAN, stiffness INFINITY: unknown. */
 struct rc_gap_way {
@@ -96,7 +103,8 @@ struct rc_gap_near {
     bool known;  /* A h is known */
 };
 
-struct rc_gap {
+/* The bodies, from rc_gap_new. */
+struct rc_gap_problem {
     struct rc_whole *whole;
     struct rc_attraction law;
     size_t nx, ny, px, py, n; /* columns and rows of the map and of the grid; nodes of the grid */
@@ -104,27 +112,52 @@ struct rc_gap {
     double hard;              /* bound of p + sigma; INFINITY: none                    */
     double *hards;            /* nx ny bounds in place of `hard`; NULL: the same for all nodes */
     bool yields;              /* some node has such a bound                            */
+};
+
+/* The quantity that is given, from rc_gap_begin. */
+struct rc_gap_set {
     enum rc_gap_control control;
     double given; /* c, the mean of x, or S                                */
+    double level; /* p is A u + S minus this */
+    double lift;  /* factor of the preconditioner for the mean */
+};
+
+/* Maps of the grid. */
+struct rc_gap_maps {
     /* x, A u, residual, its correction K r, direction d, A d; memory for a step */
     double *x, *au, *r, *z, *d, *ad, *step;
-    double *a_step;       /* A times a step, in the memory of r, which is computed again */
-    unsigned char *off;   /* 1: the node is held at 0; the array covers the whole grid */
-    struct rc_sums sums;  /* sums over the rows of the grid */
-    double level;         /* p is A u + S minus this */
-    double lift;          /* factor of the preconditioner for the mean */
-    double scale, mean_r; /* the largest residual, and the mean residual */
-    size_t free;          /* nodes not held                                        */
-    struct rc_gap_way way;
-    struct rc_gap_told told;
-    struct rc_gap_mode mode;
-    struct rc_gap_frozen frozen;
-    float *start; /* x of the last state */
-    struct rc_gap_near near;
+    double *a_step;     /* A times a step, in the memory of r, which is computed again */
+    unsigned char *off; /* 1: the node is held at 0 */
+    float *start;       /* x of the last state */
+};
+
+/* The residual of the free nodes, which are those not held. */
+struct rc_gap_residual {
+    double largest, mean;
+    size_t free;
+};
+
+/* The course of the iteration since rc_gap_begin. */
+struct rc_gap_run {
     bool stuck;   /* no step lowers Phi any more */
     bool parting; /* the bodies separate without remaining attraction */
     double convolutions;
     size_t iterations;
+};
+
+/* A row of the grid is one work item. The functions of rows, and those that call them, get the whole state. */
+struct rc_gap {
+    struct rc_gap_problem problem;
+    struct rc_gap_set set;
+    struct rc_gap_maps maps;
+    struct rc_sums sums; /* sums over the rows of the grid */
+    struct rc_gap_residual residual;
+    struct rc_gap_way way;
+    struct rc_gap_told told;
+    struct rc_gap_mode mode;
+    struct rc_gap_frozen frozen;
+    struct rc_gap_near near;
+    struct rc_gap_run run;
     struct rc_store own;
 };
 
@@ -155,22 +188,22 @@ void rc_gap_return(struct rc_gap *g, enum rc_gap_control control, double given);
 double rc_gap_shift(const struct rc_gap *g);
 /* p of node k of the grid. */
 static inline double
-rc_gap_pressure_at(const struct rc_gap *g, size_t k)
+rc_gap_pressure_at(const struct rc_gap_set *set, const double *au, size_t k)
 {
-    return g->au[k] + (g->control == RC_GAP_LOAD ? g->given : 0) - g->level;
+    return au[k] + (set->control == RC_GAP_LOAD ? set->given : 0) - set->level;
 }
 
 /* ---- between gap.c and stability.c ---- */
 
 /* Nodes of row j that are on the map. */
 static inline size_t
-rc_gap_on_map(const struct rc_gap *g, size_t j)
+rc_gap_on_map(const struct rc_gap_problem *problem, size_t j)
 {
-    return j < g->ny ? g->nx : 0;
+    return j < problem->ny ? problem->nx : 0;
 }
 /* Computes V, sigma and D at n <= RC_GAP_LINE gaps of row j from node i on, with the hardness. */
-void rc_gap_law(const struct rc_gap *g, size_t j, size_t i, size_t n, const double *gap, double *v,
-                double *s, double *d);
+void rc_gap_law(const struct rc_gap_problem *problem, const struct rc_gap_frozen *frozen, size_t j,
+                size_t i, size_t n, const double *gap, double *v, double *s, double *d);
 /* Descends along d, a direction of negative curvature, whose largest value is way.unit. */
 void rc_gap_down(struct rc_gap *g, double first);
 

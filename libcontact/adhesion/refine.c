@@ -32,8 +32,8 @@ between(size_t i, size_t m, size_t n, size_t coarse)
 /* The gap of a node of this height. It is 0 where all coarse nodes around are closed, and below 0 only where
  * some have yielded. Beyond the map: u - c. */
 static double
-gap_at(const struct rc_gap *coarse, const struct between *x, const struct between *y, double factor,
-       bool on_map, double h)
+gap_at(const struct rc_gap_problem *problem, const double *gaps, const struct between *x,
+       const struct between *y, double factor, bool on_map, double h)
 {
     double u = 0, least = 0;
     bool apart = false;
@@ -41,9 +41,9 @@ gap_at(const struct rc_gap *coarse, const struct between *x, const struct betwee
     for (size_t b = 0; b < 4; b++)
         for (size_t a = 0; a < 4; a++) {
             const size_t i = x->at[a], j = y->at[b];
-            const double weight = x->weight[a] * y->weight[b], gap = coarse->x[j * coarse->px + i];
-            const bool map = i < rc_gap_on_map(coarse, j);
-            u += weight * (map ? gap + coarse->h[j * coarse->nx + i] : gap);
+            const double weight = x->weight[a] * y->weight[b], gap = gaps[j * problem->px + i];
+            const bool map = i < rc_gap_on_map(problem, j);
+            u += weight * (map ? gap + problem->h[j * problem->nx + i] : gap);
             apart |= weight > 0 && !(map && gap == 0);
             least = weight > 0 && map ? fmin(least, gap) : least;
         }
@@ -53,16 +53,17 @@ gap_at(const struct rc_gap *coarse, const struct between *x, const struct betwee
 void
 rc_gap_refine(struct rc_gap *g, const struct rc_gap *coarse)
 {
-    const double factor = coarse->whole->length / g->whole->length;
+    const double factor = coarse->problem.whole->length / g->problem.whole->length;
 
 #pragma omp parallel for num_threads(g->sums.threads) schedule(static)
-    for (size_t j = 0; j < g->py; j++) {
-        const struct between y = between(j, g->ny, g->py, coarse->py);
-        const size_t m = rc_gap_on_map(g, j);
-        for (size_t i = 0; i < g->px; i++) {
-            const struct between x = between(i, g->nx, g->px, coarse->px);
-            const double h = i < m ? g->h[j * g->nx + i] : 0;
-            g->x[j * g->px + i] = gap_at(coarse, &x, &y, factor, i < m, h);
+    for (size_t j = 0; j < g->problem.py; j++) {
+        const struct between y = between(j, g->problem.ny, g->problem.py, coarse->problem.py);
+        const size_t m = rc_gap_on_map(&g->problem, j);
+        for (size_t i = 0; i < g->problem.px; i++) {
+            const struct between x = between(i, g->problem.nx, g->problem.px, coarse->problem.px);
+            const double h = i < m ? g->problem.h[j * g->problem.nx + i] : 0;
+            g->maps.x[j * g->problem.px + i] =
+                gap_at(&coarse->problem, coarse->maps.x, &x, &y, factor, i < m, h);
         }
     }
 }

@@ -41,17 +41,24 @@ take_row(void *ctx, size_t j, void *to)
 {
     const struct product *p = ctx;
     const struct rc_gap *g = p->g;
-    const unsigned char *off = g->off + j * g->px;
-    const float *from = p->from + j * g->px;
+    const unsigned char *off = g->maps.off + j * g->problem.px;
+    const float *from = p->from + j * g->problem.px;
     float *row = to;
     bool any = false;
 
-    for (size_t i = 0; i < g->px; i++) {
+    for (size_t i = 0; i < g->problem.px; i++) {
         row[i] = off[i] ? 0 : from[i];
         any |= row[i] != 0;
     }
     return any;
 }
+
+enum {
+    GIVEN_ALL,  /* sum of the product */
+    GIVEN_FREE, /* the same on free nodes */
+    GIVEN_FROM, /* sum of the vector on free nodes */
+    GIVEN_NODES /* free nodes */
+};
 
 static bool
 give_row(void *ctx, size_t j, void *from)
@@ -61,13 +68,13 @@ give_row(void *ctx, size_t j, void *from)
     const float *row = from;
     double *sums = rc_sums_of(&g->sums, j);
 
-    for (size_t i = 0; i < g->px; i++) {
-        bool off = g->off[j * g->px + i];
-        p->to[j * g->px + i] = row[i];
-        sums[0] += (double)row[i];
-        sums[1] += off ? 0 : (double)row[i];
-        sums[2] += off ? 0 : (double)p->from[j * g->px + i];
-        sums[3] += !off;
+    for (size_t i = 0; i < g->problem.px; i++) {
+        bool off = g->maps.off[j * g->problem.px + i];
+        p->to[j * g->problem.px + i] = row[i];
+        sums[GIVEN_ALL] += (double)row[i];
+        sums[GIVEN_FREE] += off ? 0 : (double)row[i];
+        sums[GIVEN_FROM] += off ? 0 : (double)p->from[j * g->problem.px + i];
+        sums[GIVEN_NODES] += !off;
     }
     return true;
 }
@@ -79,8 +86,8 @@ add_mean(const struct product *p, double add)
     struct rc_gap *g = p->g;
 
 #pragma omp parallel for num_threads(g->sums.threads) schedule(static)
-    for (size_t k = 0; k < g->n; k++)
-        p->to[k] = g->off[k] ? 0 : (float)((double)p->to[k] + add);
+    for (size_t k = 0; k < g->problem.n; k++)
+        p->to[k] = g->maps.off[k] ? 0 : (float)((double)p->to[k] + add);
 }
 
 static void
@@ -90,25 +97,28 @@ apply_k(struct rc_gap *g, const float *from, float *to)
     double sums[RC_GAP_SUMS];
 
     rc_sums_clear(&g->sums);
-    rc_whole_rows(g->whole, RC_WHOLE_ROUGH, take_row, give_row, &p);
+    rc_whole_rows(g->problem.whole, RC_WHOLE_ROUGH, take_row, give_row, &p);
     rc_sums_total(&g->sums, sums);
-    g->convolutions += 0.5;
-    add_mean(&p, g->control == RC_GAP_MEAN && sums[3] > 0 ? -sums[1] / sums[3]
-                                                          : g->lift * sums[2] / (double)g->n);
+    g->run.convolutions += 0.5;
+    add_mean(&p, g->set.control == RC_GAP_MEAN && sums[GIVEN_NODES] > 0
+                     ? -sums[GIVEN_FREE] / sums[GIVEN_NODES]
+                     : g->set.lift * sums[GIVEN_FROM] / (double)g->problem.n);
 }
 
 /* Subtracts D x. */
 static void
-soften(struct rc_gap *g, const float *x, float *to)
+soften(const struct rc_gap_problem *problem, const struct rc_gap_frozen *frozen,
+       const struct rc_gap_maps *maps, int threads, const float *x, float *to)
 {
-#pragma omp parallel for num_threads(g->sums.threads) schedule(static)
-    for (size_t j = 0; j < g->ny; j++)
-        for (size_t i = 0; i < g->nx; i += RC_GAP_LINE) {
-            size_t n = g->nx - i < RC_GAP_LINE ? g->nx - i : RC_GAP_LINE, at = j * g->px + i;
+#pragma omp parallel for num_threads(threads) schedule(static)
+    for (size_t j = 0; j < problem->ny; j++)
+        for (size_t i = 0; i < problem->nx; i += RC_GAP_LINE) {
+            size_t n = problem->nx - i < RC_GAP_LINE ? problem->nx - i : RC_GAP_LINE,
+                   at = j * problem->px + i;
             double v[RC_GAP_LINE], s[RC_GAP_LINE], d[RC_GAP_LINE];
-            rc_gap_law(g, j, i, n, g->x + at, v, s, d);
+            rc_gap_law(problem, frozen, j, i, n, maps->x + at, v, s, d);
             for (size_t k = 0; k < n; k++)
-                if (!g->off[at + k])
+                if (!maps->off[at + k])
                     to[at + k] -= (float)(d[k] * (double)x[at + k]);
         }
 }
@@ -120,25 +130,30 @@ apply_stiffness(struct rc_gap *g, const float *from, float *to)
     double sums[RC_GAP_SUMS];
 
     rc_sums_clear(&g->sums);
-    rc_whole_rows(g->whole, RC_WHOLE_ROUGH_INVERSE, take_row, give_row, &p);
+    rc_whole_rows(g->problem.whole, RC_WHOLE_ROUGH_INVERSE, take_row, give_row, &p);
     rc_sums_total(&g->sums, sums);
-    g->convolutions += 0.5;
-    add_mean(&p, g->control == RC_GAP_LOAD ? -sums[0] / (double)g->n : 0);
-    soften(g, from, to);
+    g->run.convolutions += 0.5;
+    add_mean(&p, g->set.control == RC_GAP_LOAD ? -sums[GIVEN_ALL] / (double)g->problem.n : 0);
+    soften(&g->problem, &g->frozen, &g->maps, g->sums.threads, from, to);
 }
 
 /* ---- the space of three ---- */
+
+enum {
+    GRAM_W,    /* W, row by row up to its diagonal */
+    GRAM_T = 6 /* A - D, in the same order */
+};
 
 static void
 gram_row(void *ctx, size_t j, double *sums)
 {
     const struct rc_gap *g = ctx;
-    for (size_t k = j * g->px; k < (j + 1) * g->px; k++) {
+    for (size_t k = j * g->problem.px; k < (j + 1) * g->problem.px; k++) {
         size_t q = 0;
         for (size_t a = 0; a < SPACE; a++)
             for (size_t b = 0; b <= a; b++, q++) {
-                sums[q] += (double)g->mode.e[3 * a][k] * (double)g->mode.e[3 * b + 1][k];
-                sums[q + 6] += (double)g->mode.e[3 * a][k] * (double)g->mode.e[3 * b + 2][k];
+                sums[GRAM_W + q] += (double)g->mode.e[3 * a][k] * (double)g->mode.e[3 * b + 1][k];
+                sums[GRAM_T + q] += (double)g->mode.e[3 * a][k] * (double)g->mode.e[3 * b + 2][k];
             }
     }
 }
@@ -193,8 +208,8 @@ best(const double *sums, double *c)
 
     for (size_t a = 0, q = 0; a < SPACE; a++)
         for (size_t b = 0; b <= a; b++, q++) {
-            w[a][b] = w[b][a] = sums[q];
-            t[a][b] = t[b][a] = sums[q + 6];
+            w[a][b] = w[b][a] = sums[GRAM_W + q];
+            t[a][b] = t[b][a] = sums[GRAM_T + q];
         }
     memset(c, 0, SPACE * sizeof *c);
     /* Cholesky factor of W on unit vectors */
@@ -253,87 +268,99 @@ struct first {
 
 /* True for a free node of the map that was held when W x was found. */
 static bool
-released(const struct rc_gap *g, size_t at)
+released(const unsigned char *off, const struct rc_gap_mode *mode, size_t at)
 {
-    return !g->off[at] && g->mode.e[X + 1][at] == 0;
+    return !off[at] && mode->e[X + 1][at] == 0;
 }
 
-/* Sums of W x and of the free nodes. If no first vector is given, W x is the softening by the traction. A
+enum {
+    FIRST_SUM,   /* of W x */
+    FIRST_FREE,  /* free nodes */
+    FIRST_SQUARE /* sum of (W x)^2 */
+};
+
+/* If no first vector is given, W x is the softening by the traction. A
  * released node may have softer modes than the given one, and the first vector contains its motion. */
 static void
 first_row(void *ctx, size_t j, double *sums)
 {
     const struct first *c = ctx;
     struct rc_gap *g = c->g;
-    size_t m = rc_gap_on_map(g, j);
-    float *w = g->mode.e[X + 1] + j * g->px;
+    size_t m = rc_gap_on_map(&g->problem, j);
+    float *w = g->mode.e[X + 1] + j * g->problem.px;
 
     for (size_t i = 0; i < m && !c->given; i += RC_GAP_LINE) {
-        size_t n = m - i < RC_GAP_LINE ? m - i : RC_GAP_LINE, at = j * g->px + i;
+        size_t n = m - i < RC_GAP_LINE ? m - i : RC_GAP_LINE, at = j * g->problem.px + i;
         double v[RC_GAP_LINE], s[RC_GAP_LINE], d[RC_GAP_LINE];
-        rc_gap_law(g, j, i, n, g->x + at, v, s, d);
+        rc_gap_law(&g->problem, &g->frozen, j, i, n, g->maps.x + at, v, s, d);
         for (size_t k = 0; k < n; k++)
-            w[i + k] = (float)(d[k] / g->law.steepest);
+            w[i + k] = (float)(d[k] / g->problem.law.steepest);
     }
     /* with noise, x has a part of every wave: symmetry then hides no eigenvector */
-    for (size_t i = 0; i < g->px; i++) {
-        uint64_t hash = ((uint64_t)(j * g->px + i) + 1) * 0x9e3779b97f4a7c15u;
+    for (size_t i = 0; i < g->problem.px; i++) {
+        uint64_t hash = ((uint64_t)(j * g->problem.px + i) + 1) * 0x9e3779b97f4a7c15u;
         double noise = (double)(hash >> 40) / 0x1p24 - 0.5;
         if (!c->given && i >= m)
             w[i] = 0;
-        if (c->again && i < m && released(g, j * g->px + i))
+        if (c->again && i < m && released(g->maps.off, &g->mode, j * g->problem.px + i))
             w[i] = 1;
         if (i < m)
             w[i] = (float)((double)w[i] * (1 + noise / 4) + c->noise * noise);
-        if (g->off[j * g->px + i])
+        if (g->maps.off[j * g->problem.px + i])
             w[i] = 0;
-        sums[0] += (double)w[i];
-        sums[1] += !g->off[j * g->px + i];
-        sums[2] += (double)w[i] * (double)w[i];
+        sums[FIRST_SUM] += (double)w[i];
+        sums[FIRST_FREE] += !g->maps.off[j * g->problem.px + i];
+        sums[FIRST_SQUARE] += (double)w[i] * (double)w[i];
     }
 }
 
 static void
-combine(struct rc_gap *g, const double *c)
+combine(struct rc_gap_mode *mode, size_t n, int threads, const double *c)
 {
-#pragma omp parallel for num_threads(g->sums.threads) schedule(static)
-    for (size_t k = 0; k < g->n; k++)
+#pragma omp parallel for num_threads(threads) schedule(static)
+    for (size_t k = 0; k < n; k++)
         for (size_t q = 0; q < 3; q++) {
-            double way = c[1] * (double)g->mode.e[Y + q][k] + c[2] * (double)g->mode.e[D + q][k];
-            g->mode.e[D + q][k] = (float)way;
-            g->mode.e[X + q][k] = (float)(c[0] * (double)g->mode.e[X + q][k] + way);
+            double way = c[1] * (double)mode->e[Y + q][k] + c[2] * (double)mode->e[D + q][k];
+            mode->e[D + q][k] = (float)way;
+            mode->e[X + q][k] = (float)(c[0] * (double)mode->e[X + q][k] + way);
         }
 }
 
 static void
-clear(struct rc_gap *g, size_t first)
+clear(struct rc_gap_mode *mode, size_t n, size_t first)
 {
     for (size_t q = 0; q < 3; q++)
-        memset(g->mode.e[first + q], 0, g->n * sizeof *g->mode.e[0]);
+        memset(mode->e[first + q], 0, n * sizeof *mode->e[0]);
 }
+
+enum {
+    RESIDUAL_SUM,
+    RESIDUAL_FREE /* free nodes */
+};
 
 /* W y = t - mu w, minus its mean on free nodes if the mean is given. */
 static void
 residual_row(void *ctx, size_t j, double *sums)
 {
     struct rc_gap *g = ctx;
-    for (size_t k = j * g->px; k < (j + 1) * g->px; k++) {
-        double r =
-            g->off[k] ? 0 : (double)g->mode.e[X + 2][k] - g->mode.mu * (double)g->mode.e[X + 1][k];
+    for (size_t k = j * g->problem.px; k < (j + 1) * g->problem.px; k++) {
+        double r = g->maps.off[k]
+                       ? 0
+                       : (double)g->mode.e[X + 2][k] - g->mode.mu * (double)g->mode.e[X + 1][k];
         g->mode.e[Y + 1][k] = (float)r;
-        sums[0] += r;
-        sums[1] += !g->off[k];
+        sums[RESIDUAL_SUM] += r;
+        sums[RESIDUAL_FREE] += !g->maps.off[k];
     }
 }
 
 static void
-take_off(struct rc_gap *g, float *v, double mean)
+take_off(const unsigned char *off, size_t n, int threads, float *v, double mean)
 {
     if (mean == 0)
         return;
-#pragma omp parallel for num_threads(g->sums.threads) schedule(static)
-    for (size_t k = 0; k < g->n; k++)
-        if (!g->off[k])
+#pragma omp parallel for num_threads(threads) schedule(static)
+    for (size_t k = 0; k < n; k++)
+        if (!off[k])
             v[k] = (float)((double)v[k] - mean);
 }
 
@@ -344,18 +371,23 @@ improve(struct rc_gap *g)
     double sums[RC_GAP_SUMS], c[SPACE];
 
     rc_sums_rows(&g->sums, gram_row, g, sums);
-    g->mode.error = sqrt(fmax(sums[2], 0)); /* y'W y, for x with x'W x = 1 */
+    g->mode.error = sqrt(fmax(sums[GRAM_W + 2], 0)); /* y'W y, for x with x'W x = 1 */
     best(sums, c);
-    combine(g, c);
+    combine(&g->mode, g->problem.n, g->sums.threads, c);
 }
+
+enum {
+    QUOTIENT_W, /* x'W x */
+    QUOTIENT_T  /* x'(A - D) x */
+};
 
 static void
 quotient_row(void *ctx, size_t j, double *sums)
 {
     const struct rc_gap *g = ctx;
-    for (size_t k = j * g->px; k < (j + 1) * g->px; k++) {
-        sums[0] += (double)g->mode.e[X][k] * (double)g->mode.e[X + 1][k];
-        sums[1] += (double)g->mode.e[X][k] * (double)g->mode.e[X + 2][k];
+    for (size_t k = j * g->problem.px; k < (j + 1) * g->problem.px; k++) {
+        sums[QUOTIENT_W] += (double)g->mode.e[X][k] * (double)g->mode.e[X + 1][k];
+        sums[QUOTIENT_T] += (double)g->mode.e[X][k] * (double)g->mode.e[X + 2][k];
     }
 }
 
@@ -366,7 +398,7 @@ quotient(struct rc_gap *g)
     double sums[RC_GAP_SUMS];
 
     rc_sums_rows(&g->sums, quotient_row, g, sums);
-    return sums[1] / sums[0];
+    return sums[QUOTIENT_T] / sums[QUOTIENT_W];
 }
 
 void
@@ -378,25 +410,31 @@ rc_gap_eigen_begin(struct rc_gap *g)
     g->mode.mu = 1;
     g->mode.error = g->mode.bare = 0;
     g->mode.steps = g->mode.slow = 0;
-    if (g->free ==
-        (g->px * g->py) - (g->nx * g->ny)) /* all nodes of the map are held: nothing softens */
+    if (g->residual.free ==
+        (g->problem.px * g->problem.py) -
+            (g->problem.nx * g->problem.ny)) /* all nodes of the map are held: nothing softens */
         return;
     first.noise = first.given ? 0 : 0.05;
     rc_sums_rows(&g->sums, first_row, &first, sums);
-    if (!(sums[2] > 0)) { /* the given vector has no free node */
+    if (!(sums[FIRST_SQUARE] > 0)) { /* the given vector has no free node */
         first = (struct first){g, .noise = 0.05};
         rc_sums_rows(&g->sums, first_row, &first, sums);
     }
-    if (g->control == RC_GAP_MEAN)
-        take_off(g, g->mode.e[X + 1], sums[0] / sums[1]);
+    if (g->set.control == RC_GAP_MEAN)
+        take_off(g->maps.off, g->problem.n, g->sums.threads, g->mode.e[X + 1],
+                 sums[FIRST_SUM] / sums[FIRST_FREE]);
     apply_k(g, g->mode.e[X + 1], g->mode.e[X]);
     apply_stiffness(g, g->mode.e[X], g->mode.e[X + 2]);
-    clear(g, Y);
-    clear(g, D);
+    clear(&g->mode, g->problem.n, Y);
+    clear(&g->mode, g->problem.n, D);
     improve(g);
     g->mode.mu = quotient(g);
     g->mode.error = INFINITY;
 }
+
+enum {
+    TRACK_AZ /* sum of A z */
+};
 
 /* z, W z = r, and the sum of A z. */
 static void
@@ -404,10 +442,10 @@ track_row(void *ctx, size_t j, double *sums)
 {
     struct rc_gap *g = ctx;
 
-    for (size_t k = j * g->px; k < (j + 1) * g->px; k++) {
-        g->mode.e[Y][k] = g->off[k] ? 0 : (float)g->z[k];
-        g->mode.e[Y + 1][k] = g->off[k] ? 0 : (float)g->r[k];
-        sums[0] += (double)g->mode.e[Y + 2][k];
+    for (size_t k = j * g->problem.px; k < (j + 1) * g->problem.px; k++) {
+        g->mode.e[Y][k] = g->maps.off[k] ? 0 : (float)g->maps.z[k];
+        g->mode.e[Y + 1][k] = g->maps.off[k] ? 0 : (float)g->maps.r[k];
+        sums[TRACK_AZ] += (double)g->mode.e[Y + 2][k];
     }
 }
 
@@ -417,14 +455,15 @@ rc_gap_track(struct rc_gap *g, double mean)
     double sums[RC_GAP_SUMS];
 
     if (!g->mode.tracked) {
-        clear(g, X);
-        clear(g, D);
+        clear(&g->mode, g->problem.n, X);
+        clear(&g->mode, g->problem.n, D);
     }
     g->mode.tracked = true;
     rc_sums_rows(&g->sums, track_row, g, sums);
-    take_off(g, g->mode.e[Y], mean);
-    take_off(g, g->mode.e[Y + 2], g->control == RC_GAP_LOAD ? sums[0] / (double)g->n : 0);
-    soften(g, g->mode.e[Y], g->mode.e[Y + 2]);
+    take_off(g->maps.off, g->problem.n, g->sums.threads, g->mode.e[Y], mean);
+    take_off(g->maps.off, g->problem.n, g->sums.threads, g->mode.e[Y + 2],
+             g->set.control == RC_GAP_LOAD ? sums[TRACK_AZ] / (double)g->problem.n : 0);
+    soften(&g->problem, &g->frozen, &g->maps, g->sums.threads, g->mode.e[Y], g->mode.e[Y + 2]);
     improve(g);
 }
 
@@ -434,8 +473,9 @@ rc_gap_eigen_step(struct rc_gap *g)
     double sums[RC_GAP_SUMS], last = g->mode.mu;
 
     rc_sums_rows(&g->sums, residual_row, g, sums);
-    if (g->control == RC_GAP_MEAN)
-        take_off(g, g->mode.e[Y + 1], sums[0] / sums[1]);
+    if (g->set.control == RC_GAP_MEAN)
+        take_off(g->maps.off, g->problem.n, g->sums.threads, g->mode.e[Y + 1],
+                 sums[RESIDUAL_SUM] / sums[RESIDUAL_FREE]);
     apply_k(g, g->mode.e[Y + 1], g->mode.e[Y]);
     apply_stiffness(g, g->mode.e[Y], g->mode.e[Y + 2]);
     improve(g);
@@ -452,30 +492,43 @@ struct push {
     double a;
 };
 
-/* Sums of x'r, x'W x, and |A x| on open nodes, from (A - D) x; x'D x, and the released nodes. */
+enum {
+    SOFT_XR,      /* x'r */
+    SOFT_XWX,     /* x'W x */
+    SOFT_AX,      /* sum of |A x| on open nodes */
+    SOFT_XDX,     /* x'D x */
+    SOFT_RELEASED /* nodes */
+};
+
 static void
 soft_row(void *ctx, size_t j, double *sums)
 {
     struct rc_gap *g = ctx;
-    size_t m = rc_gap_on_map(g, j);
+    size_t m = rc_gap_on_map(&g->problem, j);
 
-    for (size_t i = 0; i < g->px; i += RC_GAP_LINE) {
-        size_t n = g->px - i < RC_GAP_LINE ? g->px - i : RC_GAP_LINE, at = j * g->px + i;
+    for (size_t i = 0; i < g->problem.px; i += RC_GAP_LINE) {
+        size_t n = g->problem.px - i < RC_GAP_LINE ? g->problem.px - i : RC_GAP_LINE,
+               at = j * g->problem.px + i;
         double v[RC_GAP_LINE], s[RC_GAP_LINE], d[RC_GAP_LINE];
         if (i < m)
-            rc_gap_law(g, j, i, m - i < n ? m - i : n, g->x + at, v, s, d);
+            rc_gap_law(&g->problem, &g->frozen, j, i, m - i < n ? m - i : n, g->maps.x + at, v, s,
+                       d);
         for (size_t k = 0; k < n; k++) {
             double x = (double)g->mode.e[X][at + k];
-            sums[0] += x * g->r[at + k];
-            sums[1] += x * (double)g->mode.e[X + 1][at + k];
-            if (i + k < m && !g->off[at + k]) {
-                sums[2] += fabs((double)g->mode.e[X + 2][at + k] + d[k] * x);
-                sums[3] += d[k] * x * x;
-                sums[4] += released(g, at + k);
+            sums[SOFT_XR] += x * g->maps.r[at + k];
+            sums[SOFT_XWX] += x * (double)g->mode.e[X + 1][at + k];
+            if (i + k < m && !g->maps.off[at + k]) {
+                sums[SOFT_AX] += fabs((double)g->mode.e[X + 2][at + k] + d[k] * x);
+                sums[SOFT_XDX] += d[k] * x * x;
+                sums[SOFT_RELEASED] += released(g->maps.off, &g->mode, at + k);
             }
         }
     }
 }
+
+enum {
+    BENT_SLOPE
+};
 
 /* The slope of V along the mode after a step, without its linear part: the sum of
  * x (sigma - sigma(0) + a D x). */
@@ -484,18 +537,18 @@ bent_row(void *ctx, size_t j, double *sums)
 {
     const struct push *c = ctx;
     const struct rc_gap *g = c->g;
-    size_t m = rc_gap_on_map(g, j);
+    size_t m = rc_gap_on_map(&g->problem, j);
 
     for (size_t i = 0; i < m; i += RC_GAP_LINE) {
-        size_t n = m - i < RC_GAP_LINE ? m - i : RC_GAP_LINE, at = j * g->px + i;
+        size_t n = m - i < RC_GAP_LINE ? m - i : RC_GAP_LINE, at = j * g->problem.px + i;
         double to[RC_GAP_LINE], v[RC_GAP_LINE], s[2][RC_GAP_LINE], d[RC_GAP_LINE];
         for (size_t k = 0; k < n; k++)
-            to[k] = g->x[at + k] + c->a * (double)g->mode.e[X][at + k];
-        rc_gap_law(g, j, i, n, to, v, s[1], d);
-        rc_gap_law(g, j, i, n, g->x + at, v, s[0], d);
+            to[k] = g->maps.x[at + k] + c->a * (double)g->mode.e[X][at + k];
+        rc_gap_law(&g->problem, &g->frozen, j, i, n, to, v, s[1], d);
+        rc_gap_law(&g->problem, &g->frozen, j, i, n, g->maps.x + at, v, s[0], d);
         for (size_t k = 0; k < n; k++) {
             double x = (double)g->mode.e[X][at + k];
-            sums[0] += g->off[at + k] ? 0 : x * (s[1][k] - s[0][k] + c->a * d[k] * x);
+            sums[BENT_SLOPE] += g->maps.off[at + k] ? 0 : x * (s[1][k] - s[0][k] + c->a * d[k] * x);
         }
     }
 }
@@ -510,23 +563,31 @@ rc_gap_soft_error(struct rc_gap *g)
     double sums[RC_GAP_SUMS], bent[RC_GAP_SUMS], left;
 
     rc_sums_rows(&g->sums, soft_row, g, sums);
-    if (!(sums[1] > 0))
+    if (!(sums[SOFT_XWX] > 0))
         return 0;
     if (g->mode.bare == 0)
-        g->mode.bare = g->mode.mu + sums[3] / sums[1];
-    g->mode.mu = g->mode.bare - sums[3] / sums[1];
-    g->mode.grown = sums[4] > 0;
-    if (sums[0] == 0)
+        g->mode.bare = g->mode.mu + sums[SOFT_XDX] / sums[SOFT_XWX];
+    g->mode.mu = g->mode.bare - sums[SOFT_XDX] / sums[SOFT_XWX];
+    g->mode.grown = sums[SOFT_RELEASED] > 0;
+    if (sums[SOFT_XR] == 0)
         return 0;
     if (g->mode.mu <= 0)
         return INFINITY;
-    rc_sums_rows(&g->sums, bent_row, &(struct push){g, 2 * sums[0] / (sums[1] * g->mode.mu)}, bent);
-    left = fmin(1 + bent[0] / sums[0], 1);
+    rc_sums_rows(&g->sums, bent_row,
+                 &(struct push){g, 2 * sums[SOFT_XR] / (sums[SOFT_XWX] * g->mode.mu)}, bent);
+    left = fmin(1 + bent[BENT_SLOPE] / sums[SOFT_XR], 1);
     if (left < margin)
         return INFINITY;
     /* the sum of A x vanishes, so that nodes in contact have about as much as open ones */
-    return 4 / (1 + sqrt(left)) * fabs(sums[0]) / sums[1] * sums[2] / g->told.size;
+    return 4 / (1 + sqrt(left)) * fabs(sums[SOFT_XR]) / sums[SOFT_XWX] * sums[SOFT_AX] /
+           g->told.size;
 }
+
+enum {
+    PUSH_RD,                    /* r'd */
+    PUSH_LARGEST = RC_GAP_MOST, /* d on the map */
+    PUSH_LARGEST_ALL            /* d on the grid */
+};
 
 /* d = a times the mode. */
 static void
@@ -534,15 +595,15 @@ push_row(void *ctx, size_t j, double *sums)
 {
     const struct push *c = ctx;
     struct rc_gap *g = c->g;
-    size_t m = rc_gap_on_map(g, j);
+    size_t m = rc_gap_on_map(&g->problem, j);
 
-    for (size_t i = 0; i < g->px; i++) {
-        size_t at = j * g->px + i;
-        g->d[at] = g->off[at] ? 0 : c->a * (double)g->mode.e[X][at];
+    for (size_t i = 0; i < g->problem.px; i++) {
+        size_t at = j * g->problem.px + i;
+        g->maps.d[at] = g->maps.off[at] ? 0 : c->a * (double)g->mode.e[X][at];
         if (i < m)
-            sums[RC_GAP_MOST] = fmax(sums[RC_GAP_MOST], fabs(g->d[at]));
-        sums[RC_GAP_MOST + 1] = fmax(sums[RC_GAP_MOST + 1], fabs(g->d[at]));
-        sums[0] += g->d[at] * g->r[at];
+            sums[PUSH_LARGEST] = fmax(sums[PUSH_LARGEST], fabs(g->maps.d[at]));
+        sums[PUSH_LARGEST_ALL] = fmax(sums[PUSH_LARGEST_ALL], fabs(g->maps.d[at]));
+        sums[PUSH_RD] += g->maps.d[at] * g->maps.r[at];
     }
 }
 
@@ -552,10 +613,10 @@ rc_gap_turn(struct rc_gap *g)
     double sums[RC_GAP_SUMS];
 
     rc_sums_rows(&g->sums, push_row, &(struct push){g, 1}, sums);
-    if (sums[0] < 0)
+    if (sums[PUSH_RD] < 0)
         rc_sums_rows(&g->sums, push_row, &(struct push){g, -1}, sums);
-    g->way.unit = sums[RC_GAP_MOST + 1];
-    rc_gap_aim(g, sums[0]);
+    g->way.unit = sums[PUSH_LARGEST_ALL];
+    rc_gap_aim(g, sums[PUSH_RD]);
 }
 
 void
@@ -564,6 +625,6 @@ rc_gap_leave(struct rc_gap *g)
     double sums[RC_GAP_SUMS];
 
     rc_sums_rows(&g->sums, push_row, &(struct push){g, 1}, sums);
-    g->way.unit = sums[RC_GAP_MOST + 1];
-    rc_gap_down(g, 0.1 * g->law.range / sums[RC_GAP_MOST]);
+    g->way.unit = sums[PUSH_LARGEST_ALL];
+    rc_gap_down(g, 0.1 * g->problem.law.range / sums[PUSH_LARGEST]);
 }
