@@ -24,11 +24,14 @@ static struct slip_args args = {
 /* clang-format off */
 static const struct opt opts[] = {
     {.name = "mu", .type = OPT_NUMBER, AT(mu), ABOVE_0, .result = true, .arg = "COEFFICIENT",
+     .one_of = RULES({.with = "mu", .remedy = "as in --mu 0.3"}),
      .help = "coefficient of friction, static and kinetic"},
     {.name = "tau-max", .type = OPT_NUMBER, .unit = UNIT_PA, AT(tau_max), ABOVE_0, .result = true,
      .arg = "STRESS", .help = "upper bound of the traction (Tresca)"},
     {.name = "tangential", .type = OPT_NUMBERS, .unit = UNIT_N, AT(tangential), .min = -INFINITY,
      .max = INFINITY, .result = true, .arg = "FX[,FY]",
+     .one_of = RULES({.with = "tangential|displacement|path|history|creep|creep-force",
+                      .remedy = "which move the bodies"}),
      .help = "force of body 2 on body 1 along the surface, under the load of the stream"},
     {.name = "displacement", .type = OPT_NUMBERS, .unit = UNIT_M, AT(displacement),
      .min = -INFINITY, .max = INFINITY, .result = true, .arg = "DX[,DY]",
@@ -44,14 +47,20 @@ static const struct opt opts[] = {
      .max = INFINITY, .result = true, .arg = "FX[,FY]",
      .help = "rolling under this force of body 2 on body 1: finds the creepages"},
     {.name = "steady", .type = OPT_FLAG, AT(steady), .result = true,
+     .needs = RULES({.with = "creep|creep-force"}),
      .help = "steady rolling: tractions do not change while the contact rolls"},
     {.name = "increments", .type = OPT_TEXT, AT(increments), .result = true, .arg = "N|auto",
+     .against = RULES({.with = "creep|creep-force", .because = "each case of rolling is one increment"}),
      .help = "increments between corners of a path (default auto: an error of about 1 %)"},
     {.name = "coupling", .type = OPT_CHOICE, AT(coupling), .result = true,
      .list = (const char *const[]){"full", "goodman", "none", NULL},
+     .against = RULES({.with = "creep|creep-force", .word = "full",
+                       .because = "rolling neglects the effect of tractions on the pressure",
+                       .remedy = "take --coupling goodman, or none"}),
      .help = "how pressure and tractions of dissimilar bodies influence each other (default full)"},
     {.name = "nu", .type = OPT_NUMBER, AT(nu), .min = -1, .max = 0.5, .above = true,
      .result = true, .arg = "RATIO",
+     .against = RULES({.with = "E1|nu1|E2|nu2", .because = "it is Poisson's ratio of both bodies"}),
      .help = "Poisson's ratio of both bodies, if the stream has only E*"},
     {.name = "E1", .type = OPT_NUMBER, .unit = UNIT_PA, AT(e1), ABOVE_0, .result = true,
      .arg = "MODULUS", .help = "or both bodies: Young's modulus of body 1"},
@@ -96,13 +105,6 @@ check_arguments(struct slip_run *run)
     const struct numbers *along = args.tangential.n > 0 ? &args.tangential : &args.displacement;
 
     run->args = &args;
-    if (isnan(args.mu))
-        tool_usage(t, "give the coefficient of friction with --mu, as in --mu 0.3");
-    if (tool_given(t, "tangential") + tool_given(t, "displacement") + tool_given(t, "path") +
-            tool_given(t, "history") + tool_given(t, "creep") + tool_given(t, "creep-force") !=
-        1)
-        tool_usage(t, "give one of --tangential, --displacement, --path, --history, --creep and "
-                      "--creep-force: how the bodies are moved");
     if (along->n > 2)
         tool_usage(t,
                    "--%s: it must be one value (along x) or two (x and y), as in %s: for several "

@@ -146,6 +146,6 @@ refuses 1 'differ from those of the case before' "a path over other maps" \
     'cat at-0.rcg other.rcg | rc-slip --mu 0.3 --creep 1e-3,0 -o x.rcg'
 refuses 2 'must be two creepages' "one creepage" 'rc-slip --mu 0.3 --creep 1e-3 --steady -o x.rcg ball.rcg'
 refuses 2 'give one of --tangential' "a creepage and a force" 'rc-slip --mu 0.3 --creep 1e-3,0 --tangential 3N -o x.rcg ball.rcg'
-refuses 2 '--steady needs --creep' "--steady alone" 'rc-slip --mu 0.3 --tangential 3N --steady -o x.rcg ball.rcg'
+refuses 2 '--steady has no effect without --creep or --creep-force' "--steady alone" 'rc-slip --mu 0.3 --tangential 3N --steady -o x.rcg ball.rcg'
 refuses 2 'take --coupling goodman' "full coupling" 'rc-slip --mu 0.3 --creep 1e-3,0 --steady --coupling full -o x.rcg ball.rcg'
-refuses 2 '--increments has no effect' "increments" 'rc-slip --mu 0.3 --creep 1e-3,0 --steady --increments 4 -o x.rcg ball.rcg'
+refuses 2 '--increments does not work with --creep, because' "increments" 'rc-slip --mu 0.3 --creep 1e-3,0 --steady --increments 4 -o x.rcg ball.rcg'

@@ -178,7 +178,7 @@ claim "an interrupted run writes its current state" bash -c '
 
 refuses 1 'force 80 N: friction carries less than 72 N' "a force beyond friction, with both numbers" "rc-slip --mu 0.3 --tangential 80N -o x.rcg ball.rcg"
 claim "  no file is left" test ! -e x.rcg
-refuses 2 'give the coefficient' "no coefficient" "rc-slip --tangential 1N -o x.rcg ball.rcg"
+refuses 2 'give --mu, as in --mu 0.3' "no coefficient" "rc-slip --tangential 1N -o x.rcg ball.rcg"
 refuses 2 'one of --tangential' "no force" "rc-slip --mu 0.3 -o x.rcg ball.rcg"
 refuses 2 'one of --tangential' "two of them" "rc-slip --mu 0.3 --tangential 1N --displacement 1um -o x.rcg ball.rcg"
 refuses 2 'one value .along x. or two .x and y.' "a force in three directions" "rc-slip --mu 0.3 --tangential 1N,2N,3N -o x.rcg ball.rcg"

@@ -70,7 +70,7 @@ row_at(const struct tool *t, size_t k)
 
     if (k < t->option.n)
         return &t->option.row[k];
-    return k == t->option.n ? &out : option_common(t->info, k - t->option.n - 1);
+    return k == t->option.n ? &out : option_common(t, k - t->option.n - 1);
 }
 
 /* True if one of the tool's own options takes such an argument. */
@@ -404,7 +404,7 @@ json_words(struct json *json, const struct opt *o)
 }
 
 static void
-json_option(struct json *json, const struct opt *o)
+json_option(struct json *json, const struct tool *t, const struct opt *o)
 {
     static const char *const types[] = {
         [OPT_FLAG] = "flag",   [OPT_NUMBER] = "number",   [OPT_COUNT] = "count",
@@ -427,6 +427,7 @@ json_option(struct json *json, const struct opt *o)
     json_bool(json, "optional", o->optional);
     json_bool(json, "result", o->result);
     json_bool(json, "repeats", o->type == OPT_TEXTS || o->type == OPT_STEP);
+    rules_json(json, t, o);
     json_text(json, "help", o->help);
     json_end(json, '}');
 }
@@ -449,7 +450,7 @@ table_print(const struct tool *t)
     json_text(&json, "writes", writes[t->info->writes]);
     json_begin(&json, "options", ']');
     for (size_t k = 0; (o = row_at(t, k)) != NULL; k++)
-        json_option(&json, o);
+        json_option(&json, t, o);
     json_end(&json, ']');
     json_close(&json);
 }

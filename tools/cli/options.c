@@ -4,10 +4,12 @@
 #include "tool.h"
 
 #include <assert.h>
+#include <ctype.h>
 #include <getopt.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
+#include <strings.h>
 
 #include "libcontact/contact.h"
 #include "tools/text/text.h"
@@ -33,12 +35,17 @@ static const struct opt common[] = {
     {.name = "version", .type = OPT_FLAG, .help = "print the version and exit"},
     {.name = NULL},
 };
+/* instead of "help", in a tool whose options have headings */
+static const struct opt help_of_groups = {
+    .name = "help", .type = OPT_TEXT, .optional = true, .arg = "GROUP",
+    .help = "print this, or only the options of a group, and exit"};
 /* clang-format on */
 
 enum {
     OWN = 1000,    /* getopt values of the rows of the tool */
     COMMON = 2000, /* getopt values of the common rows     */
     COLUMN = 28,   /* column at which help texts start     */
+    WIDTH = 100,   /* columns of lines with rules           */
     LIST = 256,    /* most bytes of a list of words        */
 };
 
@@ -46,37 +53,70 @@ static const char letters[] = ":o:h"; /* one-letter options for getopt */
 
 /* ---- the table ---- */
 
-static void
-add_rows(struct tool *t, const struct opt *table, void *base, size_t at)
+static bool
+is_row(const struct opt *o)
 {
-    for (const struct opt *o = table; o->name != NULL || o->group != NULL; o++) {
+    return o->name != NULL || o->group != NULL || o->title != NULL;
+}
+
+/* Under the heading `title`; NULL: --help has no headings. */
+static void
+add_rows(struct tool *t, const struct opt *table, void *base, size_t at, const char *title)
+{
+    for (const struct opt *o = table; is_row(o); o++) {
         struct opt row = *o;
         if (row.base == NULL) {
             row.base = base;
             row.at += at;
         }
+        row.title = title == NULL || o->title == NULL ? title : o->title;
         if (o->group != NULL) {
-            add_rows(t, o->group, row.base, row.at);
-            continue;
+            add_rows(t, o->group, row.base, row.at, row.title);
+        } else if (o->name == NULL) {
+            title = row.title;
+        } else {
+            assert(t->option.n < TOOL_OPTIONS);
+            t->option.row[t->option.n++] = row;
         }
-        assert(t->option.n < TOOL_OPTIONS);
-        t->option.row[t->option.n++] = row;
     }
 }
 
-const struct opt *
-option_common(const struct tool_info *info, size_t k)
+static bool
+has_headings(const struct opt *table)
 {
-    const struct opt *o = common;
+    while (is_row(table) && table->title == NULL)
+        table++;
+    return table->title != NULL;
+}
 
-    for (;; o++) {
-        if (o->name == NULL)
-            return NULL;
-        if (strcmp(o->name, "type") == 0 && info->writes != WRITES_STREAM)
-            continue;
-        if (k-- == 0)
-            return o;
+/* The n-th of the headings, in the order of their first options; NULL past the last. */
+static const char *
+heading(const struct tool *t, size_t n)
+{
+    for (size_t k = 0, i; k < t->option.n && t->option.row[k].title != NULL; k++) {
+        for (i = 0; strcmp(t->option.row[i].title, t->option.row[k].title) != 0;)
+            i++;
+        if (i == k && n-- == 0)
+            return t->option.row[k].title;
     }
+    return NULL;
+}
+
+/* Row k of the table of common options. */
+static const struct opt *
+common_row(const struct tool *t, size_t k)
+{
+    return heading(t, 0) != NULL && strcmp(common[k].name, "help") == 0 ? &help_of_groups
+                                                                        : &common[k];
+}
+
+const struct opt *
+option_common(const struct tool *t, size_t k)
+{
+    for (size_t i = 0; common[i].name != NULL; i++)
+        if ((strcmp(common[i].name, "type") != 0 || t->info->writes == WRITES_STREAM) && k-- == 0)
+            return common_row(t, i);
+    return NULL;
 }
 
 /* ---- words ---- */
@@ -96,9 +136,8 @@ option_word(const struct opt *o, size_t k, size_t *n)
     return word;
 }
 
-/* Index of text[0..n) among the words, or -1. */
-static int
-word_index(const struct opt *o, const char *text, size_t n)
+int
+option_word_index(const struct opt *o, const char *text, size_t n)
 {
     const char *word;
     size_t length;
@@ -165,19 +204,81 @@ help_row(const char *left, const struct opt *o)
         printf("%.*s%s%s\n", (int)(mark - o->help), o->help, word_list(list, o, ","), mark + 2);
 }
 
+/* The rules of an option, on lines of their own. */
+static void
+help_rules(const struct tool *t, const struct opt *o)
+{
+    const char *text = rules_text(t, o);
+
+    for (size_t n, column; *text != '\0'; printf("\n"))
+        for (column = (size_t)printf("%*s", COLUMN - 1, "");
+             *text != '\0' && (column == COLUMN - 1 || column + strcspn(text, " ") < WIDTH);
+             text += n + (text[n] == ' ')) {
+            n = strcspn(text, " ");
+            column += (size_t)printf(" %.*s", (int)n, text);
+        }
+}
+
+/* The options under this heading; NULL: all options of a tool without headings. */
+static void
+help_rows(const struct tool *t, const char *title)
+{
+    if (title != NULL)
+        printf("%c%s:\n", toupper((unsigned char)*title), title + 1);
+    for (size_t k = 0; k < t->option.n; k++)
+        if (title == NULL || strcmp(t->option.row[k].title, title) == 0) {
+            help_row("--", &t->option.row[k]);
+            help_rules(t, &t->option.row[k]);
+        }
+    if (t->option.n > 0)
+        printf("\n");
+}
+
+/* The heading that begins with this text; ends the tool if there is none, or several. */
+static const char *
+heading_named(struct tool *t, const char *text)
+{
+    const char *found = NULL, *title;
+    char list[LIST] = "";
+    size_t matches = 0, used = 0;
+
+    for (size_t k = 0; (title = heading(t, k)) != NULL; k++) {
+        if (strcasecmp(title, text) == 0)
+            return title;
+        if (strncasecmp(title, text, strlen(text)) == 0) {
+            found = title;
+            matches++;
+        }
+        if (used < LIST)
+            used += (size_t)snprintf(list + used, LIST - used, "%s%s", k == 0 ? "" : ", ", title);
+    }
+    if (matches != 1)
+        tool_usage(t, "--help %s: %s group of options: the groups are %s", text,
+                   matches == 0 ? "there is no such" : "this begins more than one", list);
+    return found;
+}
+
+/* Prints the options of one group, or the whole help with NULL. */
 static _Noreturn void
-print_help(const struct tool *t)
+print_help(struct tool *t, const char *group)
 {
     const struct tool_info *info = t->info;
     const struct opt *o;
+    const char *title;
 
+    if (group != NULL) {
+        help_rows(t, heading_named(t, group));
+        exit(fflush(stdout) == 0 ? 0 : EXIT_IMPOSSIBLE);
+    }
     printf("Usage: %s [OPTION]... %s\n%s.\n\n", info->name, info->operands, info->summary);
-    for (size_t k = 0; k < t->option.n; k++)
-        help_row("--", &t->option.row[k]);
-    if (t->option.n > 0)
-        printf("\n");
+    for (size_t k = 0; (title = heading(t, k)) != NULL; k++)
+        help_rows(t, title);
+    if (heading(t, 0) == NULL)
+        help_rows(t, NULL);
+    else
+        printf("All tools:\n");
     printf("  %-*swrite to FILE, which appears whole or not at all\n", COLUMN - 2, "-o FILE");
-    for (size_t k = 0; (o = option_common(info, k)) != NULL; k++)
+    for (size_t k = 0; (o = option_common(t, k)) != NULL; k++)
         help_row("--", o);
     printf("\nNumbers may carry a unit (1.1um, 240N, 6GPa); without one they are SI.\n");
     if (info->examples != NULL)
@@ -243,7 +344,7 @@ static const char *
 choice(struct tool *t, const struct opt *o, const char *text)
 {
     char list[LIST], meant[NAME_MEANT];
-    int k = text == NULL ? 0 : word_index(o, text, strlen(text));
+    int k = text == NULL ? 0 : option_word_index(o, text, strlen(text));
 
     if (text == NULL)
         return "";
@@ -261,7 +362,7 @@ word_set(struct tool *t, const struct opt *o, const char *text)
 
     for (const char *s = text;; s++) {
         size_t n = strcspn(s, ",");
-        int k = word_index(o, s, n);
+        int k = option_word_index(o, s, n);
         if (k < 0)
             tool_usage(t, "--%s %s: '%.*s' is none of %s%s", o->name, text, (int)n, s,
                        word_list(list, o, "|"), word_meant(meant, o, s, n));
@@ -281,7 +382,7 @@ add_step(struct tool *t, const struct opt *o, struct steps *steps, const char *t
     if (steps->n == most)
         tool_usage(t, "more than %zu steps: use two commands", most);
     if (o->type == OPT_STEP && o->arg != NULL && strchr(o->arg, '|') != NULL)
-        value = word_index(o, choice(t, o, text), strlen(text));
+        value = option_word_index(o, choice(t, o, text), strlen(text));
     else if (o->type == OPT_STEP && o->arg != NULL)
         value = o->unit == UNIT_NONE && !o->real ? whole(t, o, text) : number(t, o, text);
     steps->step[steps->n++] = (struct step){.opt = o, .value = value, .text = text};
@@ -347,7 +448,7 @@ static void
 set_common(struct tool *t, const struct opt *o, const char *text)
 {
     if (strcmp(o->name, "help") == 0)
-        print_help(t);
+        print_help(t, text);
     if (strcmp(o->name, "version") == 0) {
         printf("%s (libcontact) %s\n", t->info->name, rc_version());
         exit(fflush(stdout) == 0 ? 0 : EXIT_IMPOSSIBLE);
@@ -404,7 +505,7 @@ getopt_table(const struct tool *t)
             add_name(&rows, o->alias, argument_kind(o), OWN + (int)k);
     }
     for (size_t k = 0; common[k].name != NULL; k++)
-        add_name(&rows, common[k].name, argument_kind(&common[k]), COMMON + (int)k);
+        add_name(&rows, common[k].name, argument_kind(common_row(t, k)), COMMON + (int)k);
     return rows.row;
 }
 
@@ -450,13 +551,15 @@ could_be_argument(const struct opt *o, const char *word)
 {
     double value;
 
+    if (o->type == OPT_TEXT)
+        return *word != '-';
     if (o->type == OPT_CHOICE)
-        return word_index(o, word, strlen(word)) >= 0;
+        return option_word_index(o, word, strlen(word)) >= 0;
     return unit_number(word, o->unit, &value, NULL) == RC_OK;
 }
 
-/* The optional argument of an option. It follows the "=", or is the next word if that is a number or, for a
- * choice, one of its words. NULL without an argument. */
+/* The optional argument of an option. It follows the "=", or is the next word if that is a number, for a
+ * choice one of its words, for a text no option. NULL without an argument. */
 static const char *
 optional_argument_of(const struct opt *o, int argc, char **argv)
 {
@@ -552,10 +655,11 @@ options_read(struct tool *t, int argc, char **argv)
 {
     bool twice[TOOL_OPTIONS] = {false};
     const struct option *table;
+    const struct opt *o;
     const char *text;
     int what;
 
-    add_rows(t, t->info->opts, NULL, 0);
+    add_rows(t, t->info->opts, NULL, 0, has_headings(t->info->opts) ? "other" : NULL);
     /* for the build, which installs completions; not in the table and not in --help */
     if (argc == 3 && strcmp(argv[1], "--completions") == 0 && completions_print(t, argv[2]))
         exit(fflush(stdout) == 0 ? 0 : EXIT_IMPOSSIBLE);
@@ -565,12 +669,12 @@ options_read(struct tool *t, int argc, char **argv)
     look_for_output(t, argc, argv, table);
     while ((what = getopt_long(argc, argv, letters, table, NULL)) != -1) {
         if (what == 'h')
-            print_help(t);
+            print_help(t, NULL);
         if (what == 'o') {
             t->out_name = strcmp(optarg, "-") == 0 ? NULL : optarg;
         } else if (what >= COMMON) {
-            set_common(t, &common[what - COMMON],
-                       optional_argument_of(&common[what - COMMON], argc, argv));
+            o = common_row(t, (size_t)(what - COMMON));
+            set_common(t, o, optional_argument_of(o, argc, argv));
         } else if (what >= OWN) {
             twice[what - OWN] = t->option.given[what - OWN];
             t->option.given[what - OWN] = true;
@@ -588,6 +692,7 @@ options_read(struct tool *t, int argc, char **argv)
     t->operand = argv + optind;
     t->operands = (size_t)(argc - optind);
     t->verbose = t->verbose || t->debug;
+    rules_check(t);
     warn_of_commas(t);
     warn_of_repetition(t, twice);
 }

@@ -10,12 +10,20 @@ enum {
     TOOL_BUFFER = 1 << 16 /* size of the buffer for reading and writing; larger blocks bypass it */
 };
 
+/* Index of text[0..n) among the words of an option, or -1. */
+int option_word_index(const struct opt *option, const char *text, size_t n);
 /* Word k of an option with a list of words: its start and length; NULL past the last. */
 const char *option_word(const struct opt *option, size_t k, size_t *length);
 /* Row k of the common options; NULL past the last one of this tool. */
-const struct opt *option_common(const struct tool_info *info, size_t k);
+const struct opt *option_common(const struct tool *tool, size_t k);
 /* Prints the completions of bash, zsh or fish, or the option table as json; false for another word. */
 bool completions_print(const struct tool *tool, const char *shell);
+/* Ends the tool if the command line breaks a rule of an option. */
+void rules_check(struct tool *tool);
+/* "needs --tilt free; not with --history": the rules of an option, as in --help; valid until the next call. */
+const char *rules_text(const struct tool *tool, const struct opt *option);
+/* Writes them as members of an object. */
+void rules_json(struct json *json, const struct tool *tool, const struct opt *option);
 /* Reads the command line into tool->args and the common options. */
 void options_read(struct tool *tool, int argc, char **argv);
 

@@ -53,6 +53,25 @@ enum opt_type {
     OPT_TEXTS, /* appended too, in the same order; the argument is kept as text */
 };
 
+/* A rule about an option and others, as in {.with = "tilt free", .because = "..."}. It is a clause of one sentence:
+ * "--at has no effect without --tilt free, because ...: REMEDY". */
+struct opt_rule {
+    /* Names of options, each with a word after a blank or without, separated by '|'. LIST as the word of
+     * OPT_NUMBERS means several values, and the .arg of an OPT_NUMBER a number instead of .word. */
+    const char *with;
+    const char *word;    /* only with this word of the option, or one of "x|y"; NULL: always */
+    const char *because; /* NULL: the reason is obvious */
+    const char *remedy;  /* NULL: obvious, or to leave out one of both */
+};
+#define RULES(...)                                                                                 \
+    (const struct opt_rule[])                                                                      \
+    {                                                                                              \
+        __VA_ARGS__,                                                                               \
+        {                                                                                          \
+            .with = NULL                                                                           \
+        }                                                                                          \
+    }
+
 struct opt {
     const char *name;  /* without the two hyphens                                           */
     const char *alias; /* another name of it, or NULL                                       */
@@ -77,9 +96,19 @@ struct opt {
     const char *arg;  /* the name of the argument in --help: "FORCE"; NULL: no argument */
     const char *help; /* one line; %s is replaced by the words                */
     const void *of;   /* further data of the tool */
+    /* Rules, each a RULES(...): the tool refuses a command line that breaks one, and --help, completions and
+     * programs know them. */
+    const struct opt_rule *needs;   /* without one of these options this one has no effect */
+    const struct opt_rule *against; /* it does not work with any of these                  */
+    /* The tool needs exactly one of these, also without the option. */
+    const struct opt_rule *one_of;
     /* A row without a name: the rows of this table, whose .at are relative to that of the row, if they have
      * no .base. */
     const struct opt *group;
+    /* A row with a group, or a row of its own: the heading of these rows, or of the following ones, in --help.
+     * Rows with the same heading stand together there. Headings of groups count only if the table of the tool
+     * has one too. In struct tool every row has its heading. */
+    const char *title;
 };
 
 enum {
@@ -117,7 +146,7 @@ struct tool_info {
     const char *summary;    /* "contact of a height map with an elastic half-space"          */
     const char *operands;   /* "[FILE...]", as shown in --help                               */
     const char *examples;   /* whole lines for the end of --help                             */
-    const struct opt *opts; /* ended by a row without a name and group                     */
+    const struct opt *opts; /* ended by a row without a name, group and title              */
     enum tool_reads reads;
     enum tool_writes writes;
     /* NULL, or returns advice for an input that is not a grid stream and begins with `head`. If it returns

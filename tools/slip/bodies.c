@@ -13,9 +13,6 @@ slip_check_bodies(struct slip_run *run)
 
     if (bodies > 0 && (rigid ? bodies != 3 || tool_given(t, "nu2") : bodies != 4))
         tool_usage(t, "give both bodies, --E1 --nu1 --E2 --nu2, or --E1 --nu1 --E2 rigid");
-    if (bodies > 0 && tool_given(t, "nu"))
-        tool_usage(t,
-                   "--nu is Poisson's ratio of both bodies: give either --nu, or --nu1 and --nu2");
 }
 
 /* (1 - nu)/G, nu/G and (1 - 2 nu)/G, up to a common factor. */

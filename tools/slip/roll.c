@@ -15,27 +15,18 @@ forced(const struct slip_run *run)
 void
 slip_check_rolling(struct slip_run *run)
 {
-    static const char *const none[] = {"increments", "coupling", NULL};
     const struct slip_args *a = run->args;
     struct tool *t = &run->d.t;
     const char *which = forced(run) ? "creep-force" : "creep";
 
     run->rolls = a->creep.n > 0 || forced(run);
     run->position = NAN;
-    if (!run->rolls && a->steady)
-        tool_usage(t, "--steady needs --creep or --creep-force");
     if (!run->rolls)
         return;
     if (forced(run) ? a->creep_force.n > 2 : a->creep.n < 2 || a->creep.n > 3)
         tool_usage(t, "--%s: it must be %s", which,
                    forced(run) ? "one value (along x) or two (x and y), as in 36N,0"
                                : "two creepages (x and y), or these and a spin, as in 1e-3,0,20");
-    if (tool_given(t, none[0]))
-        tool_usage(t, "--increments has no effect with --%s: each case is one", which);
-    if (tool_given(t, none[1]) && run->coupling == RC_COUPLING_FULL)
-        tool_usage(
-            t, "--coupling full: rolling neglects the effect of tractions on the pressure: take "
-               "--coupling goodman, or none");
     if (run->coupling == RC_COUPLING_FULL)
         run->coupling = RC_COUPLING_GOODMAN;
 }
