@@ -21,12 +21,15 @@ static struct solve_args args = {
 #define AT(field) .at = offsetof(struct solve_args, field)
 /* clang-format off */
 static const struct opt opts[] = {
+    {.title = "load and bodies"},
     {.group = solve_contact_options},
+    {.title = "yield"},
     {.name = "increments", .type = OPT_TEXT, AT(increments), .result = true, .arg = "N[,half]|auto",
      .help = "increments of each load with --yield, or steps from time to time (default auto: to an error of "
              "1 %)"},
     {.name = "slabs", .type = OPT_TEXT, AT(slabs), .result = true, .arg = "N|LIST|auto",
      .help = "layers that may yield: number or thicknesses, from the surface down (default auto)"},
+    {.title = "time"},
     {.name = "relaxation", .type = OPT_TEXT, AT(relaxation), .result = true,
      .arg = "EINF,E1:TAU1,...|FILE",
      .help = "body 1 is viscoelastic: relaxed modulus and terms of E(t), or a file (instead of --E1)"},
@@ -36,6 +39,7 @@ static const struct opt opts[] = {
     {.name = "time", .type = OPT_NUMBERS, .unit = UNIT_S, AT(time), .min = 0, .max = INFINITY,
      .result = true, .arg = "LIST",
      .help = "with --relaxation, times of the loads or of the results of one load, each a case"},
+    {.title = "sliding"},
     {.name = "speed", .type = OPT_NUMBERS, .unit = UNIT_SPEED, AT(speed), .min = -INFINITY,
      .max = INFINITY, .result = true, .arg = "LIST",
      .help = "with --relaxation, body 2 slides steadily over body 1: m/s along +x, each a case"},
@@ -43,8 +47,10 @@ static const struct opt opts[] = {
      .help = "direction in which it slides (default x)"},
     {.name = "track", .type = OPT_CHOICE, AT(track), .result = true, .arg = "fresh|repeated",
      .help = "whether it meets its own grooves again after a period (default fresh)"},
+    {.title = "adhesion"},
     {.name = "pull-off", .type = OPT_FLAG, AT(pull_off), .result = true,
      .help = "after the last state separate the bodies, and find the pull-off load"},
+    {.title = "travel"},
     {.name = "travel", .type = OPT_NUMBERS, .unit = UNIT_M, AT(travel), .min = -INFINITY,
      .max = INFINITY, .result = true, .arg = "LIST",
      .help = "the contact travels over the map: x of its middle, from that of the map, each a case"},
@@ -58,6 +64,7 @@ static const struct opt opts[] = {
     {.name = "passes", .type = OPT_COUNT, AT(passes), .min = 1, .max = 1e6, .result = true,
      .arg = "N",
      .help = "with --travel and --yield, go through the positions N times (default 1)"},
+    {.title = "accuracy"},
     {.name = "kernel", .alias = "engine", .type = OPT_CHOICE, AT(kernel),
      .words = words_engine_or_auto, .help = "engine that sums displacements (default auto)"},
     {.name = "method", .type = OPT_CHOICE, AT(method), .words = words_method_or_auto,
@@ -65,6 +72,7 @@ static const struct opt opts[] = {
     {.name = "tol", .type = OPT_NUMBER, AT(tol), .min = 0, .max = 1, .above = true,
      .result = true, .arg = "ERROR",
      .help = "relative L1 error of the pressure (default N^(-3/4), N nodes, at most 1e-3)"},
+    {.title = "output"},
     {.name = "output", .type = OPT_WORDS, AT(output),
      .list = solve_frames, .arg = "LIST",
      .help = "frames to write, of %s (default: pressure, gap, displacement, height; with --yield residual, "
@@ -73,8 +81,10 @@ static const struct opt opts[] = {
      .help = "compute d load / d approach (default: with a list)"},
     {.name = "conductivity", .type = OPT_TEXT, AT(conductivity), .arg = "K1,K2",
      .help = "compute the conductance from the conductivities of both bodies: 45W/mK,16W/mK, 58MS/m,7MS/m"},
+    {.title = "accuracy"},
     {.name = "discretization", .type = OPT_FLAG, AT(discretization),
      .help = "estimate the discretization error, from a second solution on a coarser grid"},
+    {.title = "output"},
     {.group = drive_options, AT(drive)},
     {.name = NULL},
 };
