@@ -219,7 +219,7 @@ point_sum(struct rc_shape shape)
     struct rc_err err;
 
     if (bodies.n == 0)
-        must_be(rc_solids_new(&bodies, &pair, NULL, &err), &err);
+        must_be(rc_solids_new(&bodies, &pair, NULL, NULL, &err), &err);
     return (struct rc_sum){.shape = shape, .kernel = rc_surface_kernel(&surface)};
 }
 

@@ -486,24 +486,12 @@ struct rc_body {
  * material above it. */
 RC_API size_t rc_body_material(const struct rc_body *body, double depth);
 
-/* A factor that makes the compliance of both bodies differ along x, and its largest value. */
-struct rc_along {
-    /* periodic maps: of waves of qx (rad/m), even in qx */
-    double (*factor)(const void *of, double qx);
-    /* free maps: of the displacement at x, y >= 0 (m) from a square cell of the side dx (m) */
-    double (*at)(const void *of, double dx, double x, double y);
-    const void *of; /* first argument of the functions */
-    double most;
-};
-
 /* The two bodies in contact, or E* alone for uniform bodies. */
 struct rc_pair {
     struct rc_body one; /* body 1, which stress and plasticity analyse */
     struct rc_body two; /* e 0: rigid                                  */
     /* Pa, 1/E* = (1 - nu1^2)/E1 + (1 - nu2^2)/E2, if `one` and `two` are left out; 0: computed from them */
     double estar;
-    const struct rc_along
-        *along; /* NULL: the factor is 1; the caller keeps it as long as the solver */
 };
 
 /* ---- convolution ---- */

@@ -21,7 +21,7 @@ surface_case(struct body_case *c, struct rc_pair pair)
 
     *c = (struct body_case){.inside = NULL};
     assert_int_equal(rc_pair_check(&pair, &err), RC_OK);
-    assert_int_equal(rc_solids_new(&c->bodies, &pair, NULL, &err), RC_OK);
+    assert_int_equal(rc_solids_new(&c->bodies, &pair, NULL, NULL, &err), RC_OK);
     c->surface = (struct rc_surface){&c->bodies, 1, 1};
     c->kernel = rc_surface_kernel(&c->surface);
 }

@@ -41,8 +41,8 @@ libcontact/leak     | %base                                    | libcontact
 libcontact/wear     | %base libcontact/model/row.h             | libcontact libcontact/model
 libcontact/travel   | %base libcontact/model/row.h             | libcontact libcontact/model
 libcontact/viscoelastic| %base libcontact/model/row.h             | libcontact libcontact/model
-libcontact/viscoelastic| libcontact/solver/solver.h libcontact/transform/fourier.h | libcontact/solver libcontact/operator libcontact/transform
-libcontact/viscoelastic| libcontact/operator/operator.h libcontact/body/quadrature.h | libcontact/body
+libcontact/viscoelastic| libcontact/solver/elastic.h libcontact/transform/fourier.h | libcontact/solver libcontact/operator libcontact/transform
+libcontact/viscoelastic| libcontact/operator/operator.h libcontact/body/body.h libcontact/body/quadrature.h | libcontact/body
 libcontact/friction | %base libcontact/operator/operator.h     | libcontact libcontact/solver libcontact/operator libcontact/transform libcontact/body libcontact/ranks
 libcontact/friction | %base libcontact/solver/solver.h         | libcontact libcontact/solver
 libcontact/friction | libcontact/model/row.h                   | libcontact/model
@@ -200,8 +200,8 @@ names() {
     words=$(cd "$1" && sed -n 's/.*\.name = "\([a-z0-9_]*\)".*/\1/p' libcontact/operator/engine_*.c libcontact/operator/real_space/engine_*.c |
         paste -s -d '|')
     bodies=$(sed -n 's/^RC_BODY(\(.*\))/\1/p' "$1/libcontact/body/bodies.list" | paste -s -d '|')
-    (cd "$1" && find libcontact/operator libcontact/solver libcontact/stress libcontact/surface tools -name '*.[ch]') |
-        grep -v '^libcontact/operator/\(engine_fft\|conv\|real_space/.*\)\.[ch]$' |
+    (cd "$1" && find libcontact tools -name '*.[ch]') |
+        grep -v '^libcontact/operator/\(engine_fft\|conv\|real_space/.*\)\.[ch]$\|^libcontact/body/' |
         sort |
         while read -r file; do
             perl -0777 -ne '
@@ -209,6 +209,21 @@ names() {
                 s#/\*.*?\*/##gs;
                 my $n = () = /"(?:$words)"|\brc_engine_(?:$words)\b|\brc_body_(?:$bodies)\b/g;
                 print "name $name $n\n" if $n > 0' "$words" "$bodies" "$file" "$1/$file"
+        done
+}
+
+# reaches TREE: counts the places where a file calls a function of the row of a model itself, or a room of a
+# model names the solver of elastic contacts. An outer model drives its inner one by verbs only.
+reaches() {
+    (cd "$1" && find libcontact -mindepth 2 -name '*.[ch]' ! -path 'libcontact/model/*' ! -path 'libcontact/solver/*') | sort |
+        while read -r file; do
+            perl -0777 -ne '
+                BEGIN { $name = shift @ARGV; $verbs = join "|", qw(go step look fill state free keep heights compliance
+                    accuracy start respond progress plan solver) }
+                s#/\*.*?\*/##gs;
+                my $n = () = /->row->(?:$verbs)\b/g;
+                $n += () = /\bstruct rc_solver\b/g if $name !~ m#^libcontact/yield/#;
+                print "reach $name $n\n" if $n > 0' "$file" "$1/$file"
         done
 }
 
@@ -247,6 +262,8 @@ mapped() {
 claim "the map in CONTRIBUTING.md lists exactly the folders of the tree" mapped
 names "$RC_SOURCE" >name.txt
 claim "only the folder of operators names engines, and only the folder of bodies names bodies" none name.txt
+reaches "$RC_SOURCE" >reach.txt
+claim "outer models drive their inner models by verbs, and only yield has a solver of its own" none reach.txt
 
 if command -v nm >/dev/null; then
     symbols "$(dirname "$RC_BIN")" >symbols.txt
@@ -284,6 +301,11 @@ claim "the check finds names in quotes and in rows, but not in comments" diff - 
 name libcontact/operator/s.c 1
 name libcontact/stress/s.c 1
 name tools/rc-x.c 2
+END
+printf '/* m->row->go */ m->row->start(m); x = v->row->n; struct rc_solver *s; struct rc_solver_found f;\n' >bad/libcontact/other/reach.c
+reaches bad >seen.txt
+claim "the check finds a call of a row, and the solver in another room" diff - seen.txt <<'END'
+reach libcontact/other/reach.c 2
 END
 cat >bad-symbols.txt <<'END'
 D libcontact/common.c rc_common

@@ -138,10 +138,10 @@ make(struct rc_solids *s, const struct rc_pair *p, struct rc_err *err)
 }
 
 enum rc_status
-rc_solids_new(struct rc_solids *s, const struct rc_pair *pair, const struct rc_ranks *ranks,
-              struct rc_err *err)
+rc_solids_new(struct rc_solids *s, const struct rc_pair *pair, const struct rc_along *along,
+              const struct rc_ranks *ranks, struct rc_err *err)
 {
-    *s = (struct rc_solids){.along = pair->along};
+    *s = (struct rc_solids){.along = along};
     return rc_ranks_agree(ranks, make(s, pair, err), err);
 }
 

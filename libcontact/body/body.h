@@ -191,17 +191,28 @@ double rc_pair_modulus(const struct rc_pair *pair);
  * none. */
 double rc_pair_bends(const struct rc_pair *pair, double side);
 
+/* A factor that makes the compliance of both bodies differ along x, and its largest value. */
+struct rc_along {
+    /* periodic maps: of waves of qx (rad/m), even in qx */
+    double (*factor)(const void *of, double qx);
+    /* free maps: of the displacement at x, y >= 0 (m) from a square cell of the side dx (m) */
+    double (*at)(const void *of, double dx, double x, double y);
+    const void *of; /* first argument of the functions */
+    double most;
+};
+
 /* Both bodies with precomputed coefficients: a single solid if both are uniform, otherwise one for each body
  * that is not rigid. */
 struct rc_solids {
     size_t n;
     struct rc_solid *solid[2];
-    const struct rc_along *along; /* of the pair */
+    const struct rc_along *along; /* the caller's; NULL: the factor is 1 */
 };
 /* Prepares the bodies of a checked pair; RC_FAIL on all ranks when memory is short on one. Free them in
  * either case. */
 enum rc_status rc_solids_new(struct rc_solids *solids, const struct rc_pair *pair,
-                             const struct rc_ranks *ranks, struct rc_err *err);
+                             const struct rc_along *along, const struct rc_ranks *ranks,
+                             struct rc_err *err);
 void rc_solids_free(struct rc_solids *solids);
 
 /* E*(q) of both bodies, Pa, possibly from tables in the square of q, accurate to 1e-12. The last function

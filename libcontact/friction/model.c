@@ -173,11 +173,11 @@ press(struct friction *f, struct way *w, struct rc_err *err)
     w->stage = PRESSING;
     if (rc_model_go(w->inner, &to, err) != RC_MORE)
         return RC_FAIL;
-    if (w != f->way && w->passes == 0 && w->inner->row->start != NULL &&
-        w->inner->row->start(w->inner, rc_model_number(f->way->inner, "load"), f->way->p, err) !=
-            RC_OK)
-        return RC_FAIL;
-    return RC_MORE;
+    if (w == f->way || w->passes > 0)
+        return RC_MORE;
+    return rc_model_start(w->inner, rc_model_number(f->way->inner, "load"), f->way->p, err) == RC_OK
+               ? RC_MORE
+               : RC_FAIL;
 }
 
 /* Gives rc_friction_solver the pressure, and the force or displacement at the end of the increment. */
@@ -808,7 +808,7 @@ make(struct friction *f, const double *h, struct rc_err *err)
     if (f->alternates && h == NULL)
         return rc_err_set(err, "the pressure of dissimilar bodies depends on their tractions: give "
                                "heights, or choose another coupling");
-    if (f->alternates && f->base.inner->row->heights == NULL)
+    if (f->alternates && !rc_model_takes_heights(f->base.inner))
         return rc_err_set(err,
                           "the bodies are dissimilar, so that tractions change the heights, but "
                           "the %s model cannot change its heights: choose another coupling",

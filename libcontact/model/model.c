@@ -218,6 +218,30 @@ rc_model_set_compliance(struct rc_model *m, double c, const double *part, double
                : rc_err_set(err, "the %s model has no compliance of its nodes", m->row->name);
 }
 
+bool
+rc_model_takes_heights(const struct rc_model *m)
+{
+    return m->row->heights != NULL;
+}
+
+bool
+rc_model_takes_start(const struct rc_model *m)
+{
+    return m->row->start != NULL;
+}
+
+enum rc_status
+rc_model_start(struct rc_model *m, double load, const double *p, struct rc_err *err)
+{
+    return m->row->start != NULL ? m->row->start(m, load, p, err) : RC_OK;
+}
+
+void
+rc_model_set_accuracy(struct rc_model *m, double part)
+{
+    m->row->accuracy(m, part);
+}
+
 const struct rc_model *
 rc_model_find(const struct rc_model *m, const struct rc_model_row *row)
 {

@@ -162,6 +162,19 @@ struct rc_point rc_point_for(const struct rc_model *m, const struct rc_point *po
 struct rc_point rc_point_between(const struct rc_point *from, const struct rc_point *to,
                                  double part);
 bool rc_point_has(const struct rc_point *point, enum rc_axis axis);
+
+/* ---- verbs for outer models, which call the functions of the row ---- */
+
+/* True if rc_model_set_heights works. */
+bool rc_model_takes_heights(const struct rc_model *m);
+/* After rc_model_go: the iteration starts from the pressure p, Pa, which carries this load, N; p NULL: as if
+ * there had been no earlier point. A model that chooses its own start ignores the call; rc_model_takes_start
+ * is then false. */
+enum rc_status rc_model_start(struct rc_model *m, double load, const double *p, struct rc_err *err);
+bool rc_model_takes_start(const struct rc_model *m);
+/* From the next go on, the tolerance is this part of the one that the maker was given. For a model that takes
+ * a compliance. */
+void rc_model_set_accuracy(struct rc_model *m, double part);
 /* z, Pa: the change of the pressure when the heights grow by e, m; 0 from a model that cannot tell. */
 enum rc_status rc_model_respond(struct rc_model *m, const double *e, double *z, struct rc_err *err);
 void rc_loops_add(struct rc_loops *s, const char *what, const char *unit, double at, double of);

@@ -231,7 +231,7 @@ rc_conv_new(const struct rc_shape *shape, const struct rc_pair *pair,
 
     if (rc_shape_check(shape, err) != RC_OK || rc_pair_check(pair, err) != RC_OK)
         return NULL;
-    if (rc_solids_new(&bodies, pair, options->ranks, err) == RC_OK)
+    if (rc_solids_new(&bodies, pair, NULL, options->ranks, err) == RC_OK)
         conv = conv_new(&bodies, true, shape, options, err);
     if (conv == NULL)
         rc_solids_free(&bodies);

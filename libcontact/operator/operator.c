@@ -458,7 +458,7 @@ rc_operator_new(const struct rc_shape *shape, const struct rc_operator_options *
     s->bodies = &s->own;
     s->positive = rc_pair_positive(o->pair);
     s->bends = bending_length(shape, o->pair);
-    if (rc_solids_new(&s->own, o->pair, o->ranks, err) != RC_OK ||
+    if (rc_solids_new(&s->own, o->pair, o->along, o->ranks, err) != RC_OK ||
         (s->conv = rc_conv_new_of(s->bodies, shape, &options, err)) == NULL ||
         plan(s, shape, o, err) != RC_OK)
         return NULL;

@@ -55,6 +55,7 @@ struct rc_operator {
 struct rc_operator_options {
     enum rc_boundary boundary;
     const struct rc_pair *pair;   /* the bodies: the caller's                                    */
+    const struct rc_along *along; /* NULL: the factor is 1; else the caller's                    */
     const char *engine;           /* NULL: auto                                    */
     double tol;                   /* permitted error of K p, as in rc_conv_options */
     size_t threads;               /* 0: all                                        */

@@ -153,7 +153,7 @@ rc_whole_scales(const struct rc_shape *shape, const struct rc_pair *pair, double
 {
     double length = sqrt(shape->dx) * sqrt(shape->dy);
     struct rc_solids bodies;
-    enum rc_status status = rc_solids_new(&bodies, pair, NULL, err);
+    enum rc_status status = rc_solids_new(&bodies, pair, NULL, NULL, err);
 
     if (status == RC_OK) {
         *modulus = rc_solids_modulus(&bodies, RC_PI / length);
@@ -175,7 +175,7 @@ rc_whole_new(const struct rc_shape *shape, const struct rc_operator_options *o, 
     if ((w = calloc(1, sizeof *w)) == NULL)
         return rc_err_null(err, "out of memory for a plan");
     whole = &w->whole;
-    if (rc_solids_new(&w->bodies, o->pair, NULL, err) != RC_OK)
+    if (rc_solids_new(&w->bodies, o->pair, NULL, NULL, err) != RC_OK)
         return NULL;
     w->whole = (struct rc_whole){.map = *shape,
                                  .boundary = o->boundary,

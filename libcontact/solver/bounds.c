@@ -67,6 +67,8 @@ rc_bounds_of(struct rc_bounds *b, const struct rc_problem *problem, const struct
     size_t nodes = whole->nx * whole->ny;
     struct survey s;
 
+    if (!(problem->hardness >= 0))
+        return rc_err_set(err, "hardness %g Pa: it must be positive", problem->hardness);
     *b = of_numbers(problem->hardness == 0 ? INFINITY : problem->hardness, nodes);
     if (problem->hardness_map == NULL)
         return RC_OK;

@@ -3,7 +3,7 @@
  * body that is free to tilt. Its figures include the stiffness and the conductance. Keeping a point adds its
  * plastic dents to the shape.
  */
-#include "solver.h"
+#include "elastic.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -12,12 +12,14 @@
 #include "libcontact/expected.h"
 #include "libcontact/memory.h"
 #include "libcontact/model/row.h"
+#include "solver.h"
 
 struct elastic {
     struct rc_model base;
     struct rc_problem problem;
     struct rc_elastic_asks asks;
-    size_t n;            /* nodes of this rank                                     */
+    const struct rc_along *compliant; /* compliance that differs along x; NULL: it is the same */
+    size_t n;                         /* nodes of this rank                                     */
     const double *given; /* undeformed heights: until the first go the caller's array, then h */
     double *h;           /* a copy of `given`; freed when the solver has its own copy */
     double *dent;        /* present minus undeformed heights; NULL: no dents */
@@ -34,6 +36,7 @@ struct elastic {
      * `fresh`, the load (a guess if the approach is given) and the number of the method. */
     double *start, start_load, start_number;
     bool fresh;
+    bool fresh_held;       /* rc_elastic_hold has convolved in double precision */
     bool again;            /* a state was read whose contact is solved: the next step returns */
     enum rc_status solved; /* this */
     bool deformed;         /* the dents of this point are in the shape */
@@ -91,7 +94,7 @@ press(struct elastic *e, double load, double approach, struct rc_err *err)
     problem.load = load;
     problem.approach = approach;
     problem.height_error = e->height_error;
-    e->solver = rc_solver_new(&e->base.shape, e->given, &problem, err);
+    e->solver = rc_solver_new_along(&e->base.shape, e->given, &problem, e->compliant, err);
     if (e->solver == NULL)
         return RC_FAIL;
     if (rc_solver_set_diagonal(e->solver, e->compliance, e->part, e->along, err) != RC_OK)
@@ -585,19 +588,130 @@ release(struct rc_model *m)
     free(e->h);
 }
 
-/* ---- the maker ---- */
+/* ---- for an outer model with heights of its own ---- */
+
+static struct rc_solver *
+solver_of(const struct rc_model *m)
+{
+    return ((const struct elastic *)m)->solver;
+}
+
+const double *
+rc_elastic_pressure(const struct rc_model *m)
+{
+    return solver_of(m)->it.p;
+}
+
+double
+rc_elastic_top(const struct rc_model *m)
+{
+    return solver_of(m)->posed.top;
+}
+
+void
+rc_elastic_displacement(const struct rc_model *m, bool add, double *u)
+{
+    const struct rc_solver *s = solver_of(m);
+
+    for (size_t k = 0; k < s->posed.n; k++)
+        u[k] = (add ? u[k] : 0) + (s->it.v[k] + s->posed.h[k]);
+}
+
+const double *
+rc_elastic_hold(struct rc_model *m, bool fresh)
+{
+    struct elastic *e = (struct elastic *)m;
+    struct rc_solver *s = e->solver;
+
+    e->fresh_held = fresh;
+    if (fresh) {
+        rc_operator_apply(s->op, s->it.p, s->it.v);
+        rc_iterate_count(s, 1);
+    } else {
+        for (size_t k = 0; k < s->posed.n; k++)
+            s->it.v[k] += s->posed.h[k];
+    }
+    return s->it.v;
+}
+
+double
+rc_elastic_work(const struct rc_model *m, size_t *iterations)
+{
+    *iterations = solver_of(m)->it.iterations;
+    return rc_solver_convolutions(solver_of(m));
+}
+
+static enum rc_status
+take_heights(struct rc_solver *s, const struct rc_elastic_heights *to, struct rc_err *err)
+{
+    if (to->approach > 0)
+        s->load.target = to->approach;
+    return rc_solver_set_heights(s, to->h, err);
+}
+
+enum rc_status
+rc_elastic_judge(struct rc_model *m, const struct rc_elastic_heights *to, double tol, double *error,
+                 struct rc_err *err)
+{
+    struct rc_solver *s = solver_of(m);
+
+    s->posed.tol = tol;
+    if (take_heights(s, to, err) != RC_OK)
+        return RC_FAIL;
+    for (size_t k = 0; k < s->posed.n; k++)
+        s->it.v[k] -= s->posed.h[k];
+    s->it.known = true;
+    rc_iterate_shift(s);
+    rc_working_set_find(s, false);
+    *error = rc_working_set_estimate(s);
+    s->it.fresh = ((struct elastic *)m)->fresh_held;
+    return RC_OK;
+}
+
+bool
+rc_elastic_reached(const struct rc_model *m)
+{
+    return rc_load_reached(solver_of(m));
+}
+
+void
+rc_elastic_conclude(struct rc_model *m, double error)
+{
+    struct rc_solver *s = solver_of(m);
+
+    rc_iterate_checked(s, error, 1);
+    s->stage = RC_STAGE_STEPPED;
+    m->status = RC_OK;
+}
+
+void
+rc_elastic_set_rough(struct rc_model *m, bool rough)
+{
+    solver_of(m)->posed.rough = rough;
+}
+
+enum rc_status
+rc_elastic_resume(struct rc_model *m, const struct rc_elastic_heights *to, double tol, bool rough,
+                  struct rc_err *err)
+{
+    rc_elastic_set_rough(m, rough);
+    rc_solver_set_tol(solver_of(m), tol);
+    if (take_heights(solver_of(m), to, err) != RC_OK)
+        return RC_FAIL;
+    m->status = RC_MORE;
+    return RC_OK;
+}
+
+/* ---- the makers ---- */
 
 struct rc_model *
 rc_elastic_new(const struct rc_shape *shape, const double *h, const struct rc_problem *problem,
                const struct rc_elastic_asks *asks, struct rc_err *err)
 {
-    struct rc_problem any = *problem;
-    struct rc_expected expected;
     struct rc_model *m;
     struct elastic *e;
 
-    any.approach = 1; /* any approach: set_load checks the loads */
-    if (rc_solver_expect(shape, &any, &expected, err) != RC_OK ||
+    if (rc_solver_check(shape, problem, err) != RC_OK ||
         (m = rc_model_make(&rc_model_elastic, sizeof *e, shape, err)) == NULL)
         return NULL;
     e = (struct elastic *)m;
@@ -607,6 +721,22 @@ rc_elastic_new(const struct rc_shape *shape, const double *h, const struct rc_pr
     e->tol = problem->tol;
     e->n = rc_rows_of(problem->ranks, shape).n * shape->nx;
     e->given = h;
+    return m;
+}
+
+struct rc_model *
+rc_elastic_new_along(const struct rc_shape *shape, const double *h,
+                     const struct rc_problem *problem, const struct rc_along *along,
+                     struct rc_err *err)
+{
+    struct rc_problem own = *problem;
+    struct rc_model *m;
+
+    if (problem->boundary == RC_FREE) /* only the transforms take a factor of the displacement */
+        own.engine = rc_engine_of_transforms()->info.name;
+    m = rc_elastic_new(shape, h, &own, NULL, err);
+    if (m != NULL)
+        ((struct elastic *)m)->compliant = along;
     return m;
 }
 

@@ -49,8 +49,6 @@ check(const struct rc_shape *s, const struct rc_problem *problem, struct rc_err 
         return RC_FAIL;
     if (rc_pair_check(&problem->pair, err) != RC_OK)
         return RC_FAIL;
-    if (!(problem->hardness >= 0))
-        return rc_err_set(err, "hardness %g Pa: it must be positive", problem->hardness);
     if (!(problem->tol >= 0))
         return rc_err_set(err, "tolerance %g: it must be positive", problem->tol);
     if (problem->approach > 0 && isinf(problem->approach))
@@ -72,10 +70,12 @@ tolerance(const struct rc_shape *shape, const struct rc_problem *problem)
  * pressure. At a tenth of the tolerance, as in the paper, the engine made up to a third of the final
  * error. */
 static struct rc_operator_options
-operator_options(const struct rc_shape *shape, const struct rc_problem *problem)
+operator_options(const struct rc_shape *shape, const struct rc_problem *problem,
+                 const struct rc_along *along)
 {
     return (struct rc_operator_options){.boundary = problem->boundary,
                                         .pair = &problem->pair,
+                                        .along = along,
                                         .engine = problem->engine,
                                         .tol = 0.02 * tolerance(shape, problem),
                                         .threads = problem->threads,
@@ -207,16 +207,23 @@ solver_new(const struct rc_ranks *all, const struct rc_shape *shape, const doubl
 }
 
 struct rc_solver *
-rc_solver_new(const struct rc_shape *shape, const double *h, const struct rc_problem *problem,
-              struct rc_err *err)
+rc_solver_new_along(const struct rc_shape *shape, const double *h, const struct rc_problem *problem,
+                    const struct rc_along *along, struct rc_err *err)
 {
-    struct rc_operator_options options = operator_options(shape, problem);
+    struct rc_operator_options options = operator_options(shape, problem, along);
     const struct rc_method *method = choose(problem->method, err);
 
     if (method == NULL || check(shape, problem, err) != RC_OK)
         return NULL;
     return solver_new(problem->ranks, shape, h, problem, method,
                       rc_operator_new(shape, &options, err), err);
+}
+
+struct rc_solver *
+rc_solver_new(const struct rc_shape *shape, const double *h, const struct rc_problem *problem,
+              struct rc_err *err)
+{
+    return rc_solver_new_along(shape, h, problem, NULL, err);
 }
 
 struct rc_solver *
@@ -247,7 +254,7 @@ const char *
 rc_solver_choice(const struct rc_shape *shape, const struct rc_problem *problem,
                  const char **reason)
 {
-    struct rc_operator_options options = operator_options(shape, problem);
+    struct rc_operator_options options = operator_options(shape, problem, NULL);
 
     return rc_operator_engine(shape, &options, reason);
 }
@@ -272,20 +279,42 @@ memory(const struct rc_shape *shape, const struct rc_problem *problem, const cha
                     (double)rc_ranks_count(problem->ranks));
 }
 
+/* Checks all but the load; gives the method and the bounds. */
+static enum rc_status
+check_all(const struct rc_shape *shape, const struct rc_problem *problem,
+          const struct rc_method **method, struct rc_bounds *bounds, struct rc_err *err)
+{
+    const struct rc_operator_options options = operator_options(shape, problem, NULL);
+
+    *method = choose(problem->method, err);
+    return *method != NULL && check(shape, problem, err) == RC_OK &&
+                   rc_operator_check(shape, &options, err) == RC_OK &&
+                   rc_bounds_of(bounds, problem, shape, err) == RC_OK
+               ? RC_OK
+               : RC_FAIL;
+}
+
+enum rc_status
+rc_solver_check(const struct rc_shape *shape, const struct rc_problem *problem, struct rc_err *err)
+{
+    const struct rc_method *method;
+    struct rc_bounds bounds;
+
+    return check_all(shape, problem, &method, &bounds, err);
+}
+
 enum rc_status
 rc_solver_expect(const struct rc_shape *shape, const struct rc_problem *problem,
                  struct rc_expected *expected, struct rc_err *err)
 {
-    struct rc_operator_options options = operator_options(shape, problem);
-    const struct rc_method *method = choose(problem->method, err);
+    const struct rc_operator_options options = operator_options(shape, problem, NULL);
+    const struct rc_method *method;
     struct rc_bounds bounds;
     const bool layered = problem->pair.one.layers + problem->pair.two.layers > 0;
     double nodes = (double)(shape->nx * shape->ny), some;
     const char *reason, *engine = rc_operator_engine(shape, &options, &reason);
 
-    if (method == NULL || check(shape, problem, err) != RC_OK ||
-        rc_operator_check(shape, &options, err) != RC_OK ||
-        rc_bounds_of(&bounds, problem, shape, err) != RC_OK)
+    if (check_all(shape, problem, &method, &bounds, err) != RC_OK)
         return RC_FAIL;
     if (!(problem->approach > 0) && rc_load_check(problem->load, &bounds, shape->dx * shape->dy,
                                                   shape->nx * shape->ny, err) != RC_OK)

@@ -283,6 +283,14 @@ void rc_working_set_forget(struct rc_solver *solver);
 
 /* The caller changed p or the load: drops all derived fields. */
 void rc_solver_restart(struct rc_solver *solver);
+/* rc_solver_new, with a compliance that differs along x; the caller keeps `along` as long as the solver. */
+struct rc_solver *rc_solver_new_along(const struct rc_shape *shape, const double *h,
+                                      const struct rc_problem *problem,
+                                      const struct rc_along *along, struct rc_err *err);
+/* RC_FAIL when rc_solver_new would refuse the problem, whatever its load or approach is, except for short
+ * memory. */
+enum rc_status rc_solver_check(const struct rc_shape *shape, const struct rc_problem *problem,
+                               struct rc_err *err);
 /* The number that the method keeps for later loads, or `none`. */
 double *rc_solver_lasting(const struct rc_solver *solver, double *none);
 /* After a start from a pressure: it is the solution, with this error, of an iteration that took so much. */

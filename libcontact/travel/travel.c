@@ -196,14 +196,14 @@ start(struct travel *v, struct rc_err *err)
     struct rc_model *inner = v->base.inner;
     double sum;
 
-    if (inner->row->start == NULL || known == 0)
+    if (!rc_model_takes_start(inner) || known == 0)
         return RC_OK;
     v->known = 1; /* p[1] is used up */
     if (known < 2 || !(step * last > 0) || fabs(step) > short_step + rounding ||
         fabs(last) > short_step + rounding)
-        return inner->row->start(inner, 0, NULL, err);
+        return rc_model_start(inner, 0, NULL, err);
     sum = extrapolate(v, column_of(v), step / last);
-    return inner->row->start(inner, sum * v->base.shape.dx * v->base.shape.dy, v->p[1], err);
+    return rc_model_start(inner, sum * v->base.shape.dx * v->base.shape.dy, v->p[1], err);
 }
 
 static enum rc_status
@@ -229,7 +229,7 @@ take(struct travel *v, struct rc_err *err)
     double *p = v->p[1];
 
     v->taken = true;
-    if (v->base.inner->row->start == NULL)
+    if (!rc_model_takes_start(v->base.inner))
         return RC_OK;
     if (rc_model_look(v->base.inner, NULL, err) != RC_OK ||
         rc_model_frame(v->base.inner, "pressure", p, err) != RC_OK)
@@ -317,7 +317,7 @@ plan(const struct rc_model *m, const struct rc_point *most, struct rc_expected *
 {
     const struct travel *v = (const struct travel *)m;
     const struct rc_point inner = rc_point_for(m->inner, most);
-    const size_t maps = m->inner->row->start != NULL ? 3 : 1;
+    const size_t maps = rc_model_takes_start(m->inner) ? 3 : 1;
 
     if (rc_model_plan(m->inner, &inner, expected, err) != RC_OK)
         return RC_FAIL;
@@ -386,7 +386,7 @@ rc_travel_new(struct rc_model *inner, const struct rc_travel_problem *problem, s
     if (check(&m->shape, problem, err) != RC_OK)
         return NULL;
     v->h = rc_store_take(&m->own, v->n, sizeof *v->h);
-    for (int k = 0; k < 2 && m->inner->row->start != NULL; k++)
+    for (int k = 0; k < 2 && rc_model_takes_start(m->inner); k++)
         v->p[k] = rc_store_take(&m->own, v->n, sizeof *v->h);
     return rc_model_room(m, err) == RC_OK ? rc_give(&m) : NULL;
 }

@@ -333,7 +333,7 @@ start_run(struct creep *v, size_t on, struct rc_err *err)
 
     /* the last pressure belongs to the other end of the leg */
     if (on == FINE && v->end > v->start && status == RC_MORE &&
-        inner->row->start(inner, 0, NULL, err) != RC_OK)
+        rc_model_start(inner, 0, NULL, err) != RC_OK)
         return RC_FAIL;
     return status;
 }

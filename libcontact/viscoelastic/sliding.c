@@ -39,7 +39,7 @@
 
 #include "libcontact/expected.h"
 #include "libcontact/model/row.h"
-#include "libcontact/solver/solver.h"
+#include "libcontact/solver/elastic.h"
 #include "libcontact/transform/fourier.h"
 #include "wake.h"
 
@@ -70,7 +70,8 @@ struct slide {
     double *h, *g, *room; /* heights, G, and heights of the inner model */
     double top;
     struct wave *wave;
-    struct rc_along along;
+    struct rc_along along;            /* of a periodic map */
+    const struct rc_along *compliant; /* of the present speed; NULL: a free map at rest */
     struct rc_line *line;
     struct rc_wake *wake; /* on a free map, at a speed above 0 */
     bool loaded;          /* the wake has the pressure       */
@@ -157,8 +158,8 @@ set_waves(struct slide *s, double speed)
         s->steepest = s->lossy = fmax(s->steepest, fabs(tan(d)));
         s->along.most = fmax(s->along.most, s->wave[k].factor);
     }
-    s->problem.pair = (struct rc_pair){
-        .estar = 1 / typical, .along = s->problem.boundary == RC_PERIODIC ? &s->along : NULL};
+    s->problem.pair = (struct rc_pair){.estar = 1 / typical};
+    s->compliant = s->problem.boundary == RC_PERIODIC ? &s->along : NULL;
 }
 
 /* On a free map: the waves of the padded map. A body at rest has none. */
@@ -175,18 +176,12 @@ set_wake(struct slide *s, double speed, struct rc_err *err)
         return RC_OK;
     if ((s->wake = rc_wake_new(&s->turned, &medium, s->problem.threads, err)) == NULL)
         return RC_FAIL;
-    s->problem.pair.along = &s->wake->along;
+    s->compliant = &s->wake->along;
     s->steepest = s->wake->steepest;
     return RC_OK;
 }
 
 /* ---- filters of rows ---- */
-
-static struct rc_solver *
-solver_of(const struct slide *s)
-{
-    return rc_model_solver(s->base.inner);
-}
 
 enum filter {
     PHASE, /* K - V */
@@ -245,7 +240,7 @@ filter(struct slide *s, enum filter which, double *map)
     s->convolutions += s->wake != NULL ? of_wake : of_filter;
     if (s->wake != NULL) {
         if (!s->loaded)
-            rc_wake_load(s->wake, solver_of(s)->it.p);
+            rc_wake_load(s->wake, rc_elastic_pressure(s->base.inner));
         s->loaded = true;
         rc_wake_field(s->wake,
                       which == PHASE  ? RC_WAKE_LAG
@@ -265,19 +260,20 @@ filter(struct slide *s, enum filter which, double *map)
 
 /* ---- elastic contacts ---- */
 
-/* Gives the solver the heights in `room`, which have the shift of the sliding contact. */
-static enum rc_status
-pose(struct slide *s, struct rc_err *err)
+/* The heights in `room`, which have the shift of the sliding contact. Counts the work on those before. */
+static struct rc_elastic_heights
+next_heights(struct slide *s)
 {
-    struct rc_solver *v = solver_of(s);
     const struct rc_point *to = &s->base.to;
+    struct rc_elastic_heights heights = {s->room, 0};
+    size_t iterations;
 
-    s->iterations += v->it.iterations;
-    s->convolutions += rc_solver_convolutions(v);
+    s->convolutions += rc_elastic_work(s->base.inner, &iterations);
+    s->iterations += iterations;
     if (rc_point_has(to, RC_APPROACH))
-        v->load.target = fmax(to->at[RC_APPROACH] + rc_highest(s->room, s->n) - s->top,
-                              1e-12 * to->at[RC_APPROACH]);
-    return rc_solver_set_heights(v, s->room, err);
+        heights.approach = fmax(to->at[RC_APPROACH] + rc_highest(s->room, s->n) - s->top,
+                                1e-12 * to->at[RC_APPROACH]);
+    return heights;
 }
 
 static double
@@ -286,43 +282,33 @@ goal_of(const struct slide *s)
     return s->problem.tol / hypot(1, s->steepest);
 }
 
-/* Judges the pressure in the sliding contact, from V p in v. Afterwards the solver has the heights
+/* Judges the pressure in the sliding contact, from V p. Afterwards the inner model has the heights
  * h - (K - V) p, and with them the gap of the sliding contact. */
 static enum rc_status
-judge(struct slide *s, struct rc_err *err)
+judge(struct slide *s, const double *displacement, struct rc_err *err)
 {
-    struct rc_solver *v = solver_of(s);
+    struct rc_elastic_heights heights;
 
-    memcpy(s->room, v->it.v, s->n * sizeof *s->room);
+    memcpy(s->room, displacement, s->n * sizeof *s->room);
     filter(s, PHASE, s->room);
     for (size_t k = 0; k < s->n; k++)
         s->room[k] = s->h[k] - s->room[k];
-    v->posed.tol = goal_of(s);
-    if (pose(s, err) != RC_OK)
-        return RC_FAIL;
-    for (size_t k = 0; k < s->n; k++)
-        v->it.v[k] -= v->posed.h[k];
-    v->it.known = true;
-    rc_iterate_shift(v);
-    rc_working_set_find(v, false);
-    s->estimate = rc_working_set_estimate(v);
-    return RC_OK;
+    heights = next_heights(s);
+    return rc_elastic_judge(s->base.inner, &heights, goal_of(s), &s->estimate, err);
 }
 
 static enum rc_status
 next_contact(struct slide *s, struct rc_err *err)
 {
-    struct rc_solver *v = solver_of(s);
+    struct rc_elastic_heights heights;
 
     s->tol = fmin(loosest, of_error * s->estimate);
-    v->posed.rough = s->tol > single_floor;
-    rc_solver_set_tol(v, s->tol);
     for (size_t k = 0; k < s->n; k++)
         s->room[k] = s->h[k] - s->g[k];
-    if (pose(s, err) != RC_OK)
-        return RC_FAIL;
-    s->base.inner->status = RC_MORE;
-    return RC_MORE;
+    heights = next_heights(s);
+    return rc_elastic_resume(s->base.inner, &heights, s->tol, s->tol > single_floor, err) == RC_OK
+               ? RC_MORE
+               : RC_FAIL;
 }
 
 /* Judges the pressure of the last contact by V p in double precision. The result then depends on nothing but
@@ -330,19 +316,14 @@ next_contact(struct slide *s, struct rc_err *err)
 static enum rc_status
 conclude(struct slide *s, struct rc_err *err)
 {
-    struct rc_solver *v = solver_of(s);
+    struct rc_model *inner = s->base.inner;
 
-    rc_operator_apply(v->op, v->it.p, v->it.v);
-    rc_iterate_count(v, 1);
-    if (judge(s, err) != RC_OK)
+    if (judge(s, rc_elastic_hold(inner, true), err) != RC_OK)
         return RC_FAIL;
-    v->it.fresh = true;
-    s->done = s->estimate <= goal_of(s) && rc_load_reached(v);
+    s->done = s->estimate <= goal_of(s) && rc_elastic_reached(inner);
     if (!s->done && s->contacts < MOST_CONTACTS)
         return next_contact(s, err);
-    rc_iterate_checked(v, s->estimate, 1);
-    v->stage = RC_STAGE_STEPPED;
-    s->base.inner->status = RC_OK;
+    rc_elastic_conclude(inner, s->estimate);
     return s->done ? RC_OK : RC_SHORT;
 }
 
@@ -351,12 +332,12 @@ conclude(struct slide *s, struct rc_err *err)
 static enum rc_status
 advance(struct slide *s, struct rc_err *err)
 {
-    struct rc_solver *v = solver_of(s);
+    const double *displacement = rc_elastic_hold(s->base.inner, false);
 
     for (size_t k = 0; k < s->n; k++)
-        s->g[k] += 2 * (v->it.v[k] += v->posed.h[k]);
+        s->g[k] += 2 * displacement[k];
     filter(s, HALF, s->g);
-    if (judge(s, err) != RC_OK)
+    if (judge(s, displacement, err) != RC_OK)
         return RC_FAIL;
     s->contacts++;
     return s->estimate <= goal_of(s) || s->contacts >= MOST_CONTACTS ? conclude(s, err)
@@ -369,13 +350,11 @@ advance(struct slide *s, struct rc_err *err)
 static enum rc_status
 make_inner(struct slide *s, double speed, struct rc_err *err)
 {
-    const struct rc_elastic_asks none = {false, {0, 0}};
-
     set_waves(s, speed);
     if (set_wake(s, speed, err) != RC_OK)
         return RC_FAIL;
     rc_model_free(s->base.inner);
-    s->base.inner = rc_elastic_new(&s->turned, s->h, &s->problem, &none, err);
+    s->base.inner = rc_elastic_new_along(&s->turned, s->h, &s->problem, s->compliant, err);
     return s->base.inner != NULL ? RC_OK : RC_FAIL;
 }
 
@@ -403,10 +382,10 @@ go(struct rc_model *m, struct rc_err *err)
     s->estimate = NAN;
     s->done = s->ended = false;
     inner = rc_point_for(m->inner, &m->to);
-    m->inner->row->accuracy(m->inner, s->tol / s->problem.tol);
+    rc_model_set_accuracy(m->inner, s->tol / s->problem.tol);
     if (rc_model_go(m->inner, &inner, err) != RC_MORE)
         return RC_FAIL;
-    solver_of(s)->posed.rough = true;
+    rc_elastic_set_rough(m->inner, true);
     return RC_OK;
 }
 
@@ -429,18 +408,20 @@ step(struct rc_model *m, struct rc_err *err)
 static void
 find_friction(struct slide *s, double force[2], double *steep)
 {
-    const struct rc_solver *v = solver_of(s);
+    const double *p = rc_elastic_pressure(s->base.inner);
     const bool open = s->problem.boundary == RC_FREE;
     struct rc_total sum[2] = {{0}};
 
     *steep = 0;
     for (int q = 0; q < 2; q++) {
-        for (size_t k = 0; k < s->n; k++)
-            s->room[k] = q == 0 ? v->it.v[k] + v->posed.h[k] : s->h[k];
+        if (q == 0)
+            rc_elastic_displacement(s->base.inner, false, s->room);
+        else
+            memcpy(s->room, s->h, s->n * sizeof *s->room);
         filter(s, q == 0 ? TILT : SLOPE, s->room);
         for (size_t k = 0; k < s->n; k++) {
-            rc_total_add(&sum[q], -v->it.p[k] * s->room[k]);
-            *steep = fmax(*steep, v->it.p[k] > 0 && (q == 0 || open) ? fabs(s->room[k]) : 0);
+            rc_total_add(&sum[q], -p[k] * s->room[k]);
+            *steep = fmax(*steep, p[k] > 0 && (q == 0 || open) ? fabs(s->room[k]) : 0);
         }
         force[q] = (q == 0 && open ? 1 : copysign(1, s->base.to.at[RC_SPEED])) *
                    rc_total_value(&sum[q]) * s->turned.dx * s->turned.dy;
@@ -458,7 +439,7 @@ find_power(struct slide *s, double *power, struct rc_err *err)
 
     if (z == NULL)
         return rc_err_set(err, "out of memory for the waves of %zu x %zu nodes", t->nx, t->ny);
-    if (rc_fourier_forward(t, solver_of(s)->it.p, z, err) != RC_OK)
+    if (rc_fourier_forward(t, rc_elastic_pressure(s->base.inner), z, err) != RC_OK)
         return RC_FAIL;
     for (size_t j = 0; j < t->ny; j++)
         for (size_t k = 1; k < s->columns; k++) {
@@ -476,11 +457,11 @@ static enum rc_status
 look(struct rc_model *m, struct rc_point *at, struct rc_err *err)
 {
     struct slide *s = (struct slide *)m;
-    struct rc_solver *v = solver_of(s);
     struct rc_sliding_figures *f = &s->f;
     const struct rc_contact *c = &rc_elastic_result(m->inner)->contact;
     const double spent = s->convolutions;
     double force[2], steep;
+    size_t iterations;
 
     if (m->looked)
         goto done;
@@ -496,10 +477,10 @@ look(struct rc_model *m, struct rc_point *at, struct rc_err *err)
     f->friction_error = fabs(force[0] - force[1]) / c->load + f->pressure_error * steep;
     f->tan_delta_max = s->lossy;
     f->track = s->law.repeats ? "repeated" : "fresh";
-    f->approach = c->approach - v->posed.top + s->top;
+    f->approach = c->approach - rc_elastic_top(m->inner) + s->top;
     f->contacts = s->contacts;
     f->iterations = s->iterations;
-    f->convolutions = s->convolutions + rc_solver_convolutions(v);
+    f->convolutions = s->convolutions + rc_elastic_work(m->inner, &iterations);
     f->converged = s->done && c->converged;
     f->elastic_energy = NAN;
 done:
@@ -527,12 +508,9 @@ fill(struct rc_model *m, size_t frame, double *to, struct rc_err *err)
     if (rc_model_frame(m->inner, frames[frame].name, s->room, err) != RC_OK)
         return RC_FAIL;
     if (frame == RC_FRAME_DISPLACEMENT) {
-        const struct rc_solver *v = solver_of(s);
-        for (size_t k = 0; k < s->n; k++)
-            s->room[k] = v->it.v[k] + v->posed.h[k];
+        rc_elastic_displacement(m->inner, false, s->room);
         filter(s, PHASE, s->room);
-        for (size_t k = 0; k < s->n; k++)
-            s->room[k] += v->it.v[k] + v->posed.h[k];
+        rc_elastic_displacement(m->inner, true, s->room);
     }
     turn(&s->turned, s->law.along_y, s->room, to);
     return RC_OK;
@@ -592,7 +570,7 @@ state(struct rc_model *m, struct rc_state *x)
     if (rc_model_set_heights(m->inner, s->room, &err) != RC_OK)
         rc_state_refuse(x, err.text);
     else
-        m->inner->row->accuracy(m->inner, s->tol / s->problem.tol);
+        rc_model_set_accuracy(m->inner, s->tol / s->problem.tol);
 }
 
 static void
@@ -713,8 +691,6 @@ rc_sliding_new(const struct rc_shape *shape, const double *h, const struct rc_pr
     s = (struct slide *)m;
     s->problem = *problem;
     s->problem.hurry = NULL;
-    if (problem->boundary == RC_FREE)
-        s->problem.engine = "fft"; /* the other engines have no factor of the displacement */
     s->law = *law;
     s->turned = law->along_y ? other : *shape;
     s->n = shape->nx * shape->ny;

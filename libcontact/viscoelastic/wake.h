@@ -5,7 +5,7 @@
 #ifndef RC_WAKE_H
 #define RC_WAKE_H
 
-#include "libcontact/common.h"
+#include "libcontact/body/body.h"
 
 /* K = V exp(i d) on a padded map, with V > 0. `steepest` is the largest tan d of its waves, INFINITY
  * where the real part of K is not positive. `along` is V over the displacement of an elastic half-space with

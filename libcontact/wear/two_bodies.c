@@ -135,8 +135,7 @@ contact(struct sliding *v, size_t stage, struct rc_err *err)
     v->stage = stage;
     if (pose(v, err) != RC_OK || rc_model_go(inner, &to, err) == RC_FAIL)
         return RC_FAIL;
-    return inner->row->start == NULL || inner->row->start(inner, 0, NULL, err) == RC_OK ? RC_MORE
-                                                                                        : RC_FAIL;
+    return rc_model_start(inner, 0, NULL, err) == RC_OK ? RC_MORE : RC_FAIL;
 }
 
 /* ---- steps ---- */

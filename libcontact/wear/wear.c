@@ -199,7 +199,7 @@ pose_at(struct wear *v, const double *heights, struct rc_err *err)
     if (rc_model_set_compliance(v->base.inner, v->k * v->over, v->law.part, v->row * v->over,
                                 err) != RC_OK)
         return RC_FAIL;
-    v->base.inner->row->accuracy(v->base.inner, accuracy(v));
+    rc_model_set_accuracy(v->base.inner, accuracy(v));
     return rc_model_set_heights(v->base.inner, heights, err);
 }
 

@@ -58,7 +58,7 @@ hard_bodies(struct rc_solids *bodies)
 
     *bodies = (struct rc_solids){.n = 0};
     if (hard_pair.one.layers > 0)
-        assert_int_equal(rc_solids_new(bodies, &hard_pair, NULL, &err), RC_OK);
+        assert_int_equal(rc_solids_new(bodies, &hard_pair, NULL, NULL, &err), RC_OK);
 }
 
 /* The effective E* for a wave of wave number q. */
