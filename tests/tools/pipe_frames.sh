@@ -48,20 +48,23 @@ claim "  the page has every key of the table" bash -c 'comm -23 rules.txt docume
 
 # ---- streams ----
 
-# frame CHANNEL: made values on the grid of the pressure, with its keys.
-frame() {
+# make_frames CHANNEL...: made/CHANNEL has made values on the grid of the pressure, with its keys.
+make_frames() {
+    mkdir made
     perl -MCompress::Zlib -0777 -e '
-        my ($channel, $file) = @ARGV;
-        open my $in, "<:raw", $file; $_ = <$in>; /^(RCG1\n.*?\n\n)/s or die; my $head = $1;
-        my ($unit, $scale) = $channel =~ /^(s[xyz123]|mises|tresca|pressure|hardness|adhesion|traction|amplitude|fluid)/ ? ("Pa", 1e7)
-            : $channel =~ /^heat/ ? ("W/m2", 1e3) : $channel eq "dissipation" ? ("J/m2", 1) : $channel =~ /^temp/ ? ("K", 1)
-            : $channel eq "wear-coefficient" ? ("1/Pa", 1e-15)
-            : $channel =~ /^(height|gap|displacement|plastic|residual|slip|wear)/ ? ("m", 1e-8) : ("1", 1e-3);
-        $head =~ s/^channel=.*$/channel=$channel/m; $head =~ s/^unit=.*$/unit=$unit/m;
-        $head =~ s/\n\n$/\ndepth=1e-06\nthickness=2e-06\n\n/ if $channel =~ /^(e[xy][xyz]|peeq|s[xyz][xyz]|mises|tresca|s[123])$/;
-        srand(7);
-        my $body = $head . join("", map { my $r = rand; pack("d<", $channel eq "contact" ? $r > 0.3 : $channel =~ /^(state|channel)$/ ? int(3 * $r) : $scale * $r) } 1..192);
-        print $body, sprintf("crc32 %08x\n", crc32($body))' "$1" pressure.rcg
+        open my $in, "<:raw", "pressure.rcg"; $_ = <$in>; /^(RCG1\n.*?\n\n)/s or die; my $first = $1;
+        for my $channel (@ARGV) {
+            my $head = $first;
+            my ($unit, $scale) = $channel =~ /^(s[xyz123]|mises|tresca|pressure|hardness|adhesion|traction|amplitude|fluid)/ ? ("Pa", 1e7)
+                : $channel =~ /^heat/ ? ("W/m2", 1e3) : $channel eq "dissipation" ? ("J/m2", 1) : $channel =~ /^temp/ ? ("K", 1)
+                : $channel eq "wear-coefficient" ? ("1/Pa", 1e-15)
+                : $channel =~ /^(height|gap|displacement|plastic|residual|slip|wear)/ ? ("m", 1e-8) : ("1", 1e-3);
+            $head =~ s/^channel=.*$/channel=$channel/m; $head =~ s/^unit=.*$/unit=$unit/m;
+            $head =~ s/\n\n$/\ndepth=1e-06\nthickness=2e-06\n\n/ if $channel =~ /^(e[xy][xyz]|peeq|s[xyz][xyz]|mises|tresca|s[123])$/;
+            srand(7);
+            my $body = $head . join("", map { my $r = rand; pack("d<", $channel eq "contact" ? $r > 0.3 : $channel =~ /^(state|channel)$/ ? int(3 * $r) : $scale * $r) } 1..192);
+            open my $out, ">:raw", "made/$channel" or die; print $out $body, sprintf("crc32 %08x\n", crc32($body));
+        }' "$@"
 }
 bare() { perl -0777 -pe 's/RCGEND \d+\n$//' "$@"; }
 sealed() { # the frames of standard input with an end line
@@ -91,6 +94,8 @@ results() {
         }' "$@"
 }
 for channel in pressure gap height; do rc-pick --channel $channel w-solved.rcg -o $channel.rcg; done
+# shellcheck disable=SC2046
+make_frames $(<channels.txt)
 
 # A tool, the frames of the plain case, and its command.
 tools() {
@@ -126,7 +131,7 @@ plain() {
 used_frame() {
     local tool=$1 channel=$2
     shift 2
-    { cat plain.bare && frame "$channel"; } | sealed >more.rcg
+    cat plain.bare "made/$channel" | sealed >more.rcg
     run more more.rcg "$@"
     results more.out "$channel" >more.values
     if cmp -s plain.values more.values && cmp -s plain.said more.said; then
@@ -145,7 +150,7 @@ frames_of() { # TOOL FRAMES COMMAND...
     { table "$tool" "Frames used" && table "$tool" "Frames refused" && tr , '\n' <<<"$frames"; } | sort -u >taken.txt
     comm -23 channels.txt taken.txt >ignored.txt
     [ "$(wc -l <ignored.txt)" -gt 3 ] && [ -n "$(table "$tool" "Frames used")" ] || return
-    { cat plain.bare && for channel in $(<ignored.txt); do frame "$channel"; done; } | sealed >more.rcg
+    { cat plain.bare && sed 's|^|made/|' ignored.txt | xargs cat; } | sealed >more.rcg
     run more more.rcg "$@"
     # rc-detrend and rc-add pass frames on
     case $tool in rc-detrend | rc-add) results more.out $(<ignored.txt) ;; *) results more.out ;; esac >more.values
@@ -157,7 +162,7 @@ frames_of() { # TOOL FRAMES COMMAND...
         used_frame "$tool" "$channel" "$@" || return
     done
     for channel in $(table "$tool" "Frames refused" | { [ "$tool" = rc-detrend ] && cat || head -n 3; }); do
-        { cat plain.bare && frame "$channel"; } | sealed >more.rcg
+        cat plain.bare "made/$channel" | sealed >more.rcg
         run more more.rcg "$@"
         grep -q '^status 1$' more.said && grep -qF "$channel" more.said || { echo "$tool takes $channel" >&2 && return 1; }
     done
