@@ -16,8 +16,8 @@ off() {
 }
 
 export RC_THREADS=1
-rc-synth selfaffine --nx 20 --ny 18 --dx 1um --hurst 0.8 --rms-slope 0.12 --rolloff 20um --short-cut 6um --seed 5 -o rough.rcg
-nodes=$((20 * 18))
+rc-synth selfaffine --nx 16 --ny 14 --dx 1um --hurst 0.8 --rms-slope 0.12 --rolloff 20um --short-cut 6um --seed 5 -o rough.rcg
+nodes=$((16 * 14))
 contact="--periodic --mean-pressure 0.6GPa --E1 210GPa --nu1 0.3 --E2 rigid --yield 1.5GPa,5GPa"
 rc-cost $contact --limit 600s --quiet -o cost.txt --report cost.json --plot cost.png rough.rcg
 awk '/^$/ { exit } !/^#/ && $1 != "method"' cost.txt >rows.txt
@@ -81,7 +81,7 @@ claim "the command for 2 % ends with status 0 and gives a result within 2 %" pro
 between 0 "$(field pressure_error_estimate ran.json)" 0.02 "  by rc-solve's own estimate too"
 claim "  the estimate is printed beside the true error" grep -q "(estimate on its own grid $(printf %.1e "$(field pressure_error_estimate ran.json)"))" told
 claim "  the command has --increments and --slabs" grep -Eq ' --yield 1.5GPa,5GPa .*--increments [0-9]+ --slabs [0-9]+ --tol 0.02( --threads 1)? rough.rcg$' command
-claim "--dry-run prints the expected time" says '15 ways to solve 20 x 18 nodes' rc-cost $contact --dry-run rough.rcg
+claim "--dry-run prints the expected time" says '15 ways to solve 16 x 14 nodes' rc-cost $contact --dry-run rough.rcg
 
 # ---- refusals ----
 
