@@ -45,12 +45,13 @@ slip_report(struct drive *d, const struct rc_model *m)
     report_text(r, "coupling", coupling_of(run));
     if (run->rolls) {
         report_number(r, "position", run->position, "m");
-        report_named(r, from + 1,
-                     "load limit creep_x creep_y spin tangential_x tangential_y moment stick_nodes "
-                     "slip_nodes stick_fraction power power_slip extrapolated_creep_x "
-                     "extrapolated_creep_y extrapolated_tangential_x extrapolated_tangential_y "
-                     "extrapolated_moment kalker_tangential_x kalker_tangential_y steps convolutions "
-                     "traction_error_estimate discretization_error");
+        report_named(
+            r, from + 1,
+            "load limit creep_x creep_y spin tangential_x tangential_y moment stick_nodes "
+            "slip_nodes stick_fraction power power_slip extrapolated_creep_x "
+            "extrapolated_creep_y extrapolated_tangential_x extrapolated_tangential_y "
+            "extrapolated_moment kalker_tangential_x kalker_tangential_y steps convolutions "
+            "traction_error_estimate discretization_error");
         end_row(d, d->status == RC_OK);
         return;
     }
