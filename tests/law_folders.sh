@@ -25,28 +25,28 @@ libcontact/operator |                                          | libcontact/oper
 libcontact/operator/real_space | %base libcontact/operator/engine.h | libcontact libcontact/ranks libcontact/operator
 libcontact/solver   | %base libcontact/operator/operator.h     | libcontact libcontact/ranks libcontact/operator libcontact/body
 libcontact/solver   | libcontact/model/row.h                   | libcontact/model
+libcontact/solver   | libcontact/pyramid/pyramid.h             | libcontact/pyramid
+libcontact/pyramid  | %base libcontact/operator/operator.h     | libcontact libcontact/ranks
 libcontact/stress   | %base libcontact/operator/operator.h     | libcontact libcontact/ranks libcontact/operator
 libcontact/stress   |                                          | libcontact/transform libcontact/body
 libcontact/stress   | libcontact/volume/volume.h               | libcontact/volume
 libcontact/fatigue  | %base                                    | libcontact libcontact/stress libcontact/body
-libcontact/heat     | %base libcontact/operator/operator.h     | libcontact libcontact/solver libcontact/operator libcontact/transform libcontact/body libcontact/surface
+libcontact/heat     | %base libcontact/operator/operator.h     | libcontact libcontact/operator libcontact/transform libcontact/body libcontact/surface
 libcontact/heat     | libcontact/body/quadrature.h             | libcontact/body
-libcontact/heat     | libcontact/solver/solver.h               | libcontact/solver
+libcontact/heat     | libcontact/pyramid/pyramid.h             | libcontact/pyramid
 libcontact/volume   | %base libcontact/operator/operator.h     | libcontact libcontact/ranks libcontact/operator libcontact/transform
-libcontact/yield  | libcontact/model/row.h                   | libcontact/model
-libcontact/yield  | %base libcontact/volume/volume.h         | libcontact libcontact/volume libcontact/solver libcontact/stress
+libcontact/yield    | libcontact/model/row.h                   | libcontact/model
+libcontact/yield    | %base libcontact/volume/volume.h         | libcontact libcontact/volume libcontact/solver libcontact/stress
 libcontact/adhesion | %base libcontact/operator/operator.h     | libcontact libcontact/operator libcontact/body
 libcontact/adhesion | libcontact/model/row.h                   | libcontact/model libcontact/solver=rc_figures_
 libcontact/leak     | %base                                    | libcontact
 libcontact/wear     | %base libcontact/model/row.h             | libcontact libcontact/model
 libcontact/travel   | %base libcontact/model/row.h             | libcontact libcontact/model
-libcontact/viscoelastic| %base libcontact/model/row.h             | libcontact libcontact/model
-libcontact/viscoelastic| libcontact/solver/elastic.h libcontact/transform/fourier.h | libcontact/solver libcontact/operator libcontact/transform
-libcontact/viscoelastic| libcontact/operator/operator.h libcontact/body/body.h libcontact/body/quadrature.h | libcontact/body
-libcontact/friction | %base libcontact/operator/operator.h     | libcontact libcontact/solver libcontact/operator libcontact/transform libcontact/body libcontact/ranks
-libcontact/friction | %base libcontact/solver/solver.h         | libcontact libcontact/solver
-libcontact/friction | libcontact/model/row.h                   | libcontact/model
-libcontact/friction | libcontact/operator/operator.h           | libcontact/ranks libcontact/operator libcontact/transform libcontact/body
+libcontact/viscoelastic | %base libcontact/model/row.h             | libcontact libcontact/model
+libcontact/viscoelastic | libcontact/solver/elastic.h libcontact/transform/fourier.h | libcontact/solver libcontact/operator libcontact/transform
+libcontact/viscoelastic | libcontact/operator/operator.h libcontact/body/body.h libcontact/body/quadrature.h | libcontact/body
+libcontact/friction | %base libcontact/operator/operator.h     | libcontact libcontact/ranks libcontact/operator libcontact/transform libcontact/body
+libcontact/friction | libcontact/pyramid/pyramid.h libcontact/model/row.h | libcontact/pyramid libcontact/model libcontact/solver=rc_contact_apart
 libcontact/rolling  | %base libcontact/friction/friction.h     | libcontact libcontact/friction
 libcontact/rolling  | libcontact/friction/discs.h libcontact/model/row.h | libcontact/model libcontact/operator libcontact/body
 libcontact/features | %base                                   | libcontact
@@ -121,7 +121,7 @@ END
 base='libcontact/contact.h libcontact/grid.h libcontact/common.h libcontact/memory.h libcontact/expected.h libcontact/owned.h'
 public='libcontact/contact.h libcontact/grid.h libcontact/model.h'
 physics='libcontact libcontact/body libcontact/operator libcontact/solver libcontact/stress libcontact/yield'
-physics="$physics libcontact/model libcontact/adhesion libcontact/leak libcontact/friction libcontact/rolling libcontact/wear libcontact/travel libcontact/viscoelastic libcontact/fatigue libcontact/heat libcontact/surface libcontact/features"
+physics="$physics libcontact/pyramid libcontact/model libcontact/adhesion libcontact/leak libcontact/friction libcontact/rolling libcontact/wear libcontact/travel libcontact/viscoelastic libcontact/fatigue libcontact/heat libcontact/surface libcontact/features"
 cli='tools/cli tools/text tools/machine'
 plot='tools/plot tools/canvas'
 reader='libcontact/grid.h formats/core/core.h formats/format.h formats/containers/containers.h formats/sandbox/sandbox.h'

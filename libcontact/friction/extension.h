@@ -33,7 +33,7 @@
 #define RC_EXTENSION_H
 
 #include "libcontact/memory.h"
-#include "libcontact/solver/solver.h"
+#include "libcontact/pyramid/pyramid.h"
 #include "tangential.h"
 
 enum rc_face {

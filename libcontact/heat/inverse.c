@@ -1,6 +1,6 @@
 /*
  * An approximate inverse of C = C1 + C2 restricted to the nodes in contact: z = E' A E r. A is the
- * reciprocal of the spectrum of C on the padded map. E is the extension of solver/pyramid.h, which
+ * reciprocal of the spectrum of C on the padded map. E is the extension of pyramid/pyramid.h, which
  * decreases to 0 in a frame of padding where the map is free. The exact inverse has the same form, with the
  * extensions whose heat off the contact is 0. Where E is 0 off the contact, the steps of the iteration grow
  * by 1.2 when the map has twice the nodes a side. With this E they hardly grow.
@@ -10,7 +10,7 @@
 
 #include "heat.h"
 #include "libcontact/memory.h"
-#include "libcontact/solver/solver.h"
+#include "libcontact/pyramid/pyramid.h"
 
 struct rc_heat_inverse {
     struct rc_conduction *c;

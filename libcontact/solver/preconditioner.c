@@ -6,7 +6,7 @@
 #include <string.h>
 
 #include "libcontact/memory.h"
-#include "pyramid.h"
+#include "libcontact/pyramid/pyramid.h"
 
 enum {
     LEVELS = 6 /* most values of D, see preconditioner.h */

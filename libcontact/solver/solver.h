@@ -19,7 +19,6 @@
 #include "libcontact/memory.h"
 #include "libcontact/operator/operator.h"
 #include "preconditioner.h"
-#include "pyramid.h"
 
 /* ---- methods ---- */
 
