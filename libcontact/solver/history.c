@@ -10,7 +10,9 @@
 
 #include <math.h>
 
-static const double finest = 1e-11; /* smallest relative tolerance of a yielding load */
+/* The smallest relative tolerance of a yielding load: below it only rounding of the sum of a map is
+ * left. Not sensitive: half and double change no bit of 123 contacts (bench/constants.py). */
+static const double finest = 1e-11;
 
 double
 rc_history_error(const struct rc_solver *s)

@@ -222,7 +222,9 @@ rc_iterate_stiffness(const struct rc_solver *s)
     return s->op->inverse_near[1][1] / (s->load.length * s->load.per_pressure);
 }
 
-/* Allowed relative error of the load for the balancing shift, which only selects a working set. */
+/* Allowed relative error of the load for the balancing shift, which only selects a working set. At 1e-4
+ * the search took 5.5 % of a solve in which nearly all nodes yield, with far smaller values 9 %. Not
+ * sensitive: half and double change no count of 123 contacts (bench/constants.py). */
 static const double unbalanced = 1e-4;
 
 /* Context of the search for the balancing shift. Each node moves by its gap times the stiffness of a node

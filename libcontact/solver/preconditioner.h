@@ -46,7 +46,8 @@ void rc_preconditioner_extend(struct rc_preconditioner *e, const unsigned char *
                               float *out);
 
 /* For each node on W it is minus the node's share of the load of a common shift of W. */
-#define RC_LEAST_SHARE 1e-3F
+#define RC_LEAST_SHARE                                                                             \
+    1e-3F /* of a node that joined; not sensitive: half and double change no count */
 static inline float
 rc_load_share(float node)
 {
