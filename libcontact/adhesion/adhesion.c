@@ -112,31 +112,45 @@ struct retraction {
     bool short_of;
 };
 
+/* Coarser grids, for the start of the first state. */
+struct grids {
+    struct rc_adhesion_solver *coarse; /* the next one; NULL: none */
+    size_t lent;                       /* bytes of all */
+    bool rough;                        /* this path is on such a grid */
+};
+
+struct asked {
+    double tol;
+    size_t max_iterations;
+    enum rc_gap_control control;
+    double given;
+    bool held; /* a gap is held, but no control is set yet */
+};
+
+/* The stability and the error of the present state. */
+struct stability {
+    size_t below;    /* successive steps with an error below tol */
+    size_t leaves;   /* saddles left */
+    double mu[3];    /* eigenvalue of the last state of each control; 0: none */
+    double softness; /* the lowest stiffness along a descent, close to its end */
+    double judged;   /* the error when the eigenvalue was found; 0: not found yet */
+    double hidden;   /* then the error along the softest mode, times mu */
+};
+
 struct rc_adhesion_solver {
     struct rc_shape shape;
-    struct rc_adhesion_solver
-        *coarse; /* a coarser grid, for the start of the first state; NULL: none */
-    size_t lent; /* bytes of the coarser grids */
-    bool rough;  /* this path is on such a grid */
+    struct grids grids;
     struct rc_whole *whole;
     struct rc_gap gap;
     struct rc_adhesion_scales scales;
     double *h;     /* heights over the length, minus the largest height */
     double mean_h; /* their mean                                                       */
-    double tol;
-    size_t max_iterations;
+    struct asked asked;
     enum stage stage;
-    bool held; /* a gap is held, but no control is set yet */
-    enum rc_gap_control control;
-    double given;
-    size_t below; /* successive steps with an error below tol */
-    size_t leaves, jumps;
-    double mu[3];    /* eigenvalue of the last state of each control; 0: none */
-    double softness; /* the lowest stiffness along a descent, close to its end */
+    struct stability stability;
     struct way way;
     struct rc_adhesion_solver_past past;
-    double judged; /* the error when the eigenvalue was found; 0: not found yet */
-    double hidden; /* then the error along the softest mode, times mu */
+    size_t jumps;
     bool converged;
     bool separated;
     bool fresh; /* the figures belong to the present state */
@@ -251,9 +265,9 @@ rc_adhesion_check(const struct rc_shape *shape, const struct rc_adhesion_problem
 }
 
 static enum rc_status
-check_heights(const struct rc_adhesion_solver *a, const double *h, struct rc_err *err)
+check_heights(const struct rc_shape *shape, const double *h, struct rc_err *err)
 {
-    for (size_t k = 0; k < a->shape.nx * a->shape.ny; k++)
+    for (size_t k = 0; k < shape->nx * shape->ny; k++)
         if (!isfinite(h[k]))
             return rc_err_set(err, "height %zu is not a finite number", k);
     return RC_OK;
@@ -275,12 +289,12 @@ take_heights(struct rc_adhesion_solver *a, const double *h, const double *dent)
 }
 
 static enum rc_status
-take_hardness(const struct rc_adhesion_solver *a, const struct rc_problem *c, double *hard,
-              double **hards, struct rc_err *err)
+take_hardness(const struct rc_shape *shape, const struct rc_whole *whole,
+              const struct rc_problem *c, double *hard, double **hards, struct rc_err *err)
 {
-    size_t n = a->shape.nx * a->shape.ny;
+    size_t n = shape->nx * shape->ny;
 
-    *hard = c->hardness > 0 ? c->hardness / a->whole->modulus : INFINITY;
+    *hard = c->hardness > 0 ? c->hardness / whole->modulus : INFINITY;
     *hards = NULL;
     if (c->hardness_map == NULL)
         return RC_OK;
@@ -294,18 +308,18 @@ take_hardness(const struct rc_adhesion_solver *a, const struct rc_problem *c, do
             *hards = NULL;
             return rc_err_set(err, "hardness %g Pa of node %zu: it must be positive", is, k);
         }
-        (*hards)[k] = isnan(is) ? INFINITY : is / a->whole->modulus;
+        (*hards)[k] = isnan(is) ? INFINITY : is / whole->modulus;
     }
     return RC_OK;
 }
 
 static void
-free_coarse(struct rc_adhesion_solver *a)
+free_coarse(struct grids *grids)
 {
-    rc_adhesion_solver_free(a->coarse);
-    rc_memory_return(a->lent);
-    a->coarse = NULL;
-    a->lent = 0;
+    rc_adhesion_solver_free(grids->coarse);
+    rc_memory_return(grids->lent);
+    grids->coarse = NULL;
+    grids->lent = 0;
 }
 
 void
@@ -313,7 +327,7 @@ rc_adhesion_solver_free(struct rc_adhesion_solver *a)
 {
     if (a == NULL)
         return;
-    free_coarse(a);
+    free_coarse(&a->grids);
     rc_gap_free(&a->gap);
     rc_whole_free(a->whole);
     for (size_t k = 0; k < RC_RETRACTION_KEPT; k++)
@@ -345,11 +359,11 @@ path_new(const struct rc_shape *shape, const struct rc_adhesion_problem *problem
     }
     a->shape = *shape;
     a->scales = scales;
-    a->tol = fmin(loosest, c->tol > 0 ? c->tol : pow(nodes, -0.75));
-    a->max_iterations =
+    a->asked.tol = fmin(loosest, c->tol > 0 ? c->tol : pow(nodes, -0.75));
+    a->asked.max_iterations =
         c->max_iterations > 0 ? c->max_iterations : 100 + (size_t)(10 * sqrt(nodes));
     if ((a->whole = rc_whole_new(shape, &options, err)) == NULL ||
-        take_hardness(a, c, &hard, &hards, err) != RC_OK ||
+        take_hardness(&a->shape, a->whole, c, &hard, &hards, err) != RC_OK ||
         rc_gap_new(&a->gap, a->whole, &law, a->h, hard, hards, err) != RC_OK) {
         rc_adhesion_solver_free(a);
         return NULL;
@@ -370,17 +384,17 @@ sample(const struct rc_shape *fine, const double *v, double factor, double *to)
 
 /* The law on a coarser grid: the same work, and a range that the grid resolves. */
 static double
-coarse_range(const struct rc_adhesion_solver *fine, const struct rc_adhesion_problem *p,
-             const struct rc_shape *shape)
+coarse_range(const struct rc_attraction *fine_law, const struct rc_adhesion_scales *scales,
+             const struct rc_adhesion_problem *p, const struct rc_shape *shape)
 {
     const double length = sqrt(shape->dx) * sqrt(shape->dy);
-    const struct rc_adhesion_law *law = fine->gap.problem.law.law;
+    const struct rc_adhesion_law *law = fine_law->law;
     double modulus, diagonal, least;
 
     if (rc_whole_scales(shape, &p->contact.pair, &modulus, &diagonal, NULL) != RC_OK)
         return NAN;
     least = law->range(p->work / modulus / length, fmax(shape->dx, shape->dy) / length, diagonal);
-    return fmax(fine->scales.range, least * length);
+    return fmax(scales->range, least * length);
 }
 
 /* The path on the coarser grid. NULL if this grid does not pay, or memory is short: the start is then from
@@ -396,7 +410,7 @@ coarse_new(const struct rc_adhesion_solver *fine, const struct rc_adhesion_probl
     if ((f->nx > 1 && shape.nx < COARSEST) || (f->ny > 1 && shape.ny < COARSEST) ||
         shape.nx * shape.ny < COARSEST)
         return NULL;
-    p.range = coarse_range(fine, problem, &shape);
+    p.range = coarse_range(&fine->gap.problem.law, &fine->scales, problem, &shape);
     if (!fine->gap.problem.law.law->info.ranged) /* the first law, with a range of its own */
         p.law = NULL;
     if (p.contact.hardness_map != NULL) {
@@ -407,8 +421,8 @@ coarse_new(const struct rc_adhesion_solver *fine, const struct rc_adhesion_probl
     }
     a = path_new(&shape, &p, NULL);
     if (a != NULL) {
-        a->rough = true;
-        a->coarse = coarse_new(a, &p);
+        a->grids.rough = true;
+        a->grids.coarse = coarse_new(a, &p);
     }
     free(hards);
     return a;
@@ -422,15 +436,15 @@ rc_adhesion_solver_new(const struct rc_shape *shape, const double *h,
 
     if (a == NULL)
         return NULL;
-    if (check_heights(a, h, err) != RC_OK) {
+    if (check_heights(&a->shape, h, err) != RC_OK) {
         rc_adhesion_solver_free(a);
         return NULL;
     }
     take_heights(a, h, NULL);
     rc_gap_apart(&a->gap, 0);
     rc_memory_lend();
-    a->coarse = coarse_new(a, problem);
-    a->lent = rc_memory_lent();
+    a->grids.coarse = coarse_new(a, problem);
+    a->grids.lent = rc_memory_lent();
     return a;
 }
 
@@ -439,13 +453,13 @@ rc_adhesion_solver_new(const struct rc_shape *shape, const double *h,
 static void
 set(struct rc_adhesion_solver *a, enum rc_gap_control control, double given)
 {
-    a->control = control;
-    a->given = given;
+    a->asked.control = control;
+    a->asked.given = given;
     a->jumps = 0;
     a->way = (struct way){.steady = a->way.steady};
     a->converged = a->separated = a->fresh = false;
     a->stage = STAGE_NEW;
-    a->held = true;
+    a->asked.held = true;
 }
 
 /* The largest load that has a state. A node at its hardness carries the hardness minus the traction at gap 0.
@@ -511,55 +525,57 @@ rc_adhesion_solver_set_approach(struct rc_adhesion_solver *a, double approach, s
 /* The smallest known eigenvalue. Its iteration may have found another mode than the softest one; the
  * stiffness along the descent then gives a lower value. */
 static double
-softest(const struct rc_adhesion_solver *a)
+softest(const struct rc_gap_mode *mode, const struct stability *stability)
 {
-    return fmin(a->gap.mode.mu, a->softness);
+    return fmin(mode->mu, stability->softness);
 }
 
 static double
-own_error(const struct rc_adhesion_solver *a)
+own_error(const struct rc_gap *g, const struct stability *stability, enum rc_gap_control control)
 {
-    const struct rc_gap_told *t = &a->gap.told;
-    double mu = a->judged > 0 ? softest(a) : a->mu[a->control], worst, measured;
+    const struct rc_gap_told *t = &g->told;
+    double mu = stability->judged > 0 ? softest(&g->mode, stability) : stability->mu[control],
+           worst, measured;
 
-    if ((a->judged > 0 && isinf(a->hidden)) || !isfinite(t->error) || !isfinite(t->size))
+    if ((stability->judged > 0 && isinf(stability->hidden)) || !isfinite(t->error) ||
+        !isfinite(t->size))
         return INFINITY;
     mu = mu == 0 ? 1 : fmin(fmax(mu, single), 1);
     worst = fmax(safe / sqrt(mu), safe_soft / fmax(mu, soft)) * t->error;
     measured = safe * (fmax(fmax(t->ratios[0], t->ratios[1]), least_ratio) * t->calm +
-                       (a->judged > 0 ? a->hidden / mu : 0));
-    return fmin(a->judged > 0 ? 2 * worst : worst, measured);
+                       (stability->judged > 0 ? stability->hidden / mu : 0));
+    return fmin(stability->judged > 0 ? 2 * worst : worst, measured);
 }
 
 /* The possible error from dents of earlier states, relative to the pressures of this state. */
 static double
-inherited_error(const struct rc_adhesion_solver *a)
+inherited_error(const struct rc_gap_told *told, const struct rc_adhesion_solver_past *past)
 {
-    return a->gap.told.size > 0 ? fmax(a->past.dents[0], a->past.dents[1] / a->gap.told.size)
-                                : a->past.dents[0];
+    return told->size > 0 ? fmax(past->dents[0], past->dents[1] / told->size) : past->dents[0];
 }
 
 static double
 estimate(const struct rc_adhesion_solver *a)
 {
-    return own_error(a) + inherited_error(a);
+    return own_error(&a->gap, &a->stability, a->asked.control) +
+           inherited_error(&a->gap.told, &a->past);
 }
 
 static bool
 ends(const struct rc_adhesion_solver *a)
 {
-    return a->gap.told.vanishes ||
-           own_error(a) <= (a->gap.problem.yields ? yielding_part : 1) * a->tol;
+    return a->gap.told.vanishes || own_error(&a->gap, &a->stability, a->asked.control) <=
+                                       (a->gap.problem.yields ? yielding_part : 1) * a->asked.tol;
 }
 
 /* Poses the first state on the coarser grid. */
 static void
 begin_coarse(struct rc_adhesion_solver *a)
 {
-    struct rc_adhesion_solver *c = a->coarse;
+    struct rc_adhesion_solver *c = a->grids.coarse;
     const double ratio = a->whole->length / c->whole->length;
     const double units =
-        a->control != RC_GAP_LOAD
+        a->asked.control != RC_GAP_LOAD
             ? ratio
             : a->whole->modulus * (double)a->gap.problem.n * a->shape.dx * a->shape.dy /
                   (c->whole->modulus * (double)c->gap.problem.n * c->shape.dx * c->shape.dy);
@@ -567,7 +583,7 @@ begin_coarse(struct rc_adhesion_solver *a)
     sample(&a->shape, a->h, ratio, c->h);
     c->mean_h = rc_sum(c->h, c->shape.nx * c->shape.ny) / (double)(c->shape.nx * c->shape.ny);
     rc_gap_apart(&c->gap, 0);
-    set(c, a->control, units * a->given);
+    set(c, a->asked.control, units * a->asked.given);
     a->stage = STAGE_COARSE;
 }
 
@@ -575,23 +591,22 @@ begin_coarse(struct rc_adhesion_solver *a)
  * Phi has one minimum, and its gap lies between the start and the nearest state, if A has no positive entries
  * outside its diagonal. */
 static bool
-freezes(const struct rc_adhesion_solver *a)
+freezes(enum rc_gap_control control, const struct way *way, bool pulls)
 {
-    return a->way.known && !a->pull.on && a->control == RC_GAP_LOAD &&
-           a->way.to != a->way.start.given;
+    return way->known && !pulls && control == RC_GAP_LOAD && way->to != way->start.given;
 }
 
 /* Starts a part of the way, which ends at way.to. */
 static void
 begin_part(struct rc_adhesion_solver *a)
 {
-    a->below = a->leaves = 0;
-    a->judged = 0;
-    a->softness = INFINITY;
+    a->stability.below = a->stability.leaves = 0;
+    a->stability.judged = 0;
+    a->stability.softness = INFINITY;
     a->way.turns = 0;
     a->way.turn = 0;
-    rc_gap_begin(&a->gap, a->control, a->way.to);
-    if (freezes(a))
+    rc_gap_begin(&a->gap, a->asked.control, a->way.to);
+    if (freezes(a->asked.control, &a->way, a->pull.on))
         rc_gap_freeze(&a->gap, true);
     a->gap.run.convolutions += a->way.convolutions;
     a->stage = STAGE_DOWN;
@@ -604,10 +619,10 @@ begin_at(struct rc_adhesion_solver *a, double to)
     a->way.to = to;
     a->way.known = a->way.steady;
     if (a->way.known) {
-        a->way.start = rc_gap_energy(&a->gap, a->control);
+        a->way.start = rc_gap_energy(&a->gap, a->asked.control);
         rc_gap_keep(&a->gap);
         if (a->way.parts == 0)
-            a->way.whole = fabs(a->given - a->way.start.given);
+            a->way.whole = fabs(a->asked.given - a->way.start.given);
     }
     begin_part(a);
 }
@@ -615,7 +630,7 @@ begin_at(struct rc_adhesion_solver *a, double to)
 static void
 begin(struct rc_adhesion_solver *a)
 {
-    begin_at(a, a->given);
+    begin_at(a, a->asked.given);
 }
 
 /* ---- a way ---- */
@@ -627,25 +642,25 @@ begin(struct rc_adhesion_solver *a)
 static double
 loss(struct rc_adhesion_solver *a, double *most)
 {
-    const struct rc_gap_energy *from = &a->way.start, to = rc_gap_energy(&a->gap, a->control);
+    const struct rc_gap_energy *from = &a->way.start, to = rc_gap_energy(&a->gap, a->asked.control);
     const double part = a->way.to - from->given, change = to.force - from->force;
     const double forces = fabs(part) * fmax(from->force_scale, to.force_scale);
 
-    a->way.reverses = a->control == RC_GAP_MEAN && change * part < 0;
+    a->way.reverses = a->asked.control == RC_GAP_MEAN && change * part < 0;
     *most = fabs(part * change) / 2;
-    if (a->control != RC_GAP_LOAD)
+    if (a->asked.control != RC_GAP_LOAD)
         *most += sqrt(fmax(from->contact, to.contact) / RC_PI) * part * part + force_noise * forces;
-    return from->phi - to.phi + part * (from->force + to.force) / 2 - a->tol * forces -
-           (energy_rounding + a->tol * a->tol) * fmax(from->phi_scale, to.phi_scale);
+    return from->phi - to.phi + part * (from->force + to.force) / 2 - a->asked.tol * forces -
+           (energy_rounding + a->asked.tol * a->asked.tol) * fmax(from->phi_scale, to.phi_scale);
 }
 
 static void
-spend(struct rc_adhesion_solver *a)
+spend(const struct rc_gap *g, struct way *way)
 {
-    a->way.iterations += a->gap.run.iterations;
-    a->way.eigen_steps += a->gap.mode.steps;
-    a->way.convolutions = a->gap.run.convolutions;
-    a->way.parts++;
+    way->iterations += g->run.iterations;
+    way->eigen_steps += g->mode.steps;
+    way->convolutions = g->run.convolutions;
+    way->parts++;
 }
 
 /* Repeats half of this part, from its start, or less if half is longer than `longest`. */
@@ -656,8 +671,8 @@ divide(struct rc_adhesion_solver *a, double longest)
 
     while (fabs(part) > longest)
         part /= 2;
-    spend(a);
-    rc_gap_return(&a->gap, a->control, a->way.start.given);
+    spend(&a->gap, &a->way);
+    rc_gap_return(&a->gap, a->asked.control, a->way.start.given);
     a->way.to = a->way.start.given + part;
     begin_part(a);
     return RC_MORE;
@@ -667,11 +682,11 @@ divide(struct rc_adhesion_solver *a, double longest)
 static enum rc_status
 go_further(struct rc_adhesion_solver *a)
 {
-    double part = a->way.to - a->way.start.given, left = a->given - a->way.to;
+    double part = a->way.to - a->way.start.given, left = a->asked.given - a->way.to;
 
     part *= a->way.reverses && a->way.parts < PARTS ? 1 : 2;
-    spend(a);
-    begin_at(a, a->converged && fabs(part) < fabs(left) ? a->way.to + part : a->given);
+    spend(&a->gap, &a->way);
+    begin_at(a, a->converged && fabs(part) < fabs(left) ? a->way.to + part : a->asked.given);
     return RC_MORE;
 }
 
@@ -698,8 +713,9 @@ finish(struct rc_adhesion_solver *a, bool converged)
         a->jumps += lost > most;
     }
     a->past.begun = true;
-    a->mu[a->control] = a->judged > 0 ? fmax(softest(a), single) : 0;
-    if (a->way.known && a->way.to != a->given && !a->separated)
+    a->stability.mu[a->asked.control] =
+        a->stability.judged > 0 ? fmax(softest(&a->gap.mode, &a->stability), single) : 0;
+    if (a->way.known && a->way.to != a->asked.given && !a->separated)
         return go_further(a);
     return converged ? RC_OK : RC_SHORT;
 }
@@ -708,16 +724,17 @@ finish(struct rc_adhesion_solver *a, bool converged)
 static double
 convolutions(const struct rc_adhesion_solver *a)
 {
-    return a->stage != STAGE_COARSE ? a->gap.run.convolutions
-                                    : convolutions(a->coarse) * (double)a->coarse->gap.problem.n /
-                                          (double)a->gap.problem.n;
+    return a->stage != STAGE_COARSE
+               ? a->gap.run.convolutions
+               : convolutions(a->grids.coarse) * (double)a->grids.coarse->gap.problem.n /
+                     (double)a->gap.problem.n;
 }
 
 /* The state on the coarser grid is the start on this grid. Bodies that separate there start as without it. */
 static void
 end_coarse(struct rc_adhesion_solver *a)
 {
-    struct rc_adhesion_solver *c = a->coarse;
+    struct rc_adhesion_solver *c = a->grids.coarse;
     double sum;
 
     if (c->stage == STAGE_COARSE)
@@ -725,10 +742,10 @@ end_coarse(struct rc_adhesion_solver *a)
     sum = convolutions(a);
     if (!c->separated) {
         rc_gap_refine(&a->gap, &c->gap);
-        a->gap.set.control = a->control;
-        a->gap.set.given = a->given;
+        a->gap.set.control = a->asked.control;
+        a->gap.set.given = a->asked.given;
     }
-    free_coarse(a);
+    free_coarse(&a->grids);
     begin(a);
     a->gap.run.convolutions += sum;
 }
@@ -740,7 +757,8 @@ move(struct rc_adhesion_solver *a)
 
     rc_gap_move(g);
     if (!g->frozen.on)
-        a->softness = g->told.error <= loosest ? fmin(a->softness, g->way.stiffness) : INFINITY;
+        a->stability.softness =
+            g->told.error <= loosest ? fmin(a->stability.softness, g->way.stiffness) : INFINITY;
 }
 
 static enum rc_status
@@ -780,7 +798,7 @@ turn(struct rc_adhesion_solver *a)
         w->turn = 0;
         return RC_MORE;
     }
-    return g->run.iterations < a->max_iterations ? descend(a) : finish(a, false);
+    return g->run.iterations < a->asked.max_iterations ? descend(a) : finish(a, false);
 }
 
 static enum rc_status
@@ -791,27 +809,27 @@ down(struct rc_adhesion_solver *a)
     rc_gap_look(g);
     if (!thaws(a))
         return turn(a);
-    a->hidden = a->judged > 0 ? rc_gap_soft_error(g) : 0;
-    if (a->rough && (g->told.error <= coarse_tol || g->run.stuck))
+    a->stability.hidden = a->stability.judged > 0 ? rc_gap_soft_error(g) : 0;
+    if (a->grids.rough && (g->told.error <= coarse_tol || g->run.stuck))
         return finish(a, true);
     if (ends(a)) {
         rc_gap_look_along(g);
-        a->softness = fmin(a->softness, g->way.stiffness);
+        a->stability.softness = fmin(a->stability.softness, g->way.stiffness);
     }
-    a->below = ends(a) ? a->below + 1 : 0;
+    a->stability.below = ends(a) ? a->stability.below + 1 : 0;
     /* the iteration leaves this stationary point, or a node without a place in the mode is free */
-    if (a->judged > 0 && (g->told.error > 10 * a->judged || g->mode.grown)) {
-        a->judged = 0;
-        a->softness = INFINITY;
+    if (a->stability.judged > 0 && (g->told.error > 10 * a->stability.judged || g->mode.grown)) {
+        a->stability.judged = 0;
+        a->stability.softness = INFINITY;
     }
-    if (a->below >= BELOW || g->run.stuck) {
-        if (a->judged > 0)
-            return finish(a, a->gap.told.vanishes || estimate(a) <= a->tol);
+    if (a->stability.below >= BELOW || g->run.stuck) {
+        if (a->stability.judged > 0)
+            return finish(a, a->gap.told.vanishes || estimate(a) <= a->asked.tol);
         rc_gap_eigen_begin(g);
         a->stage = STAGE_EIGEN;
         return RC_MORE;
     }
-    if (g->run.iterations >= a->max_iterations)
+    if (g->run.iterations >= a->asked.max_iterations)
         return finish(a, false);
     return descend(a);
 }
@@ -828,25 +846,26 @@ eigen(struct rc_adhesion_solver *a)
     if (g->mode.steps < EIGEN_STEPS && g->mode.slow < SLOW && g->mode.error > 0 &&
         g->mode.error > (negative ? 0.5 : eigen_exact) * fmax(fabs(g->mode.mu), single))
         return RC_MORE;
-    a->judged = fmax(g->told.error, 1e-300);
-    a->hidden = rc_gap_soft_error(g);
-    if (negative && a->leaves < LEAVES) {
+    a->stability.judged = fmax(g->told.error, 1e-300);
+    a->stability.hidden = rc_gap_soft_error(g);
+    if (negative && a->stability.leaves < LEAVES) {
         rc_gap_leave(g);
-        a->leaves++;
-        a->judged = 0;
-        a->softness = INFINITY;
-        a->below = 0;
+        a->stability.leaves++;
+        a->stability.judged = 0;
+        a->stability.softness = INFINITY;
+        a->stability.below = 0;
         a->stage = STAGE_DOWN;
         return RC_MORE;
     }
     if (negative)
         return finish(a, false);
     if (ends(a) || g->run.stuck)
-        return finish(a, a->gap.told.vanishes || estimate(a) <= a->tol);
-    if (a->hidden > softest(a) * g->told.error) /* most of the error is along the softest mode */
+        return finish(a, a->gap.told.vanishes || estimate(a) <= a->asked.tol);
+    if (a->stability.hidden > softest(&a->gap.mode, &a->stability) *
+                                  g->told.error) /* most of the error is along the softest mode */
         rc_gap_turn(g);
     move(a);
-    a->below = 0;
+    a->stability.below = 0;
     a->stage = STAGE_DOWN;
     return RC_MORE;
 }
@@ -855,10 +874,10 @@ static enum rc_status
 step_state(struct rc_adhesion_solver *a)
 {
     a->fresh = false;
-    if (a->stage == STAGE_NEW && a->coarse != NULL && !a->past.begun)
+    if (a->stage == STAGE_NEW && a->grids.coarse != NULL && !a->past.begun)
         begin_coarse(a);
     if (a->stage == STAGE_COARSE) {
-        if (step_state(a->coarse) != RC_MORE)
+        if (step_state(a->grids.coarse) != RC_MORE)
             end_coarse(a);
         return RC_MORE;
     }
@@ -886,21 +905,21 @@ place_of(struct rc_adhesion_solver *a)
 }
 
 static void
-copy_gap(const struct rc_adhesion_solver *a, double *to, const double *from)
+copy_gap(size_t n, double *to, const double *from)
 {
-    memcpy(to, from, a->gap.problem.n * sizeof *to);
+    memcpy(to, from, n * sizeof *to);
 }
 
 /* Makes the next state start from this gap, which belongs to c. */
 static void
 put_back(struct rc_adhesion_solver *a, const double *gap, double c)
 {
-    copy_gap(a, a->gap.maps.x, gap);
+    copy_gap(a->gap.problem.n, a->gap.maps.x, gap);
     a->gap.mode.known = false; /* its softest mode belongs to another gap */
     a->way.steady = false;
     set_shift(a, c);
-    a->gap.set.control = a->control;
-    a->gap.set.given = a->given;
+    a->gap.set.control = a->asked.control;
+    a->gap.set.given = a->asked.given;
 }
 
 enum rc_status
@@ -935,7 +954,7 @@ count(struct rc_adhesion_solver *a)
 {
     struct retraction *p = &a->pull;
 
-    if (p->search.stage == RC_RETRACTION_COARSE && p->search.states > 0)
+    if (p->search.stage == RC_RETRACTION_COARSE && p->search.count.states > 0)
         p->jumps += a->figures.jumps; /* there is no way to the first state */
     p->iterations += a->figures.iterations;
     p->eigen_steps += a->figures.eigen_steps;
@@ -950,22 +969,22 @@ end_retraction(struct rc_adhesion_solver *a)
     const struct rc_retraction *r = &p->search;
     struct rc_adhesion_state *f = &a->figures;
     double length = a->whole->length, unit = a->whole->modulus * length * length;
-    bool converged = !p->short_of && !r->short_of;
+    bool converged = !p->short_of && !r->found.short_of;
 
-    put_back(a, p->kept[r->lowest.kept], r->lowest.c);
-    rc_gap_begin(&a->gap, a->control, a->given);
-    if (a->control == RC_GAP_MEAN) /* the mean pressure is found with the residual */
+    put_back(a, p->kept[r->path.lowest.kept], r->path.lowest.c);
+    rc_gap_begin(&a->gap, a->asked.control, a->asked.given);
+    if (a->asked.control == RC_GAP_MEAN) /* the mean pressure is found with the residual */
         rc_gap_look(&a->gap);
     a->stage = STAGE_DONE;
     a->fresh = true;
     a->converged = a->way.steady = converged;
     p->on = false;
     *f = p->found;
-    f->pull_off_load = r->load * unit;
-    f->pull_off_approach = r->at * length;
-    f->pull_off_spread = r->spread * unit;
-    f->pull_off_at_start = r->lowest.c == p->start;
-    f->states = r->states;
+    f->pull_off_load = r->found.load * unit;
+    f->pull_off_approach = r->found.at * length;
+    f->pull_off_spread = r->found.spread * unit;
+    f->pull_off_at_start = r->path.lowest.c == p->start;
+    f->states = r->count.states;
     f->jumps = p->jumps;
     f->iterations = p->iterations;
     f->eigen_steps = p->eigen_steps;
@@ -985,15 +1004,15 @@ go_on(struct rc_adhesion_solver *a)
 
     count(a);
     more = rc_retraction_next(r, here);
-    if (r->keep >= 0)
-        copy_gap(a, p->kept[r->keep], a->gap.maps.x);
-    if (r->is_lowest)
+    if (r->next.keep >= 0)
+        copy_gap(a->gap.problem.n, p->kept[r->next.keep], a->gap.maps.x);
+    if (r->next.is_lowest)
         p->found = a->figures;
     if (!more)
         return end_retraction(a);
-    if (r->from >= 0)
-        put_back(a, p->kept[r->from], r->from_c);
-    set_shift(a, r->c);
+    if (r->next.from >= 0)
+        put_back(a, p->kept[r->next.from], r->next.from_c);
+    set_shift(a, r->next.c);
     return RC_MORE;
 }
 
@@ -1002,7 +1021,7 @@ rc_adhesion_solver_step(struct rc_adhesion_solver *a, struct rc_err *err)
 {
     enum rc_status status;
 
-    if (!a->held)
+    if (!a->asked.held)
         return rc_err_set(err, "neither a load nor an approach has been set");
     status = step_state(a);
     return status != RC_MORE && a->pull.on ? go_on(a) : status;
@@ -1028,12 +1047,11 @@ const struct rc_figure rc_figures_adhesion[] = {
 };
 
 static double
-at_edge(const struct rc_adhesion_solver *a)
+at_edge(const struct rc_gap *g)
 {
-    const struct rc_gap *g = &a->gap;
     double nearest = INFINITY, v, s, d;
 
-    if (a->whole->boundary == RC_PERIODIC)
+    if (g->problem.whole->boundary == RC_PERIODIC)
         return 0;
     for (size_t j = 0; j < g->problem.ny; j++)
         for (size_t i = 0; i < g->problem.nx; i++)
@@ -1109,7 +1127,7 @@ find_figures(struct rc_adhesion_solver *a)
                                     .pull_off_approach = NAN,
                                     .pull_off_spread = NAN,
                                     .states = 1,
-                                    .edge_traction = at_edge(a)};
+                                    .edge_traction = at_edge(&a->gap)};
     rc_sums_rows(&g->sums, figures_row, g, sums);
     f->load = sums[OF_PRESSURE] * e * cell;
     f->mean_pressure = sums[OF_PRESSURE] * e / nodes;
@@ -1127,15 +1145,15 @@ find_figures(struct rc_adhesion_solver *a)
     f->kkt_residual = sums[MOST_WRONG] / g->problem.law.strength;
     f->gap_error = sums[MOST_GAP_CHANGE] * a->whole->length;
     f->approach = rc_gap_shift(g) * a->whole->length;
-    f->stability = a->judged > 0 ? softest(a) : NAN;
-    f->stable = a->judged > 0 && softest(a) > 0;
+    f->stability = a->stability.judged > 0 ? softest(&a->gap.mode, &a->stability) : NAN;
+    f->stable = a->stability.judged > 0 && softest(&a->gap.mode, &a->stability) > 0;
     f->separated = a->separated;
     f->jumps = a->jumps;
     f->iterations = a->way.iterations + g->run.iterations;
     f->eigen_steps = a->way.eigen_steps + g->mode.steps;
     f->convolutions = g->run.convolutions;
     f->pressure_error = isinf(g->told.error) ? NAN : estimate(a);
-    f->inherited_error = inherited_error(a);
+    f->inherited_error = inherited_error(&a->gap.told, &a->past);
     f->converged = a->converged;
     a->fresh = true;
 }
@@ -1210,23 +1228,24 @@ rc_adhesion_solver_progress(const struct rc_adhesion_solver *a,
     const struct rc_gap *g;
 
     while (at->stage == STAGE_COARSE)
-        at = at->coarse;
+        at = at->grids.coarse;
     g = &at->gap;
     *progress = (struct rc_adhesion_solver_progress){
-        .state = a->pull.on ? a->pull.search.states + 1 : 1,
+        .state = a->pull.on ? a->pull.search.count.states + 1 : 1,
         .coarser = at != a,
         .convolutions = convolutions(a),
         .iterations = at->stage == STAGE_NEW ? 0 : at->way.iterations + g->run.iterations,
         .eigenvalue = a->stage == STAGE_EIGEN,
-        .load = a->control == RC_GAP_LOAD && a->held
-                    ? a->given * (double)a->gap.problem.n * a->shape.dx * a->shape.dy *
+        .load = a->asked.control == RC_GAP_LOAD && a->asked.held
+                    ? a->asked.given * (double)a->gap.problem.n * a->shape.dx * a->shape.dy *
                           a->whole->modulus
                     : NAN,
-        .approach = a->control == RC_GAP_LOAD || !a->held ? NAN
-                    : a->control == RC_GAP_SHIFT          ? a->given * a->whole->length
-                                                 : (-a->given - a->mean_h) * a->whole->length,
+        .approach = a->asked.control == RC_GAP_LOAD || !a->asked.held ? NAN
+                    : a->asked.control == RC_GAP_SHIFT
+                        ? a->asked.given * a->whole->length
+                        : (-a->asked.given - a->mean_h) * a->whole->length,
         .error = at->stage == STAGE_NEW || isinf(g->told.error) ? NAN : estimate(at),
-        .tol = a->tol};
+        .tol = a->asked.tol};
 }
 
 /* ---- start from an earlier path ---- */
@@ -1236,10 +1255,10 @@ static void
 hold(struct rc_adhesion_solver *a, double c)
 {
     set_shift(a, c);
-    a->gap.set.control = a->control;
-    a->gap.set.given = a->given;
+    a->gap.set.control = a->asked.control;
+    a->gap.set.given = a->asked.given;
     a->gap.set.level = 0;
-    a->held = false;
+    a->asked.held = false;
 }
 
 double
@@ -1266,7 +1285,7 @@ rc_adhesion_solver_start(struct rc_adhesion_solver *a, const double *pressure, d
     for (size_t k = 0; k < g->problem.nx * g->problem.ny; k++)
         if (!isfinite(pressure[k]))
             return rc_err_set(err, "pressure %zu is not a finite number", k);
-    free_coarse(a);
+    free_coarse(&a->grids);
     memset(g->maps.d, 0, g->problem.n * sizeof *g->maps.d);
     for (size_t j = 0; j < g->problem.ny; j++)
         for (size_t i = 0; i < g->problem.nx; i++)
@@ -1298,7 +1317,7 @@ rc_adhesion_solver_set_heights(struct rc_adhesion_solver *a, const double *h, co
     struct rc_gap *g = &a->gap;
     const double c = a->past.begun ? rc_gap_shift(g) : 0;
 
-    if (check_heights(a, h, err) != RC_OK)
+    if (check_heights(&a->shape, h, err) != RC_OK)
         return RC_FAIL;
     for (size_t j = 0; j < g->problem.ny; j++)
         for (size_t i = 0; i < g->problem.nx; i++)
@@ -1339,8 +1358,8 @@ rc_adhesion_solver_keep_shape(struct rc_adhesion_solver *a, double *h)
             *x = 0;
         }
     if (dented && !isinf(g->told.error)) {
-        a->past.dents[0] += own_error(a);
-        a->past.dents[1] += own_error(a) * g->told.size;
+        a->past.dents[0] += own_error(&a->gap, &a->stability, a->asked.control);
+        a->past.dents[1] += own_error(&a->gap, &a->stability, a->asked.control) * g->told.size;
     }
 }
 

@@ -48,14 +48,10 @@ static const double lopsided = 4, golden = 0.382;
 void
 rc_retraction_begin(struct rc_retraction *r, double work, double range, double parted)
 {
-    *r = (struct rc_retraction){.work = work,
-                                .range = range,
-                                .parted = parted,
-                                .known = INFINITY,
-                                .hidden = INFINITY,
-                                .beside = INFINITY,
-                                .to = INFINITY,
-                                .estimate = INFINITY};
+    *r = (struct rc_retraction){
+        .law = {.work = work, .range = range, .parted = parted},
+        .low = {.known = INFINITY, .hidden = INFINITY, .beside = INFINITY, .to = INFINITY},
+        .parabola.load = INFINITY};
 }
 
 /* ---- loads hidden between two states ---- */
@@ -92,36 +88,35 @@ vertex(const struct rc_retraction_state *l, const struct rc_retraction_state *m,
 /* An upper bound of the slope of the load on a path without jumps. The flat circular punch with this area has
  * the lowest stiffness; several spots have at most the largest stiffness seen so far. */
 static double
-stiffness(const struct rc_retraction *r, const struct rc_retraction_state *s)
+stiffness(const struct rc_retraction_pace *pace, const struct rc_retraction_state *s)
 {
-    return fmax(2 * s->radius, r->stiffness);
+    return fmax(2 * s->radius, pace->stiffness);
 }
 
 /* The lowest load that may occur between the last state and this one. */
 static double
-hidden(const struct rc_retraction *r, const struct rc_retraction_state *here, bool jumped)
+hidden(enum rc_retraction_stage stage, const struct rc_retraction_path *path,
+       const struct rc_retraction_pace *pace, const struct rc_retraction_state *here, bool jumped)
 {
-    const struct rc_retraction_state *last = &r->last;
+    const struct rc_retraction_state *last = &path->last;
     double way = last->c - here->c, least = fmin(last->load, here->load), at, bend;
 
-    if (jumped || (r->stage == RC_RETRACTION_COARSE && r->has_prior))
-        return fmin(least, fmax(last->load - stiffness(r, last) * way, -last->attraction));
-    if (r->has_prior && here->load > last->load && last->slope > 0)
-        return fmin(least, vertex(&r->prior, last, here, &at, &bend));
+    if (jumped || (stage == RC_RETRACTION_COARSE && path->has_prior))
+        return fmin(least, fmax(last->load - stiffness(pace, last) * way, -last->attraction));
+    if (path->has_prior && here->load > last->load && last->slope > 0)
+        return fmin(least, vertex(&path->prior, last, here, &at, &bend));
     return least;
 }
 
 static double
-lowest_known(const struct rc_retraction *r)
+lowest_known(const struct rc_retraction_low *low, const struct rc_retraction_path *path)
 {
-    return fmin(r->known, r->lowest.load);
+    return fmin(low->known, path->lowest.load);
 }
 
 static bool
-counts(const struct rc_retraction *r, double load)
+counts(double lowest, double load)
 {
-    double lowest = lowest_known(r);
-
     return load < lowest - settled * fabs(lowest);
 }
 
@@ -129,75 +124,77 @@ counts(const struct rc_retraction *r, double load)
 
 /* A free place among the kept states. */
 static int
-free_one(const struct rc_retraction *r)
+free_one(const struct rc_retraction_path *path)
 {
     for (int k = 0; k < RC_RETRACTION_KEPT; k++)
-        if ((!r->has_base || r->base.kept != k) && (!r->has_before || r->before.kept != k) &&
-            r->lowest.kept != k)
+        if ((!path->has_base || path->base.kept != k) &&
+            (!path->has_before || path->before.kept != k) && path->lowest.kept != k)
             return k;
     return RC_RETRACTION_HERE;
 }
 
 /* Notes a state in the order of the retraction, and the load that may be hidden before it. */
 static void
-note(struct rc_retraction *r, struct rc_retraction_state here, double hides)
+note(struct rc_retraction_path *path, struct rc_retraction_low *low,
+     struct rc_retraction_next *next, struct rc_retraction_state here, double hides)
 {
-    r->is_lowest = here.load < r->lowest.load;
-    if (r->is_lowest) {
-        r->hidden = fmin(r->hidden, r->beside);
-        r->beside = INFINITY;
-        if (!r->has_base || !(r->hidden < here.load - settled * fabs(here.load))) {
-            r->base = r->last;
-            r->has_base = true;
-            r->hidden = INFINITY;
+    next->is_lowest = here.load < path->lowest.load;
+    if (next->is_lowest) {
+        low->hidden = fmin(low->hidden, low->beside);
+        low->beside = INFINITY;
+        if (!path->has_base || !(low->hidden < here.load - settled * fabs(here.load))) {
+            path->base = path->last;
+            path->has_base = true;
+            low->hidden = INFINITY;
         }
-        r->before = r->last;
-        r->lowest = here;
-        r->lowest.kept = RC_RETRACTION_HERE;
-        r->has_before = true;
-        r->has_after = false;
-        r->hidden = fmin(r->hidden, hides);
-    } else if (!r->has_after) {
-        r->has_after = true;
-        r->after = here;
-        r->beside = hides;
+        path->before = path->last;
+        path->lowest = here;
+        path->lowest.kept = RC_RETRACTION_HERE;
+        path->has_before = true;
+        path->has_after = false;
+        low->hidden = fmin(low->hidden, hides);
+    } else if (!path->has_after) {
+        path->has_after = true;
+        path->after = here;
+        low->beside = hides;
     } else {
-        r->hidden = fmin(r->hidden, hides);
+        low->hidden = fmin(low->hidden, hides);
     }
-    if (!r->has_after || counts(r, hides))
-        r->to = fmin(r->to, here.c);
-    r->keep = here.kept = free_one(r);
-    if (r->is_lowest)
-        r->lowest.kept = r->keep;
-    r->prior = r->last;
-    r->has_prior = true;
-    r->last = here;
+    if (!path->has_after || counts(lowest_known(low, path), hides))
+        low->to = fmin(low->to, here.c);
+    next->keep = here.kept = free_one(path);
+    if (next->is_lowest)
+        path->lowest.kept = next->keep;
+    path->prior = path->last;
+    path->has_prior = true;
+    path->last = here;
 }
 
 /* Notes a state at the minimum of the parabola, between the neighbours of the lowest state. */
 static void
-note_vertex(struct rc_retraction *r, struct rc_retraction_state here)
+note_vertex(struct rc_retraction_path *path, struct rc_retraction_parabola *parabola,
+            struct rc_retraction_next *next, struct rc_retraction_state here)
 {
-    bool early = here.c > r->lowest.c;
+    bool early = here.c > path->lowest.c;
 
-    r->missed = isnan(r->estimate) ? 0 : fabs(here.load - r->estimate);
-    r->keep = RC_RETRACTION_HERE;
-    r->is_lowest = here.load < r->lowest.load;
-    if (r->is_lowest) {
+    parabola->missed = isnan(parabola->load) ? 0 : fabs(here.load - parabola->load);
+    next->keep = RC_RETRACTION_HERE;
+    next->is_lowest = here.load < path->lowest.load;
+    if (next->is_lowest) {
         if (early)
-            r->after = r->lowest;
+            path->after = path->lowest;
         else
-            r->before = r->lowest;
-        r->lowest.kept = RC_RETRACTION_HERE;
-        r->keep = here.kept = free_one(r);
-        r->lowest = here;
+            path->before = path->lowest;
+        path->lowest.kept = RC_RETRACTION_HERE;
+        next->keep = here.kept = free_one(path);
+        path->lowest = here;
     } else if (early) {
-        r->has_before = false;
-        r->keep = here.kept = free_one(r);
-        r->has_before = true;
-        r->before = here;
+        path->has_before = false;
+        next->keep = here.kept = free_one(path);
+        path->has_before = true;
+        path->before = here;
     } else {
-        r->after = here;
+        path->after = here;
     }
 }
 
@@ -207,47 +204,50 @@ note_vertex(struct rc_retraction *r, struct rc_retraction_state here)
  * force is at most the attraction, and at most the force that opens a circular crack around the contact. In
  * the limit of short ranges, the lowest load of a sphere is a quarter of sqrt(8 pi E* w a^3) at load 0. */
 static double
-coarse_way(const struct rc_retraction *r, const struct rc_retraction_state *here)
+coarse_way(const struct rc_retraction_law *law, const struct rc_retraction_pace *pace,
+           size_t states, const struct rc_retraction_state *here)
 {
     double holds = here->attraction, a = here->radius, way;
 
     if (a > 0)
-        holds = fmin(holds, sqrt(8 * RC_PI * r->work * a * a * a) / 4);
-    way = load_step * holds / (here->slope > 0 ? here->slope : r->stiffness);
-    if (r->states <= 1)
-        return fmax(way, 0.02 * r->range);
+        holds = fmin(holds, sqrt(8 * RC_PI * law->work * a * a * a) / 4);
+    way = load_step * holds / (here->slope > 0 ? here->slope : pace->stiffness);
+    if (states <= 1)
+        return fmax(way, 0.02 * law->range);
     if (here->slope <= 0)
-        return growth_after * r->step;
-    if (here->slope < r->stiffest / 4)
-        return r->step; /* near a minimum */
-    return fmin(way, growth * r->step);
+        return growth_after * pace->step;
+    if (here->slope < pace->stiffest / 4)
+        return pace->step; /* near a minimum */
+    return fmin(way, growth * pace->step);
 }
 
 /* The fine step: as far as the load needs at least to fall below the lowest known one. */
 static double
-fine_way(const struct rc_retraction *r, const struct rc_retraction_state *here)
+fine_way(const struct rc_retraction_pace *pace, double lowest,
+         const struct rc_retraction_state *here)
 {
-    double lowest = lowest_known(r),
-           falls = fmax(here->load - lowest, fine_step * fabs(lowest)) / stiffness(r, here);
+    double falls = fmax(here->load - lowest, fine_step * fabs(lowest)) / stiffness(pace, here);
 
-    return fmin(falls, growth_after * r->step);
+    return fmin(falls, growth_after * pace->step);
 }
 
 static bool
-go(struct rc_retraction *r, const struct rc_retraction_state *from, double c)
+go(struct rc_retraction_next *next, const struct rc_retraction_state *from, double c)
 {
-    r->from = from->kept;
-    r->from_c = from->c;
-    r->c = c;
+    next->from = from->kept;
+    next->from_c = from->c;
+    next->c = c;
     return true;
 }
 
 static bool
 go_on(struct rc_retraction *r)
 {
-    r->step = r->stage == RC_RETRACTION_FINE ? fine_way(r, &r->last) : coarse_way(r, &r->last);
-    r->from = RC_RETRACTION_HERE;
-    r->c = r->last.c - r->step;
+    r->pace.step = r->stage == RC_RETRACTION_FINE
+                       ? fine_way(&r->pace, lowest_known(&r->low, &r->path), &r->path.last)
+                       : coarse_way(&r->law, &r->pace, r->count.states, &r->path.last);
+    r->next.from = RC_RETRACTION_HERE;
+    r->next.c = r->path.last.c - r->pace.step;
     return true;
 }
 
@@ -255,13 +255,13 @@ go_on(struct rc_retraction *r)
 static bool
 is_over(struct rc_retraction *r, const struct rc_retraction_state *here)
 {
-    if (r->states >= STATES) {
-        r->short_of = true;
+    if (r->count.states >= STATES) {
+        r->found.short_of = true;
         return true;
     }
-    if (r->stage == RC_RETRACTION_FINE && r->has_after && here->c <= r->to)
+    if (r->stage == RC_RETRACTION_FINE && r->path.has_after && here->c <= r->low.to)
         return true;
-    return here->attraction <= -lowest_known(r) || here->mean_gap > r->parted;
+    return here->attraction <= -lowest_known(&r->low, &r->path) || here->mean_gap > r->law.parted;
 }
 
 /* ---- stages ---- */
@@ -271,32 +271,32 @@ static bool
 begin_fine(struct rc_retraction *r, struct rc_retraction_state from, double step)
 {
     r->stage = RC_RETRACTION_FINE;
-    r->fine++;
-    if (r->lowest.load < r->known) {
-        r->known = r->lowest.load;
-        r->known_at = r->lowest.c;
+    r->count.fines++;
+    if (r->path.lowest.load < r->low.known) {
+        r->low.known = r->path.lowest.load;
+        r->low.known_at = r->path.lowest.c;
     }
-    r->hidden = r->beside = r->estimate = INFINITY;
-    r->missed = 0;
-    r->steps_n = r->checks = 0;
-    r->last = r->base = from;
-    r->has_base = true;
-    r->has_prior = r->has_after = r->has_before = false;
-    if (from.c != r->lowest.c)
-        r->lowest = (struct rc_retraction_state){.load = INFINITY, .kept = RC_RETRACTION_HERE};
-    r->step = step;
-    return go(r, &from, from.c - step);
+    r->low.hidden = r->low.beside = r->parabola.load = INFINITY;
+    r->parabola.missed = 0;
+    r->fine.n = r->count.checks = 0;
+    r->path.last = r->path.base = from;
+    r->path.has_base = true;
+    r->path.has_prior = r->path.has_after = r->path.has_before = false;
+    if (from.c != r->path.lowest.c)
+        r->path.lowest = (struct rc_retraction_state){.load = INFINITY, .kept = RC_RETRACTION_HERE};
+    r->pace.step = step;
+    return go(&r->next, &from, from.c - step);
 }
 
 static bool
 end(struct rc_retraction *r, double load, double at, double spread)
 {
-    r->load = load;
-    r->at = at;
+    r->found.load = load;
+    r->found.at = at;
     /* The fine stage does not search for smaller jumps than `settled`. Later loads are not below minus the
      * attraction. */
-    spread = fmax(spread, r->fine > 0 ? settled * fabs(load) : 0);
-    r->spread = fmax(spread, r->short_of ? load + r->last.attraction : 0);
+    spread = fmax(spread, r->count.fines > 0 ? settled * fabs(load) : 0);
+    r->found.spread = fmax(spread, r->found.short_of ? load + r->path.last.attraction : 0);
     return false;
 }
 
@@ -315,18 +315,18 @@ enum {
 
 /* The spread of the lowest load and the loads beside it about their best parabola. */
 static double
-teeth(const struct rc_retraction *r)
+teeth(const struct rc_retraction_beside *beside)
 {
     double a[3][4] = {{0}}, least = INFINITY, most = -INFINITY;
 
-    if (r->beside_n <= 3) /* beyond a jump */
+    if (beside->n <= 3) /* beyond a jump */
         return 0;
-    for (size_t k = 0; k < r->beside_n; k++) {
-        double x = r->beside_way[k] / fabs(r->beside_way[1]), power[] = {1, x, x * x};
+    for (size_t k = 0; k < beside->n; k++) {
+        double x = beside->way[k] / fabs(beside->way[1]), power[] = {1, x, x * x};
         for (int i = 0; i < 3; i++) {
             for (int j = 0; j < 3; j++)
                 a[i][j] += power[i] * power[j];
-            a[i][3] += power[i] * r->beside_load[k];
+            a[i][3] += power[i] * beside->load[k];
         }
     }
     for (int i = 0; i < 3; i++) /* the matrix is positive definite */
@@ -335,10 +335,10 @@ teeth(const struct rc_retraction *r)
             for (int j = i; k != i && j < 4; j++)
                 a[k][j] -= factor * a[i][j];
         }
-    for (size_t k = 0; k < r->beside_n; k++) {
-        double x = r->beside_way[k] / fabs(r->beside_way[1]);
-        double off = r->beside_load[k] -
-                     (a[0][3] / a[0][0] + x * (a[1][3] / a[1][1] + x * a[2][3] / a[2][2]));
+    for (size_t k = 0; k < beside->n; k++) {
+        double x = beside->way[k] / fabs(beside->way[1]);
+        double off =
+            beside->load[k] - (a[0][3] / a[0][0] + x * (a[1][3] / a[1][1] + x * a[2][3] / a[2][2]));
         least = fmin(least, off);
         most = fmax(most, off);
     }
@@ -349,21 +349,28 @@ static bool
 check(struct rc_retraction *r)
 {
     double way, c;
-    bool saw = r->missed > settled / 2 * fabs(r->estimate);
+    bool saw = r->parabola.missed > settled / 2 * fabs(r->parabola.load);
 
-    if (r->checks == RC_RETRACTION_CHECKS || (r->checks >= FIRST && !saw)) {
-        double lowest = fmin(r->estimate, r->lowest.load),
-               spread = fmax(r->spread, saw ? 1.5 * teeth(r) : 2 * r->missed);
-        if (r->leaps && r->fine == 0 && spread < leap * fabs(lowest))
-            return begin_fine(r, r->base, fine_way(r, &r->base));
-        return end(r, lowest, lowest < r->lowest.load ? r->at_estimate : r->lowest.c, spread);
+    if (r->count.checks == RC_RETRACTION_CHECKS || (r->count.checks >= FIRST && !saw)) {
+        double lowest = fmin(r->parabola.load, r->path.lowest.load),
+               spread =
+                   fmax(r->found.spread, saw ? 1.5 * teeth(&r->beside) : 2 * r->parabola.missed);
+        if (r->parabola.leaps && r->count.fines == 0 && spread < leap * fabs(lowest))
+            return begin_fine(r, r->path.base,
+                              fine_way(&r->pace, lowest_known(&r->low, &r->path), &r->path.base));
+        return end(r, lowest, lowest < r->path.lowest.load ? r->parabola.at : r->path.lowest.c,
+                   spread);
     }
-    way = sqrt(settled * fabs(r->estimate) / r->around);
-    way = places[r->checks++] * fmin(way, r->at_estimate - r->late);
-    c = r->at_estimate + way;
-    if (c > r->base.c) /* there is no state to start from */
-        c = r->at_estimate - way;
-    return go(r, c <= r->lowest.c ? &r->lowest : c <= r->before.c ? &r->before : &r->base, c);
+    way = sqrt(settled * fabs(r->parabola.load) / r->parabola.around);
+    way = places[r->count.checks++] * fmin(way, r->parabola.at - r->parabola.late);
+    c = r->parabola.at + way;
+    if (c > r->path.base.c) /* there is no state to start from */
+        c = r->parabola.at - way;
+    return go(&r->next,
+              c <= r->path.lowest.c   ? &r->path.lowest
+              : c <= r->path.before.c ? &r->path.before
+                                      : &r->path.base,
+              c);
 }
 
 /* Checks this lowest load of a parabola with this bend; the spread is at least `spread`. */
@@ -371,138 +378,145 @@ static bool
 begin_check(struct rc_retraction *r, double load, double at, double bend, double spread)
 {
     r->stage = RC_RETRACTION_CHECK;
-    r->estimate = r->beside_load[0] = load;
-    r->at_estimate = at;
-    r->beside_n = 1;
-    r->bend = bend;
-    r->spread = spread;
+    r->parabola.load = r->beside.load[0] = load;
+    r->parabola.at = at;
+    r->beside.n = 1;
+    r->parabola.bend = bend;
+    r->found.spread = spread;
     return check(r);
 }
 
 static void
-note_check(struct rc_retraction *r, struct rc_retraction_state here)
+note_check(struct rc_retraction_path *path, struct rc_retraction_parabola *parabola,
+           struct rc_retraction_beside *beside, struct rc_retraction_next *next,
+           struct rc_retraction_state here)
 {
-    double way = here.c - r->at_estimate;
+    double way = here.c - parabola->at;
 
-    r->keep = RC_RETRACTION_HERE;
-    r->is_lowest = here.load < r->lowest.load;
-    r->leaps |= here.load > r->estimate + leap * fabs(r->estimate);
-    if (here.load > r->estimate + leap * fabs(r->estimate))
+    next->keep = RC_RETRACTION_HERE;
+    next->is_lowest = here.load < path->lowest.load;
+    parabola->leaps |= here.load > parabola->load + leap * fabs(parabola->load);
+    if (here.load > parabola->load + leap * fabs(parabola->load))
         return;
-    r->missed = fmax(r->missed, fabs(here.load - r->estimate - r->bend * way * way));
-    r->beside_way[r->beside_n] = way;
-    r->beside_load[r->beside_n++] = here.load;
-    if (!r->is_lowest)
+    parabola->missed =
+        fmax(parabola->missed, fabs(here.load - parabola->load - parabola->bend * way * way));
+    beside->way[beside->n] = way;
+    beside->load[beside->n++] = here.load;
+    if (!next->is_lowest)
         return;
-    r->lowest.kept = RC_RETRACTION_HERE;
-    r->keep = here.kept = free_one(r);
-    r->lowest = here;
+    path->lowest.kept = RC_RETRACTION_HERE;
+    next->keep = here.kept = free_one(path);
+    path->lowest = here;
 }
 
 /* The lowest load that steps before the lowest state may hide. Between jumps the slope of the load over the
  * approach only falls. If a later step is steeper, the load has jumped up within the earlier one. Before that
  * jump it has fallen at most with the later slope. */
 static double
-hidden_before(const struct rc_retraction *r)
+hidden_before(const struct rc_retraction_fine *fine, const struct rc_retraction_path *path)
 {
     double steepest = 0, least = INFINITY;
 
-    for (size_t k = r->steps_n; k-- > 0;) {
-        const struct rc_retraction_step *s = &r->steps[k];
-        if (s->end < r->lowest.c)
+    for (size_t k = fine->n; k-- > 0;) {
+        const struct rc_retraction_step *s = &fine->step[k];
+        if (s->end < path->lowest.c)
             continue;
         if (steepest > convex * fmax(s->slope, 0))
             least = fmin(least, s->load - steepest * s->way);
-        steepest = fmax(steepest, s->slope - noise * fabs(r->lowest.load) / s->way);
+        steepest = fmax(steepest, s->slope - noise * fabs(path->lowest.load) / s->way);
     }
-    return fmax(least, -r->base.attraction);
+    return fmax(least, -path->base.attraction);
 }
 
 /* Ends the search with the lowest state and this spread, or checks it first. */
 static bool
 end_or_check(struct rc_retraction *r, double spread)
 {
-    const struct rc_retraction_state *m = &r->lowest;
+    const struct rc_retraction_state *m = &r->path.lowest;
 
-    spread = fmax(spread, m->load - hidden_before(r));
-    return r->around > 0 ? begin_check(r, m->load, m->c, r->around, spread)
-                         : end(r, m->load, m->c, spread);
+    spread = fmax(spread, m->load - hidden_before(&r->fine, &r->path));
+    return r->parabola.around > 0 ? begin_check(r, m->load, m->c, r->parabola.around, spread)
+                                  : end(r, m->load, m->c, spread);
 }
 
 /* Chooses the next stage, the next vertex, or the end. */
 static bool
 settle(struct rc_retraction *r)
 {
-    const struct rc_retraction_state *l = &r->before, *m = &r->lowest, *right = &r->after;
-    double least = fmin(fmin(r->hidden, r->beside), m->load), last = r->estimate, estimate, at, off,
-           bend;
-    bool again = r->fine < FINE && !r->short_of, jumped;
+    const struct rc_retraction_state *l = &r->path.before, *m = &r->path.lowest,
+                                     *right = &r->path.after;
+    double least = fmin(fmin(r->low.hidden, r->low.beside), m->load), last = r->parabola.load,
+           estimate, at, off, bend;
+    bool again = r->count.fines < FINE && !r->found.short_of, jumped;
 
-    if (!r->has_after) /* too few states */
-        return again && r->has_base && counts(r, least)
-                   ? begin_fine(r, r->base, fine_way(r, &r->base))
+    if (!r->path.has_after) /* too few states */
+        return again && r->path.has_base && counts(lowest_known(&r->low, &r->path), least)
+                   ? begin_fine(r, r->path.base,
+                                fine_way(&r->pace, lowest_known(&r->low, &r->path), &r->path.base))
                    : end(r, m->load, m->c, m->load - least);
-    if (!r->has_before) { /* the first state has the lowest load, unless the first step was too
+    if (!r->path.has_before) { /* the first state has the lowest load, unless the first step was too
                              long */
-        r->to = right->c;
+        r->low.to = right->c;
         return again ? begin_fine(r, *m, (m->c - right->c) / 4)
                      : end(r, m->load, m->c, right->load - m->load);
     }
     estimate = vertex(l, m, right, &at, &bend);
     jumped = has_jumped((l->attraction - m->attraction) / (l->c - m->c), m, right);
-    if (r->stage == RC_RETRACTION_COARSE && !r->rough && !jumped) {
-        r->around = bend;
-        r->late = right->c;
+    if (r->stage == RC_RETRACTION_COARSE && !r->pace.rough && !jumped) {
+        r->parabola.around = bend;
+        r->parabola.late = right->c;
     }
-    if (r->rough && r->fine == 0 && again)
-        return begin_fine(r, r->base, fine_way(r, &r->base));
-    if (jumped && r->fine == 0 && again && counts(r, r->beside)) {
-        r->to = right->c;
-        return begin_fine(r, *l, fine_way(r, l));
+    if (r->pace.rough && r->count.fines == 0 && again)
+        return begin_fine(r, r->path.base,
+                          fine_way(&r->pace, lowest_known(&r->low, &r->path), &r->path.base));
+    if (jumped && r->count.fines == 0 && again &&
+        counts(lowest_known(&r->low, &r->path), r->low.beside)) {
+        r->low.to = right->c;
+        return begin_fine(r, *l, fine_way(&r->pace, lowest_known(&r->low, &r->path), l));
     }
     if (jumped) {
-        double hides = m->load - stiffness(r, m) * (m->c - right->c);
-        if (r->around > 0) /* the check measures the teeth */
+        double hides = m->load - stiffness(&r->pace, m) * (m->c - right->c);
+        if (r->parabola.around > 0) /* the check measures the teeth */
             hides = m->load;
-        if (!counts(r, hides) || r->halvings == HALVINGS)
+        if (!counts(lowest_known(&r->low, &r->path), hides) || r->count.halvings == HALVINGS)
             return end_or_check(r, fmax(m->load - fmin(least, hides), settled * fabs(m->load)));
         r->stage = RC_RETRACTION_VERTEX;
-        r->halvings++;
-        r->estimate = NAN;
-        return go(r, m, (m->c + right->c) / 2);
+        r->count.halvings++;
+        r->parabola.load = NAN;
+        return go(&r->next, m, (m->c + right->c) / 2);
     }
-    r->estimate = estimate;
-    r->at_estimate = at;
-    off = fmax(fabs(estimate - last), r->vertices > 0 ? r->missed : INFINITY);
+    r->parabola.load = estimate;
+    r->parabola.at = at;
+    off = fmax(fabs(estimate - last), r->count.vertices > 0 ? r->parabola.missed : INFINITY);
     if (at == m->c)
         return end_or_check(r, fmin(off, m->load - least));
-    if (r->vertices >= VERTICES || off <= settled * fabs(estimate)) {
-        r->missed = off;
-        if (!(r->around > 0)) {
-            r->around = bend;
-            r->late = right->c;
+    if (r->count.vertices >= VERTICES || off <= settled * fabs(estimate)) {
+        r->parabola.missed = off;
+        if (!(r->parabola.around > 0)) {
+            r->parabola.around = bend;
+            r->parabola.late = right->c;
         }
-        return begin_check(r, estimate, at, bend, m->load - hidden_before(r));
+        return begin_check(r, estimate, at, bend, m->load - hidden_before(&r->fine, &r->path));
     }
     r->stage = RC_RETRACTION_VERTEX;
-    r->vertices++;
+    r->count.vertices++;
     if (l->c - m->c > lopsided * (m->c - right->c))
         at = m->c + golden * (l->c - m->c);
     else if (m->c - right->c > lopsided * (l->c - m->c))
         at = m->c - golden * (m->c - right->c);
-    r->estimate += bend * (at - r->at_estimate) * (at - r->at_estimate);
-    r->at_estimate = at;
-    return go(r, at > m->c ? l : m, at);
+    r->parabola.load += bend * (at - r->parabola.at) * (at - r->parabola.at);
+    r->parabola.at = at;
+    return go(&r->next, at > m->c ? l : m, at);
 }
 
 static bool
 begin(struct rc_retraction *r, struct rc_retraction_state here)
 {
-    r->stiffness = here.slope = 2 * fmax(here.radius, 1);
+    r->pace.stiffness = here.slope = 2 * fmax(here.radius, 1);
     here.rate = NAN;
-    here.kept = r->keep = 0;
-    r->is_lowest = true;
-    r->last = r->lowest = here;
+    here.kept = r->next.keep = 0;
+    r->next.is_lowest = true;
+    r->path.last = r->path.lowest = here;
     return go_on(r);
 }
 
@@ -512,50 +526,54 @@ rc_retraction_next(struct rc_retraction *r, struct rc_retraction_state here)
     double hides, way;
     bool jumped, lost;
 
-    if (r->states++ == 0)
+    if (r->count.states++ == 0)
         return begin(r, here);
-    r->is_lowest = false;
+    r->next.is_lowest = false;
     if (r->stage == RC_RETRACTION_VERTEX) {
-        note_vertex(r, here);
+        note_vertex(&r->path, &r->parabola, &r->next, here);
         return settle(r);
     }
     if (r->stage == RC_RETRACTION_CHECK) {
-        note_check(r, here);
+        note_check(&r->path, &r->parabola, &r->beside, &r->next, here);
         return check(r);
     }
-    way = r->last.c - here.c;
-    here.slope = (r->last.load - here.load) / way;
-    here.rate = (r->last.attraction - here.attraction) / way;
-    if (r->stage == RC_RETRACTION_COARSE && !r->has_prior && here.slope > stiffer * r->last.slope) {
-        r->keep = RC_RETRACTION_HERE;
-        r->step *= r->last.slope / here.slope;
-        r->last.slope = here.slope;
-        return go(r, &r->last, r->last.c - r->step);
+    way = r->path.last.c - here.c;
+    here.slope = (r->path.last.load - here.load) / way;
+    here.rate = (r->path.last.attraction - here.attraction) / way;
+    if (r->stage == RC_RETRACTION_COARSE && !r->path.has_prior &&
+        here.slope > stiffer * r->path.last.slope) {
+        r->next.keep = RC_RETRACTION_HERE;
+        r->pace.step *= r->path.last.slope / here.slope;
+        r->path.last.slope = here.slope;
+        return go(&r->next, &r->path.last, r->path.last.c - r->pace.step);
     }
-    jumped = has_jumped(r->last.rate, &r->last, &here);
-    if (!r->has_after && r->has_prior && here.slope > convex * fmax(r->last.slope, 0))
-        r->rough = true;
-    hides = hidden(r, &here, jumped);
-    lost = r->last.c > r->known_at && here.c <= r->known_at &&
-           fmin(r->lowest.load, here.load) > r->known + settled * fabs(r->known);
+    jumped = has_jumped(r->path.last.rate, &r->path.last, &here);
+    if (!r->path.has_after && r->path.has_prior &&
+        here.slope > convex * fmax(r->path.last.slope, 0))
+        r->pace.rough = true;
+    hides = hidden(r->stage, &r->path, &r->pace, &here, jumped);
+    lost = r->path.last.c > r->low.known_at && here.c <= r->low.known_at &&
+           fmin(r->path.lowest.load, here.load) > r->low.known + settled * fabs(r->low.known);
     if (lost)
-        hides = fmin(hides, r->known);
-    if (r->stage == RC_RETRACTION_FINE && (lost || (jumped && counts(r, hides))) &&
-        hides < here.load && way > least_step * r->range && r->states < STATES) {
-        r->keep = RC_RETRACTION_HERE;
-        r->step = way / 2;
-        return go(r, &r->last, r->last.c - r->step);
+        hides = fmin(hides, r->low.known);
+    if (r->stage == RC_RETRACTION_FINE &&
+        (lost || (jumped && counts(lowest_known(&r->low, &r->path), hides))) && hides < here.load &&
+        way > least_step * r->law.range && r->count.states < STATES) {
+        r->next.keep = RC_RETRACTION_HERE;
+        r->pace.step = way / 2;
+        return go(&r->next, &r->path.last, r->path.last.c - r->pace.step);
     }
     if (jumped)
-        here.rate = r->last.rate;
+        here.rate = r->path.last.rate;
     else if (here.slope > 0)
-        r->stiffness = here.slope;
-    r->stiffest = fmax(r->stiffest, here.slope);
+        r->pace.stiffness = here.slope;
+    r->pace.stiffest = fmax(r->pace.stiffest, here.slope);
     if (r->stage == RC_RETRACTION_FINE && !jumped) {
-        if (r->steps_n == RC_RETRACTION_STEPS)
-            memmove(r->steps, r->steps + 1, --r->steps_n * sizeof *r->steps);
-        r->steps[r->steps_n++] = (struct rc_retraction_step){r->last.load, here.c, way, here.slope};
+        if (r->fine.n == RC_RETRACTION_STEPS)
+            memmove(r->fine.step, r->fine.step + 1, --r->fine.n * sizeof *r->fine.step);
+        r->fine.step[r->fine.n++] =
+            (struct rc_retraction_step){r->path.last.load, here.c, way, here.slope};
     }
-    note(r, here, hides);
+    note(&r->path, &r->low, &r->next, here, hides);
     return is_over(r, &here) ? settle(r) : go_on(r);
 }

@@ -38,47 +38,88 @@ struct rc_retraction_step {
     double load, end, way, slope;
 };
 
-struct rc_retraction {
-    double work, range, parted; /* work and range of the law; `parted`: the mean gap without
-                                   attraction */
-    enum rc_retraction_stage stage;
-    /* states in the order of the retraction; the fine stage begins at `base` */
+/* The law; `parted`: the mean gap without attraction. */
+struct rc_retraction_law {
+    double work, range, parted;
+};
+
+/* States in the order of the retraction; the fine stage begins at `base`. */
+struct rc_retraction_path {
     struct rc_retraction_state base, prior, last, before, lowest, after;
     bool has_base, has_prior, has_before, has_after;
+};
+
+/* What the length of the next step depends on. */
+struct rc_retraction_pace {
     bool rough;       /* the load does not fall like that of a path without jumps */
     double step;      /* step to the next state */
     double stiffness; /* the last positive slope of a step without a jump */
-    double stiffest;  /* the largest                                                             */
+    double stiffest;  /* the largest */
+};
+
+/* Low loads beside that of the lowest state. */
+struct rc_retraction_low {
     double known, known_at; /* the lowest load of the stages before, and its place */
     double hidden;          /* the lowest load that a step since `base` may hide */
     double beside; /* the lowest load that the step from the lowest state to `after` may hide */
     double to;     /* the end of the last step that may hide a lower load */
-    double estimate, at_estimate,
-        bend;      /* the parabola: its lowest load, its place, and half its second derivative */
-    double missed; /* largest difference of a load from the parabola */
-    double around; /* the bend of the parabola of the coarse stage; 0: there is none */
-    double late;   /* the end of that parabola */
-    bool leaps;    /* a checked load was far above it */
-    /* The lowest point and the points beside it: distance and load. */
-    double beside_way[RC_RETRACTION_CHECKS + 1], beside_load[RC_RETRACTION_CHECKS + 1];
-    size_t beside_n;
-    struct rc_retraction_step steps[RC_RETRACTION_STEPS]; /* the last ones of the fine stage */
-    size_t steps_n;
-    size_t states, fine, vertices, checks, halvings;
-    /* the next step: keep the state as `keep`, unless that is below 0; start from state `from`, which has
-     * from_c, and go to c. is_lowest: the state has the lowest load so far */
+};
+
+struct rc_retraction_parabola {
+    double load, at, bend; /* its lowest load, its place, and half its second derivative */
+    double missed;         /* largest difference of a load from the parabola */
+    double around;         /* the bend of the parabola of the coarse stage; 0: there is none */
+    double late;           /* the end of that parabola */
+    bool leaps;            /* a checked load was far above it */
+};
+
+/* The lowest point of the parabola and the points beside it: distance and load. */
+struct rc_retraction_beside {
+    double way[RC_RETRACTION_CHECKS + 1], load[RC_RETRACTION_CHECKS + 1];
+    size_t n;
+};
+
+/* The last steps of the fine stage. */
+struct rc_retraction_fine {
+    struct rc_retraction_step step[RC_RETRACTION_STEPS];
+    size_t n;
+};
+
+/* The next step: the caller keeps the state as `keep`, unless that is below 0, and goes from state `from`,
+ * which has from_c, to c. */
+struct rc_retraction_next {
     int keep, from;
-    bool is_lowest;
+    bool is_lowest; /* the state has the lowest load so far */
     double from_c, c;
-    /* at the end */
+};
+
+/* The result. */
+struct rc_retraction_found {
     double load, at, spread;
     bool short_of; /* the search ran out of states */
 };
 
+/* Functions that choose the next stage get the whole search. */
+struct rc_retraction {
+    struct rc_retraction_law law;
+    enum rc_retraction_stage stage;
+    struct rc_retraction_path path;
+    struct rc_retraction_pace pace;
+    struct rc_retraction_low low;
+    struct rc_retraction_parabola parabola;
+    struct rc_retraction_beside beside;
+    struct rc_retraction_fine fine;
+    struct {
+        size_t states, fines, vertices, checks, halvings;
+    } count;
+    struct rc_retraction_next next;
+    struct rc_retraction_found found;
+};
+
 /* Lengths are over the length of the grid, the work over this length and E*. */
 void rc_retraction_begin(struct rc_retraction *r, double work, double range, double parted);
-/* Takes a state and sets its `slope` and `kept`. Returns true if there is a next state; otherwise load, at
- * and spread are found. */
+/* Takes a state and sets its `slope` and `kept`. Returns true if there is a next state; otherwise `found` is
+ * complete. */
 bool rc_retraction_next(struct rc_retraction *r, struct rc_retraction_state here);
 
 #endif
