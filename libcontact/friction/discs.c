@@ -76,9 +76,9 @@ sum_nodes(const struct rc_discs *d, of_node *of, const void *with, size_t count,
 
 /* Removes from v the components that are not free at a node. */
 static inline void
-free_part(const struct rc_discs *d, size_t k, double v[2])
+free_part(const unsigned char *face, double *const *q, size_t k, double v[2])
 {
-    rc_free_part(d->face[k], d->q[0][k], d->q[1][k], &v[0], &v[1]);
+    rc_free_part(face[k], q[0][k], q[1][k], &v[0], &v[1]);
 }
 
 static inline double
@@ -204,13 +204,13 @@ find_shift(const struct rc_discs *d, struct moved *m, const double load[2], doub
 
 /* Moves a node, and projects it on its disc. */
 static inline void
-move_node(const struct rc_discs *d, const struct moved *m, size_t k)
+move_node(const unsigned char *face, const double *g, const struct moved *m, size_t k)
 {
-    if (d->face[k] == OFF || (m->who == STICKING && d->face[k] != STICK))
+    if (face[k] == OFF || (m->who == STICKING && face[k] != STICK))
         return;
     m->y[0][k] += m->nu[0];
     m->y[1][k] += m->nu[1];
-    rc_onto_disc(d->g[k], m->who == ON_FACES && d->face[k] == SLIP, &m->y[0][k], &m->y[1][k]);
+    rc_onto_disc(g[k], m->who == ON_FACES && face[k] == SLIP, &m->y[0][k], &m->y[1][k]);
 }
 
 static void
@@ -218,7 +218,7 @@ move_all(const struct rc_discs *d, const struct moved *m)
 {
 #pragma omp parallel for num_threads(d->threads) schedule(static)
     for (size_t k = 0; k < d->n; k++)
-        move_node(d, m, k);
+        move_node(d->face, d->g, m, k);
 }
 
 /* Finds the shift nu that carries the load of the map to rounding. */
@@ -261,7 +261,7 @@ keep_tile(const struct rc_discs *d, double *const y[2], const size_t tile[4])
         m.nu[0] = m.nu[1] = 0;
     for (size_t j = tile[2]; j < tile[3]; j++)
         for (size_t k = j * d->nx + tile[0]; k < j * d->nx + tile[1]; k++)
-            move_node(d, &m, k);
+            move_node(d->face, d->g, &m, k);
 }
 
 static void
@@ -317,16 +317,16 @@ back(const struct rc_discs *d, double *const y[2])
 
 /* True if a shortened step has left the node on a chord. */
 static inline bool
-on_chord(const struct rc_discs *d, size_t k, double size)
+on_chord(const unsigned char *face, const double *g, size_t k, double size)
 {
-    return d->face[k] == SLIP && size > d->g[k] / 2;
+    return face[k] == SLIP && size > g[k] / 2;
 }
 
 static void
 inside(const struct rc_discs *d, size_t k, const void *with, double *sum)
 {
     double size = hypot(d->q[0][k], d->q[1][k]);
-    bool in = size < d->g[k] * (1 - on_circle) && !on_chord(d, k, size);
+    bool in = size < d->g[k] * (1 - on_circle) && !on_chord(d->face, d->g, k, size);
 
     (void)with;
     for (int c = 0; c < 2; c++)
@@ -373,8 +373,8 @@ static void
 first_look(struct rc_discs *d, size_t k)
 {
     double g = d->g[k], size = hypot(d->q[0][k], d->q[1][k]), in = inwards(d, k);
-    bool circle =
-        size >= g * (1 - on_circle) || (on_chord(d, k, size) && size - in / d->m->self >= g);
+    bool circle = size >= g * (1 - on_circle) ||
+                  (on_chord(d->face, d->g, k, size) && size - in / d->m->self >= g);
 
     d->face[k] = !circle ? STICK : in > 0 ? INWARDS : SLIP;
 }
@@ -426,7 +426,7 @@ last_look(const struct rc_discs *d, size_t k, const void *with, double *sum)
     }
     sum[d->face[k] == STICK ? 0 : 1]++;
     d->curve[k] = d->face[k] == SLIP ? (float)(fmax(-inwards(d, k), 0) / d->g[k]) : 0;
-    free_part(d, k, slip);
+    free_part(d->face, d->q, k, slip);
     for (int c = 0; c < 2; c++)
         d->r[c][k] = (float)-slip[c];
     sum[SUMS] = fmax(sum[SUMS], hypot(slip[0], slip[1]));
@@ -472,9 +472,9 @@ load_of(const struct rc_discs *d, size_t k, const void *with, double *sum)
 }
 
 static inline void
-shift_of(const struct rc_discs *d, size_t k, const double mu[2], double v[2])
+shift_of(const struct rc_extension *m, size_t k, const double mu[2], double v[2])
 {
-    double n[3] = {(double)d->m->n[0][k], (double)d->m->n[1][k], (double)d->m->n[2][k]};
+    double n[3] = {(double)m->n[0][k], (double)m->n[1][k], (double)m->n[2][k]};
 
     v[0] = n[0] * mu[0] + n[2] * mu[1];
     v[1] = n[2] * mu[0] + n[1] * mu[1];
@@ -482,9 +482,9 @@ shift_of(const struct rc_discs *d, size_t k, const double mu[2], double v[2])
 
 /* The distance of a slipping node to its circle, from inside. */
 static inline double
-short_of_circle(const struct rc_discs *d, size_t k, double size)
+short_of_circle(const unsigned char *face, const double *g, size_t k, double size)
 {
-    return d->face[k] == SLIP ? fmax(d->g[k] - size, 0) : 0;
+    return face[k] == SLIP ? fmax(g[k] - size, 0) : 0;
 }
 
 /* Computes the sums that M does not contain. 0, 1: the load that slipping nodes gain on the way to their
@@ -499,14 +499,14 @@ left_by_model(const struct rc_discs *d, size_t k, const void *with, double *sum)
     (void)with;
     if (d->face[k] == SLIP && size > 0) {
         double z[2] = {(double)d->z[0][k], (double)d->z[1][k]};
-        part = short_of_circle(d, k, size) / size;
+        part = short_of_circle(d->face, d->g, k, size) / size;
         sum[0] += part * x;
         sum[1] += part * y;
         part = (z[0] * z[0] + z[1] * z[1]) / (2 * d->g[k] * size);
         turn[0] = part * x;
         turn[1] = part * y;
     }
-    shift_of(d, k, r, residual);
+    shift_of(d->m, k, r, residual);
     for (int c = 0; c < 2; c++) {
         sum[2 + c] += turn[c];
         sum[4 + c] -= residual[c];
@@ -524,10 +524,11 @@ errors(const struct rc_discs *d, size_t k, const void *with, double *sum)
     double x = d->q[0][k], y = d->q[1][k], size = hypot(x, y), out[2], turn[2];
     const struct remedy *m = with;
 
-    shift_of(d, k, m->out, out);
-    shift_of(d, k, m->turn, turn);
-    sum[0] += hypot((double)d->z[0][k], (double)d->z[1][k]) + short_of_circle(d, k, size) +
-              hypot(out[0], out[1]) + hypot(turn[0], turn[1]);
+    shift_of(d->m, k, m->out, out);
+    shift_of(d->m, k, m->turn, turn);
+    sum[0] += hypot((double)d->z[0][k], (double)d->z[1][k]) +
+              short_of_circle(d->face, d->g, k, size) + hypot(out[0], out[1]) +
+              hypot(turn[0], turn[1]);
     sum[1] += size;
     sum[2] += x;
     sum[3] += y;
@@ -539,11 +540,11 @@ errors(const struct rc_discs *d, size_t k, const void *with, double *sum)
 /* The error relative to the exact tractions. `off`: the error of q; `size`: the sum of |q|. The sum of the
  * exact |q| is at least size - off, and at least the load. */
 static double
-relative(const struct rc_discs *d, double off, double size)
+relative(const struct rc_discs_asked *asked, double off, double size)
 {
     static const double least = 1.0 / 16;
     double part = safety * off / size,
-           load = d->asked.given ? 0 : hypot(d->asked.sum[0], d->asked.sum[1]) / size;
+           load = asked->given ? 0 : hypot(asked->sum[0], asked->sum[1]) / size;
 
     if (off == 0)
         return 0;
@@ -567,7 +568,7 @@ precondition(struct rc_discs *d)
 #pragma omp parallel for num_threads(d->threads) schedule(static)
         for (size_t k = 0; k < d->n; k++) {
             double v[2];
-            shift_of(d, k, mu, v);
+            shift_of(d->m, k, mu, v);
             for (int c = 0; c < 2; c++)
                 d->z[c][k] -= (float)v[c];
         }
@@ -580,8 +581,8 @@ precondition(struct rc_discs *d)
     sum_nodes(d, errors, &m, 5, at);
     d->judged.carries = d->asked.given ||
                         hypot(at[2] - d->asked.sum[0], at[3] - d->asked.sum[1]) <= 1e-9 * d->limit;
-    d->judged.turning = relative(d, at[0], at[1]);
-    d->found.estimate = relative(d, at[0] + at[4] / d->m->self, at[1]);
+    d->judged.turning = relative(&d->asked, at[0], at[1]);
+    d->found.estimate = relative(&d->asked, at[0] + at[4] / d->m->self, at[1]);
 }
 
 /* The mean of the residual, if a displacement is given. Returns false if the mean is only rounding. */
@@ -626,7 +627,7 @@ conjugate(const struct rc_discs *d, size_t k, const void *with, double *sum)
     double f[2] = {d->way.d[0][k], d->way.d[1][k]};
 
     (void)with;
-    free_part(d, k, f);
+    free_part(d->face, d->q, k, f);
     for (int c = 0; c < 2; c++) {
         double y = d->way.h[c][k] + (double)d->curve[k] * f[c];
         sum[0] += (double)d->z[c][k] * y;
@@ -647,7 +648,7 @@ direct(struct rc_discs *d)
 #pragma omp parallel for num_threads(d->threads) schedule(static)
     for (size_t k = 0; k < d->n; k++) {
         double f[2] = {d->way.d[0][k], d->way.d[1][k]};
-        free_part(d, k, f);
+        free_part(d->face, d->q, k, f);
         for (int c = 0; c < 2; c++)
             d->z[c][k] += (float)(beta * f[c]);
     }
@@ -677,7 +678,7 @@ energies(const struct rc_discs *d, size_t k, const void *with, double *sum)
         sum[TWIST] += f[c] * d->way.h[c][k];
         sum[SCALE] += d->g[k] * fabs(slip);
     }
-    free_part(d, k, f);
+    free_part(d->face, d->q, k, f);
     sum[CURVED] += (double)d->curve[k] * (f[0] * f[0] + f[1] * f[1]);
     sum[DOWN] += (double)d->r[0][k] * f[0] + (double)d->r[1][k] * f[1];
 }

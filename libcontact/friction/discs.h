@@ -16,6 +16,14 @@
 
 #include "extension.h"
 
+/* The request of an increment. */
+struct rc_discs_asked {
+    bool given;    /* delta is given, else the sum    */
+    double sum[2]; /* sum of q, Pa */
+    double tol;    /* relative L1 error of q          */
+    size_t most;   /* steps                           */
+};
+
 struct rc_discs {
     struct rc_tangential *t; /* the caller's */
     size_t nx, ny, n;
@@ -27,12 +35,7 @@ struct rc_discs {
     unsigned char *face;            /* enum rc_face                               */
     double delta[2];                /* m: the given or computed displacement */
     double limit;                   /* sum of g                                   */
-    struct {
-        bool given;    /* delta is given, else the sum    */
-        double sum[2]; /* sum of q, Pa */
-        double tol;    /* relative L1 error of q          */
-        size_t most;   /* steps                           */
-    } asked;
+    struct rc_discs_asked asked;
     struct {
         double estimate; /* estimated relative L1 error of q */
         double residual; /* m: largest slip where no node may slip                               */

@@ -17,12 +17,32 @@
 
 #include "libcontact/memory.h"
 
+struct law {
+    struct rc_shear shear; /* Pa */
+    double mu, tau_max;
+};
+
+/* The end of the increment before. */
+struct past {
+    double *origin[2], *old[2], *slip[2], *gap;
+    unsigned char *touched;
+    double load, force[2];
+    bool has_gap;
+};
+
+/* What is given of the present increment. */
+struct now {
+    double *gap, *pushed[2]; /* C p */
+    double load, limit, force[2];
+    bool has_gap;
+};
+
 struct rc_friction_solver {
     struct rc_shape shape;
     size_t n;
     int threads;
-    struct rc_shear shear; /* Pa */
-    double mu, tau_max, cell;
+    struct law law;
+    double cell;
     double unit, length; /* m/Pa; m */
     struct rc_tangential *t;
     struct rc_discs *discs;
@@ -30,21 +50,15 @@ struct rc_friction_solver {
     bool tried; /* this increment was solved before under another pressure, and starts from these
                    tractions */
     enum rc_status last;
-    /* history, from the previous increment */
-    double *origin[2], *old[2], *slip[2], *gap_old;
-    unsigned char *touched;
-    double load_old, force_old[2];
-    /* of the present increment */
-    double *gap, *pushed[2]; /* C p */
-    double load, limit, force[2];
-    bool has_gap_old, has_gap;
+    struct past past;
+    struct now now;
     struct rc_store own;
 };
 
 static double
-reach(const struct rc_friction_solver *s, double p)
+reach(const struct law *law, double p)
 {
-    return fmin(s->mu * p, s->tau_max);
+    return fmin(law->mu * p, law->tau_max);
 }
 
 /* ---- the request ---- */
@@ -61,21 +75,21 @@ rc_friction_solver_set_pressure(struct rc_friction_solver *s, const double *p, c
                               p[k], k);
     s->apart = true;
     for (size_t k = 0; k < s->n; k++) {
-        s->discs->g[k] = p == NULL ? 0 : reach(s, p[k]);
+        s->discs->g[k] = p == NULL ? 0 : reach(&s->law, p[k]);
         rc_total_add(&load, p == NULL ? 0 : p[k]);
         rc_total_add(&limit, s->discs->g[k]);
         s->apart = s->apart && s->discs->g[k] == 0;
     }
-    s->load = rc_total_value(&load) * s->cell;
-    s->limit = rc_total_value(&limit) * s->cell;
-    s->has_gap = gap != NULL;
+    s->now.load = rc_total_value(&load) * s->cell;
+    s->now.limit = rc_total_value(&limit) * s->cell;
+    s->now.has_gap = gap != NULL;
     if (gap != NULL)
-        memcpy(s->gap, gap, s->n * sizeof *gap);
+        memcpy(s->now.gap, gap, s->n * sizeof *gap);
     if (s->coupled && p != NULL)
-        rc_tangential_pressure(s->t, p, s->pushed);
+        rc_tangential_pressure(s->t, p, s->now.pushed);
     else if (s->coupled)
         for (int c = 0; c < 2; c++)
-            memset(s->pushed[c], 0, s->n * sizeof(double));
+            memset(s->now.pushed[c], 0, s->n * sizeof(double));
     s->asked = s->begun = s->done = false;
     return RC_OK;
 }
@@ -96,13 +110,13 @@ rc_friction_solver_set_force(struct rc_friction_solver *s, double fx, double fy,
 
     if (finite(fx, fy, "tangential force", err) != RC_OK)
         return RC_FAIL;
-    if (f > 0 && !(f <= nearest * s->limit))
+    if (f > 0 && !(f <= nearest * s->now.limit))
         return rc_err_set(err,
                           "tangential force %.9g N: friction carries less than %.9g N, and under a "
                           "larger force the bodies slide; give a displacement instead",
-                          f, s->limit);
-    s->force[0] = s->discs->asked.sum[0] = fx / s->cell;
-    s->force[1] = s->discs->asked.sum[1] = fy / s->cell;
+                          f, s->now.limit);
+    s->now.force[0] = s->discs->asked.sum[0] = fx / s->cell;
+    s->now.force[1] = s->discs->asked.sum[1] = fy / s->cell;
     s->discs->asked.given = false;
     s->asked = true;
     s->begun = s->done = false;
@@ -135,24 +149,24 @@ pose(struct rc_friction_solver *s)
 {
     struct rc_discs *d = s->discs;
     double more[2] = {0, 0}, entry[2] = {0, 0};
-    bool enter = s->has_gap_old && !d->asked.given && s->load > s->load_old * (1 + grows);
+    bool enter = s->past.has_gap && !d->asked.given && s->now.load > s->past.load * (1 + grows);
 
     for (int c = 0; c < 2 && !d->asked.given; c++) {
-        if (s->limit > 0)
-            more[c] = (s->force[c] - s->force_old[c]) * s->cell / s->limit;
+        if (s->now.limit > 0)
+            more[c] = (s->now.force[c] - s->past.force[c]) * s->cell / s->now.limit;
         if (enter)
-            entry[c] = (1 + s->shear.kap / 2) * (s->force[c] - s->force_old[c]) * s->cell /
-                       (s->load - s->load_old) / s->unit;
+            entry[c] = (1 + s->law.shear.kap / 2) * (s->now.force[c] - s->past.force[c]) * s->cell /
+                       (s->now.load - s->past.load) / s->unit;
     }
 #pragma omp parallel for num_threads(s->threads) schedule(static)
     for (size_t k = 0; k < s->n; k++) {
         const double size = hypot(d->q[0][k], d->q[1][k]);
         for (int c = 0; c < 2; c++) {
-            d->w[c][k] = s->origin[c][k] - (s->coupled ? s->pushed[c][k] : 0);
-            if (enter && d->g[k] > 0 && !s->touched[k])
-                d->w[c][k] -= entry[c] * s->gap_old[k];
+            d->w[c][k] = s->past.origin[c][k] - (s->coupled ? s->now.pushed[c][k] : 0);
+            if (enter && d->g[k] > 0 && !s->past.touched[k])
+                d->w[c][k] -= entry[c] * s->past.gap[k];
             if (!s->tried)
-                d->q[c][k] = s->old[c][k] + more[c] * d->g[k];
+                d->q[c][k] = s->past.old[c][k] + more[c] * d->g[k];
             else if (d->face[k] == RC_FACE_SLIP && size > 0)
                 d->q[c][k] *= d->g[k] / size;
         }
@@ -206,24 +220,24 @@ rc_friction_solver_start(struct rc_friction_solver *s, const double *const q[2])
 void
 rc_friction_solver_history(struct rc_friction_solver *s, struct rc_state *state)
 {
-    double *maps[] = {s->origin[0], s->origin[1], s->old[0], s->old[1],
-                      s->slip[0],   s->slip[1],   s->gap_old};
+    double *maps[] = {s->past.origin[0], s->past.origin[1], s->past.old[0], s->past.old[1],
+                      s->past.slip[0],   s->past.slip[1],   s->past.gap};
 
-    RC_STATE_FLAGS(state, &s->has_gap_old, &s->apart);
+    RC_STATE_FLAGS(state, &s->past.has_gap, &s->apart);
     for (size_t k = 0; k < sizeof maps / sizeof *maps; k++)
         rc_state_finite(state, s->n, maps[k]);
     for (size_t k = 0; k < s->n; k++) {
-        size_t touched = s->touched[k];
+        size_t touched = s->past.touched[k];
         rc_state_count(state, &touched, 1);
-        s->touched[k] = (unsigned char)touched;
+        s->past.touched[k] = (unsigned char)touched;
     }
-    rc_state_finite(state, 1, &s->load_old);
-    rc_state_finite(state, 2, s->force_old);
+    rc_state_finite(state, 1, &s->past.load);
+    rc_state_finite(state, 2, s->past.force);
     if (!rc_state_reads(state))
         return;
     s->asked = s->begun = s->done = s->tried = false;
     for (int c = 0; c < 2; c++)
-        memcpy(s->discs->q[c], s->old[c], s->n * sizeof(double));
+        memcpy(s->discs->q[c], s->past.old[c], s->n * sizeof(double));
     memset(s->discs->face, RC_FACE_OFF, s->n);
 }
 
@@ -239,10 +253,8 @@ rc_friction_solver_increment(struct rc_friction_solver *s, struct rc_state *stat
 /* The slip of a node in this increment, in units of `unit`. The slip of a sticking node is 0; its residual is
  * an error. */
 static inline double
-slipped(const struct rc_friction_solver *s, int c, size_t k)
+slipped(const struct rc_discs *d, int c, size_t k)
 {
-    const struct rc_discs *d = s->discs;
-
     return d->face[k] == RC_FACE_SLIP ? d->u[c][k] - d->w[c][k] - d->delta[c] : 0;
 }
 
@@ -256,21 +268,22 @@ rc_friction_solver_keep(struct rc_friction_solver *s)
 #pragma omp parallel for num_threads(s->threads) schedule(static)
     for (size_t k = 0; k < s->n; k++) {
         for (int c = 0; c < 2; c++) {
-            s->slip[c][k] = s->apart ? 0 : s->slip[c][k] + slipped(s, c, k);
-            s->origin[c][k] = d->u[c][k] + (s->coupled ? s->pushed[c][k] : 0) - d->delta[c];
-            s->old[c][k] = d->q[c][k];
+            s->past.slip[c][k] = s->apart ? 0 : s->past.slip[c][k] + slipped(s->discs, c, k);
+            s->past.origin[c][k] =
+                d->u[c][k] + (s->coupled ? s->now.pushed[c][k] : 0) - d->delta[c];
+            s->past.old[c][k] = d->q[c][k];
         }
-        s->touched[k] = d->g[k] > 0;
+        s->past.touched[k] = d->g[k] > 0;
     }
-    s->has_gap_old = s->has_gap;
-    if (s->has_gap)
-        memcpy(s->gap_old, s->gap, s->n * sizeof *s->gap);
-    s->load_old = s->load;
+    s->past.has_gap = s->now.has_gap;
+    if (s->now.has_gap)
+        memcpy(s->past.gap, s->now.gap, s->n * sizeof *s->now.gap);
+    s->past.load = s->now.load;
     for (int c = 0; c < 2; c++) {
         struct rc_total sum = {0};
         for (size_t k = 0; k < s->n; k++)
             rc_total_add(&sum, d->q[c][k]);
-        s->force_old[c] = rc_total_value(&sum);
+        s->past.force[c] = rc_total_value(&sum);
     }
     s->asked = s->begun = s->done = s->tried = false;
 }
@@ -280,11 +293,11 @@ rc_friction_solver_keep(struct rc_friction_solver *s)
 /* Where the load falls, the traction of the increment is the mean of its start and its end. Otherwise the
  * traction at the end is used, which is exact under a constant load. */
 static double
-dissipated_at(const struct rc_friction_solver *s, int c, size_t k)
+dissipated_at(const struct rc_discs *d, const struct past *past, double load, int c, size_t k)
 {
-    const double mean = s->load < s->load_old ? 0.5 : 1;
+    const double mean = load < past->load ? 0.5 : 1;
 
-    return -(mean * s->discs->q[c][k] + (1 - mean) * s->old[c][k]) * slipped(s, c, k);
+    return -(mean * d->q[c][k] + (1 - mean) * past->old[c][k]) * slipped(d, c, k);
 }
 
 static double
@@ -294,7 +307,7 @@ dissipated(const struct rc_friction_solver *s)
 
     for (size_t k = 0; k < s->n; k++)
         for (int c = 0; c < 2; c++)
-            rc_total_add(&sum, dissipated_at(s, c, k));
+            rc_total_add(&sum, dissipated_at(s->discs, &s->past, s->now.load, c, k));
     return rc_total_value(&sum) * s->cell * s->unit;
 }
 
@@ -302,7 +315,9 @@ void
 rc_friction_solver_add_dissipation(const struct rc_friction_solver *s, double *to)
 {
     for (size_t k = 0; k < s->n; k++)
-        to[k] += (dissipated_at(s, 0, k) + dissipated_at(s, 1, k)) * s->unit;
+        to[k] += (dissipated_at(s->discs, &s->past, s->now.load, 0, k) +
+                  dissipated_at(s->discs, &s->past, s->now.load, 1, k)) *
+                 s->unit;
 }
 
 void
@@ -310,8 +325,8 @@ rc_friction_solver_result(struct rc_friction_solver *s, struct rc_friction_incre
 {
     const struct rc_discs *d = s->discs;
 
-    *f = (struct rc_friction_increment){.load = s->load,
-                                        .limit = s->limit,
+    *f = (struct rc_friction_increment){.load = s->now.load,
+                                        .limit = s->now.limit,
                                         .stick_nodes = d->found.stick,
                                         .slip_nodes = d->found.slipping,
                                         .stick_area = (double)d->found.stick * s->cell,
@@ -349,9 +364,11 @@ void
 rc_friction_solver_slip(const struct rc_friction_solver *s, int direction, double *to)
 {
     for (size_t k = 0; k < s->n; k++)
-        to[k] = s->apart
-                    ? 0
-                    : (s->slip[direction][k] + (s->done ? slipped(s, direction, k) : 0)) * s->unit;
+        to[k] =
+            s->apart
+                ? 0
+                : (s->past.slip[direction][k] + (s->done ? slipped(s->discs, direction, k) : 0)) *
+                      s->unit;
 }
 
 void
@@ -423,12 +440,13 @@ rc_friction_solver_check(const struct rc_shape *shape, const struct rc_friction_
 static bool
 allocate(struct rc_friction_solver *s)
 {
-    double **maps[] = {&s->origin[0], &s->origin[1], &s->old[0], &s->old[1],    &s->slip[0],
-                       &s->slip[1],   &s->gap_old,   &s->gap,    &s->pushed[0], &s->pushed[1]};
+    double **maps[] = {&s->past.origin[0], &s->past.origin[1], &s->past.old[0], &s->past.old[1],
+                       &s->past.slip[0],   &s->past.slip[1],   &s->past.gap,    &s->now.gap,
+                       &s->now.pushed[0],  &s->now.pushed[1]};
 
     for (size_t k = 0; k < (s->coupled ? 10 : 8); k++)
         *maps[k] = rc_store_zeros(&s->own, s->n, sizeof **maps[k]);
-    s->touched = rc_store_zeros(&s->own, s->n, 1);
+    s->past.touched = rc_store_zeros(&s->own, s->n, 1);
     return !s->own.failed;
 }
 
@@ -448,9 +466,7 @@ rc_friction_solver_new(const struct rc_shape *shape, const struct rc_friction_la
     *s = (struct rc_friction_solver){.shape = *shape,
                                      .n = shape->nx * shape->ny,
                                      .threads = rc_useful_threads(shape, p->threads),
-                                     .shear = shear,
-                                     .mu = p->mu,
-                                     .tau_max = p->tau_max > 0 ? p->tau_max : INFINITY,
+                                     .law = {shear, p->mu, p->tau_max > 0 ? p->tau_max : INFINITY},
                                      .cell = shape->dx * shape->dy,
                                      .length = sqrt(shape->dx) * sqrt(shape->dy),
                                      .coupled = shear.beta != 0 && !p->uncoupled};

@@ -267,7 +267,7 @@ pose_level(struct rolling *f, struct level *l, const double *p)
     const double most = o->tau_max > 0 ? o->tau_max : INFINITY, spin = spin_of(f);
     struct rc_steady *d = l->d;
     const bool coupled = d->t->shear.beta != 0, path = f->problem.path;
-    double *const *push = path ? d->way : d->u;
+    double *const *push = path ? d->step.way : d->u;
 
     if (coupled)
         rc_tangential_pressure(d->t, p, push);
@@ -363,9 +363,9 @@ pose_step(struct rolling *f, size_t columns, struct rc_err *err)
         return RC_OK;
     }
     for (int c = 0; c < 2; c++) {
-        memcpy(l->d->q[c], l->d->last[c], f->n * sizeof *f->p); /* also after a try */
+        memcpy(l->d->q[c], l->d->path.last[c], f->n * sizeof *f->p); /* also after a try */
         if (!f->rolls) /* the bodies are pressed without friction */
-            memcpy(l->d->old[c], l->d->way[c], f->n * sizeof *f->p);
+            memcpy(l->d->step.old[c], l->d->step.way[c], f->n * sizeof *f->p);
         l->d->v[c] = f->problem.force ? 0 : f->base.to.at[RC_CREEP_X + c] * step_of(l);
     }
     return carries(f, err) == RC_OK ? rc_steady_set_out(l->d, columns, err) : RC_FAIL;
@@ -400,8 +400,8 @@ pose(struct rolling *f, struct rc_err *err)
         if (make_level(f, f->levels, err) != RC_OK)
             return RC_FAIL;
         if (l > f->at) {
-            thin(l - 1, p, l, l->d->old[0]);
-            p = l->d->old[0];
+            thin(l - 1, p, l, l->d->step.old[0]);
+            p = l->d->step.old[0];
         }
         pose_level(f, l, p);
         more = f->levels + 1 < LEVELS && run_of(&l->d->shape, p) >= RUN;
@@ -843,8 +843,8 @@ state(struct rc_model *m, struct rc_state *s)
     RC_STATE_COUNTS(s, &l->d->found.steps, &l->d->found.fallbacks);
     for (int c = 0; c < 2; c++) {
         if (path) { /* a step that has not ended begins again */
-            rc_state_finite(s, l->d->n, l->d->last[c]);
-            rc_state_finite(s, l->d->n, l->d->old[c]);
+            rc_state_finite(s, l->d->n, l->d->path.last[c]);
+            rc_state_finite(s, l->d->n, l->d->step.old[c]);
         }
         if (!path || there)
             rc_state_finite(s, l->d->n, l->d->q[c]);

@@ -123,9 +123,10 @@ look(struct rc_steady *d)
 /* ---- the linear iteration ---- */
 
 static inline void
-free_part(const struct rc_steady *d, size_t k, float *const to[2], double x, double y)
+free_part(const unsigned char *face, double *const *q, size_t k, float *const to[2], double x,
+          double y)
 {
-    rc_free_part(d->face[k], d->q[0][k], d->q[1][k], &x, &y);
+    rc_free_part(face[k], q[0][k], q[1][k], &x, &y);
     to[0][k] = (float)x;
     to[1][k] = (float)y;
 }
@@ -136,12 +137,12 @@ multiply(struct rc_steady *d, float *const z[2], float *const to[2])
 {
     for (int c = 0; c < 2; c++)
         for (size_t k = 0; k < d->n; k++)
-            d->way[c][k] = z[c][k];
-    rc_tangential_apply(d->t, d->way, d->u);
+            d->step.way[c][k] = z[c][k];
+    rc_tangential_apply(d->t, d->step.way, d->u);
 #pragma omp parallel for num_threads(d->threads) schedule(static)
     for (size_t k = 0; k < d->n; k++)
         if (d->g[k] > 0)
-            free_part(d, k, to, d->u[0][k] - d->u[0][k + 1] + d->curve[k] * z[0][k],
+            free_part(d->face, d->q, k, to, d->u[0][k] - d->u[0][k + 1] + d->curve[k] * z[0][k],
                       d->u[1][k] - d->u[1][k + 1] + d->curve[k] * z[1][k]);
 }
 
@@ -153,9 +154,9 @@ invert(struct rc_steady *d, float *const v[2])
     const float rho = (float)(1 - 1 / fmax(d->run, 2));
 
     for (int c = 0; c < 2; c++) {
-        memset(d->frame[c], 0, wide * (d->shape.ny + 2 * fy) * sizeof(float));
+        memset(d->space.frame[c], 0, wide * (d->shape.ny + 2 * fy) * sizeof(float));
         for (size_t j = 0; j < d->shape.ny; j++) {
-            float *row = d->frame[c] + (j + fy) * wide, last = 0;
+            float *row = d->space.frame[c] + (j + fy) * wide, last = 0;
             for (size_t i = nx + fx; i-- > 0;) {
                 const size_t k = j * nx + i - fx;
                 row[i] = last *= rho;
@@ -165,7 +166,7 @@ invert(struct rc_steady *d, float *const v[2])
             }
         }
     }
-    rc_tangential_inverse(d->t, d->frame, d->frame);
+    rc_tangential_inverse(d->t, d->space.frame, d->space.frame);
 }
 
 static void
@@ -185,8 +186,8 @@ precondition(struct rc_steady *d, float *const v[2], float *const z[2])
         if (!(d->g[k] > 0))
             continue;
         for (int c = 0; c < 2; c++)
-            x[c] = (1 - w) / b * v[c][k] + (whole ? sqrt(w) * d->frame[c][at] : 0);
-        free_part(d, k, z, x[0], x[1]);
+            x[c] = (1 - w) / b * v[c][k] + (whole ? sqrt(w) * d->space.frame[c][at] : 0);
+        free_part(d->face, d->q, k, z, x[0], x[1]);
     }
 }
 
@@ -195,10 +196,10 @@ static void
 product(struct rc_steady *d, size_t k, const void *with, double *sum)
 {
     const size_t last = *(const size_t *)with;
-    const float x = d->basis[last][0][k], y = d->basis[last][1][k];
+    const float x = d->space.basis[last][0][k], y = d->space.basis[last][1][k];
 
     for (size_t m = 0; m < last; m++)
-        sum[m] += (double)x * d->basis[m][0][k] + (double)y * d->basis[m][1][k];
+        sum[m] += (double)x * d->space.basis[m][0][k] + (double)y * d->space.basis[m][1][k];
 }
 
 struct less {
@@ -214,10 +215,10 @@ subtract(struct rc_steady *d, size_t k, const void *with, double *sum)
     double x[2];
 
     for (int c = 0; c < 2; c++) {
-        x[c] = d->basis[l->last][c][k];
+        x[c] = d->space.basis[l->last][c][k];
         for (size_t m = 0; m < l->last; m++)
-            x[c] -= l->part[m] * d->basis[m][c][k];
-        d->basis[l->last][c][k] = (float)x[c];
+            x[c] -= l->part[m] * d->space.basis[m][c][k];
+        d->space.basis[l->last][c][k] = (float)x[c];
     }
     sum[0] += x[0] * x[0] + x[1] * x[1];
 }
@@ -235,7 +236,7 @@ orthogonal(struct rc_steady *d, size_t last, double *part)
     size = sqrt(sum[0]);
     for (size_t k = 0; k < d->n && size > 0; k++)
         for (int c = 0; c < 2; c++)
-            d->basis[last][c][k] /= (float)size;
+            d->space.basis[last][c][k] /= (float)size;
     return size;
 }
 
@@ -259,8 +260,8 @@ solve(struct rc_steady *d, double *const to[2])
     first = rest[0] = orthogonal(d, 0, h[0]);
     while (m < STEPS && fabs(rest[m]) > inner_tol * first) {
         double size;
-        precondition(d, d->basis[m], d->z[m]);
-        multiply(d, d->z[m], d->basis[m + 1]);
+        precondition(d, d->space.basis[m], d->space.z[m]);
+        multiply(d, d->space.z[m], d->space.basis[m + 1]);
         h[m][m + 1] = orthogonal(d, m + 1, h[m]);
         for (size_t k = 0; k < m; k++)
             turn(cs[k], &h[m][k], &h[m][k + 1]);
@@ -285,7 +286,7 @@ solve(struct rc_steady *d, double *const to[2])
         for (int c = 0; c < 2; c++) {
             double x = 0;
             for (size_t l = 0; l < m; l++)
-                x += y[l] * d->z[l][c][k];
+                x += y[l] * d->space.z[l][c][k];
             to[c][k] = x;
         }
 }
@@ -309,7 +310,7 @@ right_side(struct rc_steady *d, int c)
 {
     for (size_t k = 0; k < d->n; k++)
         if (d->g[k] > 0)
-            free_part(d, k, d->basis[0], c < 2 ? c == 0 : -d->s[0][k],
+            free_part(d->face, d->q, k, d->space.basis[0], c < 2 ? c == 0 : -d->s[0][k],
                       c < 2 ? c == 1 : -d->s[1][k]);
 }
 
@@ -321,12 +322,12 @@ find_motion(struct rc_steady *d, double dv[2])
 
     for (int c = 0; c < 2; c++) {
         right_side(d, c);
-        solve(d, d->way_of[c]);
-        all_nodes(d, length_of, d->way_of[c], at[c]);
+        solve(d, d->step.way_of[c]);
+        all_nodes(d, length_of, d->step.way_of[c], at[c]);
     }
     right_side(d, 2);
-    solve(d, d->way);
-    all_nodes(d, length_of, d->way, at[2]);
+    solve(d, d->step.way);
+    all_nodes(d, length_of, d->step.way, at[2]);
     for (int c = 0; c < 2; c++)
         miss[c] = d->asked.sum[c] - d->found.sum[c] - at[2][1 + c];
     det = at[0][1] * at[1][2] - at[1][1] * at[0][2];
@@ -336,7 +337,7 @@ find_motion(struct rc_steady *d, double dv[2])
     dv[1] = (at[0][1] * miss[1] - miss[0] * at[0][2]) / det;
     for (int c = 0; c < 2; c++)
         for (size_t k = 0; k < d->n; k++)
-            d->way[c][k] += dv[0] * d->way_of[0][c][k] + dv[1] * d->way_of[1][c][k];
+            d->step.way[c][k] += dv[0] * d->step.way_of[0][c][k] + dv[1] * d->step.way_of[1][c][k];
 }
 
 /* What further steps change over what this one does: c/(1 - c), if each changes c times as much as the one
@@ -357,8 +358,8 @@ take(struct rc_steady *d, double part)
 #pragma omp parallel for num_threads(d->threads) schedule(static)
     for (size_t k = 0; k < d->n; k++) {
         for (int c = 0; c < 2; c++)
-            d->q[c][k] = d->g[k] > 0 ? d->old[c][k] + part * d->way[c][k] : 0;
-        rc_onto_disc(d->g[k], d->was[k] == SLIP, &d->q[0][k], &d->q[1][k]);
+            d->q[c][k] = d->g[k] > 0 ? d->step.old[c][k] + part * d->step.way[c][k] : 0;
+        rc_onto_disc(d->g[k], d->step.was[k] == SLIP, &d->q[0][k], &d->q[1][k]);
     }
     find_slip(d);
     look(d);
@@ -367,12 +368,13 @@ take(struct rc_steady *d, double part)
 /* The displacement that a node keeps if it sticks. `before` is that of the surfaces until now, in the map that
  * then moves by some columns. Surface that comes in is free, so that its displacement does not matter. */
 static inline double
-held(const struct rc_steady *d, double *const before[2], size_t columns, int c, size_t k)
+held(const struct rc_tangential *t, const double *rigid, const double *before, size_t columns,
+     size_t k)
 {
-    const size_t nx = d->shape.nx, i = k % nx + columns;
-    const bool round = d->t->boundary == RC_PERIODIC;
+    const size_t nx = t->shape.nx, i = k % nx + columns;
+    const bool round = t->boundary == RC_PERIODIC;
 
-    return (i < nx || round ? before[c][k - k % nx + i % nx] : 0) - d->rigid[c][k];
+    return (i < nx || round ? before[k - k % nx + i % nx] : 0) - rigid[k];
 }
 
 /* Poses a step in time. */
@@ -388,7 +390,7 @@ set_out(struct rc_steady *d, double *const before[2], size_t columns, double tol
     for (int c = 0; c < 2; c++)
         for (size_t k = 0; k < d->n; k++) {
             discs->q[c][k] = d->q[c][k];
-            discs->w[c][k] = held(d, before, columns, c, k) + d->v[c];
+            discs->w[c][k] = held(d->t, d->rigid[c], before[c], columns, k) + d->v[c];
         }
     discs->asked.given = !d->asked.force;
     memcpy(discs->asked.sum, d->asked.sum, sizeof d->asked.sum);
@@ -443,8 +445,8 @@ rc_steady_set_out(struct rc_steady *d, size_t columns, struct rc_err *err)
 {
     for (int c = 0; c < 2 && d->asked.force; c++)
         d->v[c] = 0;
-    d->moved = columns;
-    if (set_out(d, d->old, columns, d->asked.tol, err) != RC_OK)
+    d->path.moved = columns;
+    if (set_out(d, d->step.old, columns, d->asked.tol, err) != RC_OK)
         return RC_FAIL;
     d->discs->asked.most = d->asked.most;
     take_step(d);
@@ -457,15 +459,16 @@ rc_steady_reach(struct rc_steady *d, size_t columns)
 {
     const size_t stick = d->found.stick, slipping = d->found.slipping;
 
-    d->moved = columns;
-    memcpy(d->was, d->face, d->n);
+    d->path.moved = columns;
+    memcpy(d->step.was, d->face, d->n);
     for (int c = 0; c < 2; c++) {
         const double v = d->asked.force ? 0 : d->v[c], delta = d->v[c] - v;
         for (size_t k = 0; k < d->n; k++)
-            d->s[c][k] = d->u[c][k] - (held(d, d->old, columns, c, k) + v) - delta;
+            d->s[c][k] =
+                d->u[c][k] - (held(d->t, d->rigid[c], d->step.old[c], columns, k) + v) - delta;
     }
     look(d);
-    memcpy(d->face, d->was, d->n);
+    memcpy(d->face, d->step.was, d->n);
     d->found.stick = stick;
     d->found.slipping = slipping;
 }
@@ -483,9 +486,9 @@ void
 rc_steady_arrive(struct rc_steady *d)
 {
     for (int c = 0; c < 2; c++) {
-        memcpy(d->last[c], d->q[c], d->n * sizeof(double));
+        memcpy(d->path.last[c], d->q[c], d->n * sizeof(double));
         for (size_t k = 0; k < d->n; k++)
-            d->old[c][k] = d->u[c][k] + d->way[c][k];
+            d->step.old[c][k] = d->u[c][k] + d->step.way[c][k];
     }
 }
 
@@ -493,11 +496,11 @@ rc_steady_arrive(struct rc_steady *d)
 static double
 before_step(const struct rc_steady *d, int c, size_t k)
 {
-    const size_t nx = d->shape.nx, i = k % nx + d->moved;
+    const size_t nx = d->shape.nx, i = k % nx + d->path.moved;
 
     if (!d->asked.path)
         return d->q[c][k + 1];
-    return i < nx || d->t->boundary == RC_PERIODIC ? d->last[c][k - k % nx + i % nx] : 0;
+    return i < nx || d->t->boundary == RC_PERIODIC ? d->path.last[c][k - k % nx + i % nx] : 0;
 }
 
 /* The mean traction of the step times its slip. */
@@ -546,9 +549,9 @@ prepare(struct rc_steady *d, bool again)
         for (int c = 0; c < 2 && !on; c++) {
             d->q[c][k] = 0;
             for (size_t m = 0; m <= STEPS; m++)
-                d->basis[m][c][k] = 0;
+                d->space.basis[m][c][k] = 0;
             for (size_t m = 0; m < STEPS; m++)
-                d->z[m][c][k] = 0;
+                d->space.z[m][c][k] = 0;
         }
         if (!again)
             rc_onto_disc(d->g[k], false, &d->q[0][k], &d->q[1][k]);
@@ -594,12 +597,12 @@ rc_steady_step(struct rc_steady *d, struct rc_err *err)
         find_motion(d, dv);
     } else {
         right_side(d, 2);
-        solve(d, d->way);
+        solve(d, d->step.way);
     }
-    all_nodes(d, length_of, d->way, sum);
+    all_nodes(d, length_of, d->step.way, sum);
     for (int c = 0; c < 2; c++)
-        memcpy(d->old[c], d->q[c], d->n * sizeof(double));
-    memcpy(d->was, d->face, d->n);
+        memcpy(d->step.old[c], d->q[c], d->n * sizeof(double));
+    memcpy(d->step.was, d->face, d->n);
     for (int trial = 0; trial <= SHORTER; trial++, part /= 4) {
         for (int c = 0; c < 2; c++)
             d->v[c] = v[c] + part * dv[c];
@@ -610,7 +613,7 @@ rc_steady_step(struct rc_steady *d, struct rc_err *err)
     if (!(d->found.residual < before)) {
         memcpy(d->v, v, sizeof v);
         for (int c = 0; c < 2; c++)
-            memcpy(d->q[c], d->old[c], d->n * sizeof(double));
+            memcpy(d->q[c], d->step.old[c], d->n * sizeof(double));
         d->found.fallbacks++;
         if (rc_steady_roll(d, err) != RC_OK)
             return RC_FAIL;
@@ -655,8 +658,8 @@ rc_steady_free(struct rc_steady *d)
 static bool
 allocate(struct rc_steady *d)
 {
-    double **const pairs[] = {d->q,   d->rigid, d->u,         d->s,
-                              d->way, d->old,   d->way_of[0], d->way_of[1]};
+    double **const pairs[] = {
+        d->q, d->rigid, d->u, d->s, d->step.way, d->step.old, d->step.way_of[0], d->step.way_of[1]};
     const bool path = d->asked.path;
     const size_t count = path             ? 7
                          : d->asked.force ? 8
@@ -675,19 +678,19 @@ allocate(struct rc_steady *d)
     for (size_t k = 0; k < 2 * count; k++)
         pairs[k / 2][k % 2] = d->g + (1 + k) * d->n;
     if (path) {
-        memcpy(d->last, d->way_of[0], sizeof d->last);
-        d->way_of[0][0] = d->way_of[0][1] = NULL;
+        memcpy(d->path.last, d->step.way_of[0], sizeof d->path.last);
+        d->step.way_of[0][0] = d->step.way_of[0][1] = NULL;
     }
     d->curve = at;
-    d->was = d->face + d->n;
+    d->step.was = d->face + d->n;
     for (size_t c = 0; c < 2 && !path; c++) {
         for (size_t m = 0; m <= STEPS; m++)
-            d->basis[m][c] = at += d->n;
+            d->space.basis[m][c] = at += d->n;
         for (size_t m = 0; m < STEPS; m++)
-            d->z[m][c] = at += d->n;
+            d->space.z[m][c] = at += d->n;
     }
-    d->frame[0] = path ? NULL : at + d->n;
-    d->frame[1] = path ? NULL : d->frame[0] + grid;
+    d->space.frame[0] = path ? NULL : at + d->n;
+    d->space.frame[1] = path ? NULL : d->space.frame[0] + grid;
     return true;
 }
 

@@ -22,6 +22,25 @@ enum {
     RC_STEADY_STEPS = 8 /* of the linear iteration: its vectors need most of the memory */
 };
 
+/* The correction of a step. */
+struct rc_steady_step {
+    double *way[2];       /* the correction; on a path, the displacement due to the pressure */
+    double *old[2];       /* q before the correction; on a path, the earlier displacement */
+    double *way_of[2][2]; /* if the force is given: corrections due to v, else NULL */
+    unsigned char *was;   /* enum rc_face before the step */
+};
+
+/* The last point of a path. */
+struct rc_steady_path {
+    double *last[2]; /* q there; NULL: no path */
+    size_t moved;    /* columns that the map has moved since then */
+};
+
+/* Vectors of the linear iteration. */
+struct rc_steady_space {
+    float *basis[RC_STEADY_STEPS + 1][2], *z[RC_STEADY_STEPS][2], *frame[2];
+};
+
 struct rc_steady {
     struct rc_shape shape;
     size_t n;
@@ -31,15 +50,12 @@ struct rc_steady {
     double run;  /* mean number of loaded nodes one behind the other   */
     /* The caller sets g (0 in the last column), rigid, v, and q, then calls rc_steady_begin. */
     double *g, *q[2], *rigid[2], v[2];
-    double *u[2], *s[2];  /* T q or T of a vector; slip     */
-    double *way[2];       /* the correction; on a path, the displacement due to the pressure */
-    double *old[2];       /* q before the correction; on a path, the earlier displacement */
-    double *last[2];      /* on a path, q at the last point kept; else NULL */
-    size_t moved;         /* on a path, columns that the map has moved since then */
-    double *way_of[2][2]; /* if the force is given: corrections due to v, else NULL */
-    float *curve;         /* D of nodes that slip           */
-    float *basis[RC_STEADY_STEPS + 1][2], *z[RC_STEADY_STEPS][2], *frame[2];
-    unsigned char *face, *was; /* enum rc_face; those before the step */
+    double *u[2], *s[2]; /* T q or T of a vector; slip     */
+    float *curve;        /* D of nodes that slip           */
+    unsigned char *face; /* enum rc_face */
+    struct rc_steady_step step;
+    struct rc_steady_path path;
+    struct rc_steady_space space;
     struct {
         bool force; /* v is found                        */
         bool path;

@@ -88,7 +88,7 @@ test_monotone(void **state)
     (void)state;
     for (uint64_t seed = 1; seed <= 50; seed++) {
         uint64_t at = seed;
-        double *q[2] = {d->old[0], d->old[1]}, qbq = 0, half, all = 0;
+        double *q[2] = {d->step.old[0], d->step.old[1]}, qbq = 0, half, all = 0;
         const double *const v[2] = {q[0], q[1]};
         for (size_t k = 0; k < N; k++)
             for (int c = 0; c < 2; c++)
@@ -138,7 +138,7 @@ test_rolling_in_time(void **state)
     (void)state;
     solve(to);
     for (int step = 0; step < 60; step++) {
-        double *const q[2] = {d->old[0], d->old[1]};
+        double *const q[2] = {d->step.old[0], d->step.old[1]};
         const double *const v[2] = {q[0], q[1]};
         double distance;
         for (int c = 0; c < 2; c++)
