@@ -17,29 +17,40 @@
 #include "libcontact/memory.h"
 #include "sweep.h"
 
+/* Numbers of waves and maps. */
+struct layout {
+    size_t px, py; /* nodes of the period: those of the map, or more */
+    size_t slabs, groups;
+    size_t length, first, columns; /* waves of a column; columns held here             */
+    size_t map;                    /* numbers of a map, as waves or as rows            */
+    size_t real;                   /* bytes of a number */
+};
+
+/* Strain and waves. */
+struct maps {
+    void *strain; /* 5 maps a slab: strain, then stress               */
+    void *zz;     /* whole maps: one for each slab of a group */
+    void *waves;  /* 3 maps a group: the waves at its top */
+    void *down;   /* slices: 3 maps a group: the downward waves there */
+    void *slice;  /* slices: 6 maps                                   */
+};
+
 struct rc_slabs {
     struct rc_store own;         /* the arrays below */
     struct rc_shape shape, here; /* the whole map; the rows held here */
-    size_t px, py;               /* nodes of the period: those of the map, or more */
-    size_t slabs, groups;
+    struct layout layout;
     double *thickness;
     double modulus, nu; /* 2 mu */
     bool whole, padded;
     const struct rc_ranks *ranks;
     struct rc_fft *fft;
     const struct rc_sweep_ops *ops;
-    size_t length, first, columns; /* waves of a column; columns held here             */
-    size_t map;                    /* numbers of a map, as waves or as rows            */
-    double *qy, *alive;            /* numbers of the waves of a column */
-    void *strain;                  /* 5 maps a slab: strain, then stress               */
-    void *zz;                      /* whole maps: one for each slab of a group */
-    void *waves;                   /* 3 maps a group: the waves at its top */
-    void *down;                    /* slices: 3 maps a group: the downward waves there */
-    void *slice;                   /* slices: 6 maps                                   */
-    bool *strained;                /* slabs with strain, from the last rc_slabs_up */
-    bool *passes;                  /* groups: whether there are waves at its top       */
-    double *rows;                  /* single: RC_COMPONENTS rows for each thread       */
-    double mean;                   /* mean of the pressure, Pa */
+    double *qy, *alive; /* numbers of the waves of a column */
+    struct maps maps;
+    bool *strained; /* slabs with strain, from the last rc_slabs_up */
+    bool *passes;   /* groups: whether there are waves at its top       */
+    double *rows;   /* single: RC_COMPONENTS rows for each thread       */
+    double mean;    /* mean of the pressure, Pa */
     struct rc_slabs_counts counts;
 };
 
@@ -97,45 +108,47 @@ map_size(const struct rc_shape *shape, size_t length, size_t columns, size_t row
 static void
 set_waves(struct rc_slabs *v)
 {
-    rc_fft_period(&v->shape, v->padded ? RC_FREE : RC_PERIODIC, &v->px, &v->py);
-    v->length = rc_fft_length(v->fft);
-    rc_fft_columns(v->fft, &v->first, &v->columns);
-    v->map = map_size(&v->shape, v->length, v->columns, v->here.ny);
-    for (size_t t = 0; t < v->length && v->qy != NULL && v->alive != NULL; t++) {
+    rc_fft_period(&v->shape, v->padded ? RC_FREE : RC_PERIODIC, &v->layout.px, &v->layout.py);
+    v->layout.length = rc_fft_length(v->fft);
+    rc_fft_columns(v->fft, &v->layout.first, &v->layout.columns);
+    v->layout.map = map_size(&v->shape, v->layout.length, v->layout.columns, v->here.ny);
+    for (size_t t = 0; t < v->layout.length && v->qy != NULL && v->alive != NULL; t++) {
         size_t j = rc_fft_wave(v->fft, t);
         v->qy[t] = rc_fft_qy(v->fft, j);
-        v->alive[t] = 2 * j != v->py;
+        v->alive[t] = 2 * j != v->layout.py;
     }
 }
 
 static enum rc_status
 allocate(struct rc_slabs *v, const struct rc_slabs_options *o, struct rc_err *err)
 {
-    const size_t size = real_size(o->precision);
+    const size_t size = v->layout.real;
 
-    v->thickness = rc_store_take(&v->own, v->slabs, sizeof *v->thickness);
-    v->strained = rc_store_take(&v->own, v->slabs, sizeof *v->strained);
-    v->passes = rc_store_take(&v->own, v->groups, sizeof *v->passes);
+    v->thickness = rc_store_take(&v->own, v->layout.slabs, sizeof *v->thickness);
+    v->strained = rc_store_take(&v->own, v->layout.slabs, sizeof *v->strained);
+    v->passes = rc_store_take(&v->own, v->layout.groups, sizeof *v->passes);
     v->qy = rc_store_take(&v->own, rc_fft_length(v->fft), sizeof *v->qy);
     v->alive = rc_store_take(&v->own, rc_fft_length(v->fft), sizeof *v->alive);
     set_waves(v);
-    v->strain = rc_store_take(&v->own, RC_SWEEP_STRAINS * v->slabs, v->map * size);
-    v->waves = rc_store_take(&v->own, RC_SWEEP_WAVES * v->groups, v->map * size);
+    v->maps.strain =
+        rc_store_take(&v->own, RC_SWEEP_STRAINS * v->layout.slabs, v->layout.map * size);
+    v->maps.waves = rc_store_take(&v->own, RC_SWEEP_WAVES * v->layout.groups, v->layout.map * size);
     if (o->whole)
-        v->zz = rc_store_take(&v->own, RC_SWEEP_SLABS, v->map * size);
+        v->maps.zz = rc_store_take(&v->own, RC_SWEEP_SLABS, v->layout.map * size);
     if (o->slices) {
-        v->down = rc_store_take(&v->own, RC_SWEEP_WAVES * v->groups, v->map * size);
-        v->slice = rc_store_take(&v->own, RC_SWEEP_STRAINS + 1, v->map * size);
+        v->maps.down =
+            rc_store_take(&v->own, RC_SWEEP_WAVES * v->layout.groups, v->layout.map * size);
+        v->maps.slice = rc_store_take(&v->own, RC_SWEEP_STRAINS + 1, v->layout.map * size);
     }
     if (o->precision == RC_SINGLE)
         v->rows = rc_store_take(
             &v->own, (size_t)rc_fft_threads(v->fft) * RC_COMPONENTS * v->shape.nx, sizeof *v->rows);
     if (v->own.failed)
         return rc_err_set(err, "out of memory for %zu slabs of %zu x %zu nodes: take fewer slabs",
-                          v->slabs, v->shape.nx, v->shape.ny);
-    memset(v->strained, 0, v->slabs * sizeof *v->strained);
-    memset(v->passes, 0, v->groups * sizeof *v->passes);
-    memcpy(v->thickness, o->thickness, v->slabs * sizeof *v->thickness);
+                          v->layout.slabs, v->shape.nx, v->shape.ny);
+    memset(v->strained, 0, v->layout.slabs * sizeof *v->strained);
+    memset(v->passes, 0, v->layout.groups * sizeof *v->passes);
+    memcpy(v->thickness, o->thickness, v->layout.slabs * sizeof *v->thickness);
     return RC_OK;
 }
 
@@ -153,8 +166,9 @@ rc_slabs_new(const struct rc_shape *shape, const struct rc_slabs_options *o, str
     rows = rc_rows_of(o->ranks, shape);
     *v = (struct rc_slabs){.shape = *shape,
                            .here = rc_rows_shape(&rows, shape),
-                           .slabs = o->slabs,
-                           .groups = groups_of(o->slabs),
+                           .layout = {.slabs = o->slabs,
+                                      .groups = groups_of(o->slabs),
+                                      .real = real_size(o->precision)},
                            .modulus = 2 * o->shear,
                            .nu = o->nu,
                            .whole = o->whole,
@@ -180,47 +194,47 @@ rc_slabs_free(struct rc_slabs *v)
 /* ---- layout ---- */
 
 static void *
-map_of(const struct rc_slabs *v, void *maps, size_t which)
+map_of(const struct layout *layout, void *maps, size_t which)
 {
-    return (char *)maps + which * v->map * v->ops->real_size;
+    return (char *)maps + which * layout->map * layout->real;
 }
 
 static void *
-strain_of(const struct rc_slabs *v, size_t slab, size_t component)
+strain_of(const struct layout *layout, const struct maps *maps, size_t slab, size_t component)
 {
-    return map_of(v, v->strain, slab * RC_SWEEP_STRAINS + component);
+    return map_of(layout, maps->strain, slab * RC_SWEEP_STRAINS + component);
 }
 
 /* The address of column i of waves, with `arrays` arrays a column. */
 static void *
-column_of(const struct rc_slabs *v, void *waves, size_t arrays, size_t i)
+column_of(const struct layout *layout, void *waves, size_t arrays, size_t i)
 {
-    return waves == NULL ? NULL : (char *)waves + i * arrays * 2 * v->length * v->ops->real_size;
+    return waves == NULL ? NULL : (char *)waves + i * arrays * 2 * layout->length * layout->real;
 }
 
 /* Waves at the top of a group in column i, of v->waves or v->down; NULL below the last group. */
 static void *
-waves_in(const struct rc_slabs *v, void *waves, size_t group, size_t i)
+waves_in(const struct layout *layout, void *waves, size_t group, size_t i)
 {
-    if (group == v->groups)
+    if (group == layout->groups)
         return NULL;
-    return column_of(v, map_of(v, waves, group * RC_SWEEP_WAVES), RC_SWEEP_WAVES, i);
+    return column_of(layout, map_of(layout, waves, group * RC_SWEEP_WAVES), RC_SWEEP_WAVES, i);
 }
 
 static void *
-waves_of(const struct rc_slabs *v, size_t group, size_t i)
+waves_of(const struct layout *layout, const struct maps *maps, size_t group, size_t i)
 {
-    return waves_in(v, v->waves, group, i);
+    return waves_in(layout, maps->waves, group, i);
 }
 
 /* Column i of those held here. */
 static struct rc_sweep_column
 sweep_column(const struct rc_slabs *v, size_t i)
 {
-    bool dead = 2 * (v->first + i) == v->px;
+    bool dead = 2 * (v->layout.first + i) == v->layout.px;
 
-    return (struct rc_sweep_column){.length = v->length,
-                                    .qx = rc_fft_qx(v->fft, v->first + i),
+    return (struct rc_sweep_column){.length = v->layout.length,
+                                    .qx = rc_fft_qx(v->fft, v->layout.first + i),
                                     .qy = v->qy,
                                     .alive = v->alive,
                                     .dead = dead,
@@ -232,7 +246,7 @@ static size_t
 slabs_of(const struct rc_slabs *v, size_t group, size_t i, const bool *wanted,
          struct rc_sweep_slab slab[RC_SWEEP_SLABS])
 {
-    size_t first = group * RC_SWEEP_SLABS, n = v->slabs - first;
+    size_t first = group * RC_SWEEP_SLABS, n = v->layout.slabs - first;
 
     n = n < RC_SWEEP_SLABS ? n : RC_SWEEP_SLABS;
     for (size_t k = 0; k < n; k++) {
@@ -240,9 +254,10 @@ slabs_of(const struct rc_slabs *v, size_t group, size_t i, const bool *wanted,
                                          .strained = v->strained[first + k],
                                          .wanted = wanted == NULL || wanted[first + k]};
         for (size_t c = 0; c < RC_SWEEP_STRAINS; c++)
-            slab[k].strain[c] = column_of(v, strain_of(v, first + k, c), 1, i);
-        if (v->zz != NULL)
-            slab[k].zz = column_of(v, map_of(v, v->zz, k), 1, i);
+            slab[k].strain[c] =
+                column_of(&v->layout, strain_of(&v->layout, &v->maps, first + k, c), 1, i);
+        if (v->maps.zz != NULL)
+            slab[k].zz = column_of(&v->layout, map_of(&v->layout, v->maps.zz, k), 1, i);
     }
     return n;
 }
@@ -271,9 +286,9 @@ single(const struct rc_slabs *v)
 
 /* Scratch of this thread for a row of a component. */
 static double *
-row_of(const struct rc_slabs *v, enum rc_component c)
+row_of(double *rows, size_t nx, enum rc_component c)
 {
-    return v->rows + ((size_t)omp_get_thread_num() * RC_COMPONENTS + c) * v->shape.nx;
+    return rows + ((size_t)omp_get_thread_num() * RC_COMPONENTS + c) * nx;
 }
 
 RC_CLONES static void
@@ -296,7 +311,7 @@ strain_row(void *ctx, size_t j, void *row)
     const struct pass *p = ctx;
     const struct rc_slabs *v = p->volume;
     enum rc_component c = kept_components[p->component];
-    double *to = single(v) ? row_of(v, c) : row;
+    double *to = single(v) ? row_of(v->rows, v->shape.nx, c) : row;
 
     if (!p->strain->row(p->strain->ctx, p->slab, c, j, to))
         return false;
@@ -336,10 +351,10 @@ displacement_row(void *ctx, size_t j, void *row)
 
 /* Where the stresses of a slab are stored, as waves and then as rows. */
 static void *
-stress_of(const struct rc_slabs *v, size_t slab, size_t component)
+stress_of(const struct layout *layout, const struct maps *maps, size_t slab, size_t component)
 {
-    return component < RC_SWEEP_STRAINS ? strain_of(v, slab, component)
-                                        : map_of(v, v->zz, slab % RC_SWEEP_SLABS);
+    return component < RC_SWEEP_STRAINS ? strain_of(layout, maps, slab, component)
+                                        : map_of(layout, maps->zz, slab % RC_SWEEP_SLABS);
 }
 
 static bool
@@ -347,9 +362,10 @@ keep_row(void *ctx, size_t j, void *row)
 {
     const struct pass *p = ctx;
     const struct rc_slabs *v = p->volume;
-    size_t bytes = v->shape.nx * v->ops->real_size;
+    size_t bytes = v->shape.nx * v->layout.real;
 
-    rc_copy_past((char *)stress_of(v, p->slab, p->component) + j * bytes, row, bytes);
+    rc_copy_past((char *)stress_of(&v->layout, &v->maps, p->slab, p->component) + j * bytes, row,
+                 bytes);
     return true;
 }
 
@@ -359,13 +375,15 @@ stress_row(void *ctx, size_t j, void *row)
 {
     const struct pass *p = ctx;
     const struct rc_slabs *v = p->volume;
-    size_t nx = v->shape.nx, bytes = nx * v->ops->real_size;
+    size_t nx = v->shape.nx, bytes = nx * v->layout.real;
     double *s[RC_COMPONENTS] = {NULL};
 
     for (size_t k = 0; k <= p->component; k++) {
         enum rc_component c = kept_components[k];
-        void *at = k == p->component ? row : (char *)stress_of(v, p->slab, k) + j * bytes;
-        s[c] = single(v) ? row_of(v, c) : at;
+        void *at = k == p->component
+                       ? row
+                       : (char *)stress_of(&v->layout, &v->maps, p->slab, k) + j * bytes;
+        s[c] = single(v) ? row_of(v->rows, v->shape.nx, c) : at;
         if (single(v))
             to_double(at, nx, s[c]);
     }
@@ -378,15 +396,16 @@ stress_row(void *ctx, size_t j, void *row)
 static void
 sweep_up(struct rc_slabs *v, size_t group)
 {
-    bool below = group + 1 < v->groups && v->passes[group + 1];
+    bool below = group + 1 < v->layout.groups && v->passes[group + 1];
 
 #pragma omp parallel for num_threads(rc_fft_threads(v->fft)) schedule(static)
-    for (size_t i = 0; i < v->columns; i++) {
+    for (size_t i = 0; i < v->layout.columns; i++) {
         struct rc_sweep_column column = sweep_column(v, i);
         struct rc_sweep_slab slab[RC_SWEEP_SLABS];
         size_t n = slabs_of(v, group, i, NULL, slab);
-        v->ops->through(&column, n, slab, false, below ? waves_of(v, group + 1, i) : NULL,
-                        waves_of(v, group, i));
+        v->ops->through(&column, n, slab, false,
+                        below ? waves_of(&v->layout, &v->maps, group + 1, i) : NULL,
+                        waves_of(&v->layout, &v->maps, group, i));
     }
 }
 
@@ -396,7 +415,7 @@ surface_column(void *ctx, size_t i, void *to)
     const struct pass *p = ctx;
     struct rc_sweep_column column = sweep_column(p->volume, i);
 
-    p->volume->ops->surface(&column, waves_of(p->volume, 0, i), to);
+    p->volume->ops->surface(&column, waves_of(&p->volume->layout, &p->volume->maps, 0, i), to);
 }
 
 void
@@ -405,16 +424,17 @@ rc_slabs_up(struct rc_slabs *v, const struct rc_slab_strain *strain, double *u)
     struct pass pass = {.volume = v, .strain = strain, .u = u};
     bool any = false;
 
-    for (size_t group = v->groups; group-- > 0;) {
-        size_t end =
-            (group + 1) * RC_SWEEP_SLABS < v->slabs ? (group + 1) * RC_SWEEP_SLABS : v->slabs;
+    for (size_t group = v->layout.groups; group-- > 0;) {
+        size_t end = (group + 1) * RC_SWEEP_SLABS < v->layout.slabs ? (group + 1) * RC_SWEEP_SLABS
+                                                                    : v->layout.slabs;
         for (size_t k = group * RC_SWEEP_SLABS; k < end; k++) {
             v->strained[k] = strain->strained == NULL || strain->strained[k];
             any = any || v->strained[k];
             pass.slab = k;
             for (size_t c = 0; c < RC_SWEEP_STRAINS && v->strained[k]; c++) {
                 pass.component = c;
-                rc_fft_forward(v->fft, strain_row, &pass, strain_of(v, k, c), NULL);
+                rc_fft_forward(v->fft, strain_row, &pass, strain_of(&v->layout, &v->maps, k, c),
+                               NULL);
                 v->counts.forward++;
             }
         }
@@ -439,21 +459,21 @@ reflect_column(void *ctx, size_t i, void *p)
     struct rc_slabs *v = ((const struct pass *)ctx)->volume;
     struct rc_sweep_column column = sweep_column(v, i);
 
-    if (v->first + i == 0 && p != NULL)
+    if (v->layout.first + i == 0 && p != NULL)
         v->mean = single(v) ? *(const float *)p : *(const double *)p;
-    v->ops->reflect(&column, v->passes[0], p, 1 / v->modulus, waves_of(v, 0, i));
+    v->ops->reflect(&column, v->passes[0], p, 1 / v->modulus, waves_of(&v->layout, &v->maps, 0, i));
 }
 
 /* The stress due to a mean pressure, in every slab. */
 static void
-add_mean(const struct rc_slabs *v, struct rc_sweep_slab *slab)
+add_mean(const struct rc_shape *shape, double nu, double mean, struct rc_sweep_slab *slab)
 {
-    double along = -2 * v->nu * v->mean;
+    double along = -2 * nu * mean;
 
-    slab->szz = slab->sxx = slab->syy = -v->mean;
-    if ((v->shape.nx == 1) == (v->shape.ny == 1))
-        slab->sxx = slab->syy = (along - v->mean) / 2;
-    else if (v->shape.nx == 1)
+    slab->szz = slab->sxx = slab->syy = -mean;
+    if ((shape->nx == 1) == (shape->ny == 1))
+        slab->sxx = slab->syy = (along - mean) / 2;
+    else if (shape->nx == 1)
         slab->sxx = along;
     else
         slab->syy = along;
@@ -462,17 +482,17 @@ add_mean(const struct rc_slabs *v, struct rc_sweep_slab *slab)
 static void
 sweep_down(struct rc_slabs *v, size_t group, const bool *wanted)
 {
-    bool below = group + 1 < v->groups && v->passes[group + 1];
+    bool below = group + 1 < v->layout.groups && v->passes[group + 1];
 
 #pragma omp parallel for num_threads(rc_fft_threads(v->fft)) schedule(static)
-    for (size_t i = 0; i < v->columns; i++) {
+    for (size_t i = 0; i < v->layout.columns; i++) {
         struct rc_sweep_column column = sweep_column(v, i);
         struct rc_sweep_slab slab[RC_SWEEP_SLABS];
         size_t n = slabs_of(v, group, i, wanted, slab);
-        for (size_t k = 0; k < n && v->first + i == 0; k++)
-            add_mean(v, &slab[k]);
-        v->ops->down(&column, n, slab, v->modulus, waves_of(v, group, i), below,
-                     waves_of(v, group + 1, i));
+        for (size_t k = 0; k < n && v->layout.first + i == 0; k++)
+            add_mean(&v->shape, v->nu, v->mean, &slab[k]);
+        v->ops->down(&column, n, slab, v->modulus, waves_of(&v->layout, &v->maps, group, i), below,
+                     waves_of(&v->layout, &v->maps, group + 1, i));
     }
 }
 
@@ -482,7 +502,7 @@ rc_slabs_down(struct rc_slabs *v, const double *p, const struct rc_slab_stress *
     struct pass pass = {.volume = v, .stress = stress, .p = p};
     size_t end = 0, last = v->whole ? RC_SWEEP_STRAINS : RC_SWEEP_STRAINS - 1;
 
-    for (size_t k = 0; k < v->slabs; k++)
+    for (size_t k = 0; k < v->layout.slabs; k++)
         if (stress->wanted == NULL || stress->wanted[k])
             end = k + 1;
     v->mean = 0;
@@ -491,7 +511,7 @@ rc_slabs_down(struct rc_slabs *v, const double *p, const struct rc_slab_stress *
         v->counts.forward++;
     } else {
 #pragma omp parallel for num_threads(rc_fft_threads(v->fft)) schedule(static)
-        for (size_t i = 0; i < v->columns; i++)
+        for (size_t i = 0; i < v->layout.columns; i++)
             reflect_column(&pass, i, NULL);
     }
     for (size_t k = 0; k < end; k++) {
@@ -502,12 +522,13 @@ rc_slabs_down(struct rc_slabs *v, const double *p, const struct rc_slab_stress *
         pass.slab = k;
         for (size_t c = 0; c <= last; c++) {
             pass.component = c;
-            rc_fft_back(v->fft, stress_of(v, k, c), NULL, c < last ? keep_row : stress_row, &pass);
+            rc_fft_back(v->fft, stress_of(&v->layout, &v->maps, k, c), NULL,
+                        c < last ? keep_row : stress_row, &pass);
             v->counts.back++;
         }
     }
-    memset(v->strained, 0, v->slabs * sizeof *v->strained);
-    memset(v->passes, 0, v->groups * sizeof *v->passes);
+    memset(v->strained, 0, v->layout.slabs * sizeof *v->strained);
+    memset(v->passes, 0, v->layout.groups * sizeof *v->passes);
 }
 
 /* ---- slices ---- */
@@ -516,33 +537,34 @@ void
 rc_slabs_through(struct rc_slabs *v)
 {
 #pragma omp parallel for num_threads(rc_fft_threads(v->fft)) schedule(static)
-    for (size_t i = 0; i < v->columns; i++) {
+    for (size_t i = 0; i < v->layout.columns; i++) {
         struct rc_sweep_column column = sweep_column(v, i);
         struct rc_sweep_slab slab[RC_SWEEP_SLABS];
-        void *top = waves_in(v, v->down, 0, i);
-        memcpy(top, waves_of(v, 0, i), RC_SWEEP_WAVES * 2 * v->length * v->ops->real_size);
+        void *top = waves_in(&v->layout, v->maps.down, 0, i);
+        memcpy(top, waves_of(&v->layout, &v->maps, 0, i),
+               RC_SWEEP_WAVES * 2 * v->layout.length * v->layout.real);
         v->ops->reflect(&column, v->passes[0], NULL, 0, top);
-        for (size_t group = 0; group + 1 < v->groups; group++) {
+        for (size_t group = 0; group + 1 < v->layout.groups; group++) {
             size_t n = slabs_of(v, group, i, NULL, slab);
-            v->ops->through(&column, n, slab, true, waves_in(v, v->down, group, i),
-                            waves_in(v, v->down, group + 1, i));
+            v->ops->through(&column, n, slab, true, waves_in(&v->layout, v->maps.down, group, i),
+                            waves_in(&v->layout, v->maps.down, group + 1, i));
         }
     }
 }
 
 /* Finds a depth and its group. */
 static struct rc_sweep_place
-place_of(const struct rc_slabs *v, double depth, size_t *group)
+place_of(const struct layout *layout, const double *thickness, double depth, size_t *group)
 {
     double top = 0;
     size_t k = 0;
 
-    while (k < v->slabs && depth >= top + v->thickness[k])
-        top += v->thickness[k++];
-    *group = k < v->slabs ? k / RC_SWEEP_SLABS : v->groups - 1;
+    while (k < layout->slabs && depth >= top + thickness[k])
+        top += thickness[k++];
+    *group = k < layout->slabs ? k / RC_SWEEP_SLABS : layout->groups - 1;
     return (struct rc_sweep_place){.slab = k - *group * RC_SWEEP_SLABS,
                                    .above = depth - top,
-                                   .below = k < v->slabs ? top + v->thickness[k] - depth : 0};
+                                   .below = k < layout->slabs ? top + thickness[k] - depth : 0};
 }
 
 static bool
@@ -550,7 +572,7 @@ slice_row(void *ctx, size_t j, void *row)
 {
     const struct pass *p = ctx;
     enum rc_component c = kept_components[p->component];
-    double *to = single(p->volume) ? row_of(p->volume, c) : row;
+    double *to = single(p->volume) ? row_of(p->volume->rows, p->volume->shape.nx, c) : row;
 
     if (single(p->volume))
         to_double(row, p->volume->shape.nx, to);
@@ -562,26 +584,27 @@ void
 rc_slabs_slice(struct rc_slabs *v, double depth, const struct rc_slice_stress *stress)
 {
     size_t group;
-    struct rc_sweep_place place = place_of(v, depth, &group);
+    struct rc_sweep_place place = place_of(&v->layout, v->thickness, depth, &group);
     struct pass pass = {.volume = v, .slice = stress};
-    bool below = group + 1 < v->groups && v->passes[group + 1];
+    bool below = group + 1 < v->layout.groups && v->passes[group + 1];
 
 #pragma omp parallel for num_threads(rc_fft_threads(v->fft)) schedule(static)
-    for (size_t i = 0; i < v->columns; i++) {
+    for (size_t i = 0; i < v->layout.columns; i++) {
         struct rc_sweep_column column = sweep_column(v, i);
         struct rc_sweep_slab slab[RC_SWEEP_SLABS];
         size_t n = slabs_of(v, group, i, NULL, slab);
         void *to[RC_SWEEP_STRAINS + 1];
         for (size_t c = 0; c <= RC_SWEEP_STRAINS; c++)
-            to[c] = column_of(v, map_of(v, v->slice, c), 1, i);
-        v->ops->slice(&column, n, slab, v->modulus, &place, waves_in(v, v->down, group, i),
-                      below ? waves_of(v, group + 1, i) : NULL, to);
+            to[c] = column_of(&v->layout, map_of(&v->layout, v->maps.slice, c), 1, i);
+        v->ops->slice(&column, n, slab, v->modulus, &place,
+                      waves_in(&v->layout, v->maps.down, group, i),
+                      below ? waves_of(&v->layout, &v->maps, group + 1, i) : NULL, to);
     }
     for (size_t c = 0; c <= RC_SWEEP_STRAINS; c++) {
         if (!(stress->components >> kept_components[c] & 1))
             continue;
         pass.component = c;
-        rc_fft_back(v->fft, map_of(v, v->slice, c), NULL, slice_row, &pass);
+        rc_fft_back(v->fft, map_of(&v->layout, v->maps.slice, c), NULL, slice_row, &pass);
         v->counts.back++;
     }
 }
