@@ -191,7 +191,7 @@ make(struct yield *y, struct rc_err *err)
     y->elastic = NULL;
     if ((y->plastic = rc_yield_solver_new(&y->base.shape, y->h, &problem, err)) == NULL)
         return RC_FAIL;
-    y->plastic->travels = y->travels;
+    y->plastic->asked.travels = y->travels;
     y->stage = VOLUME;
     return RC_OK;
 }
@@ -200,7 +200,7 @@ make(struct yield *y, struct rc_err *err)
 static enum rc_status
 try_load(struct yield *y, struct rc_err *err)
 {
-    y->plastic->thorough = y->try > 0 && !y->problem.companion;
+    y->plastic->asked.thorough = y->try > 0 && !y->problem.companion;
     rc_yield_solver_set_increments(y->plastic, y->increments);
     return rc_yield_solver_set_load(y->plastic, y->load, err);
 }
@@ -209,7 +209,7 @@ try_load(struct yield *y, struct rc_err *err)
 static enum rc_status
 begin(struct yield *y, struct rc_err *err)
 {
-    const bool follows = y->moved && y->load > 0 && y->load == y->plastic->from;
+    const bool follows = y->moved && y->load > 0 && y->load == y->plastic->way.from;
 
     y->moved = false;
     y->than = y->spent = 0;
@@ -217,7 +217,7 @@ begin(struct yield *y, struct rc_err *err)
         y->increments = 1;
         y->try = 0;
         rc_state_forget(&y->before);
-        y->plastic->thorough = false;
+        y->plastic->asked.thorough = false;
         rc_yield_solver_follow(y->plastic);
         return rc_yield_solver_set_load(y->plastic, y->load, err);
     }
@@ -495,7 +495,7 @@ solver(const struct rc_model *m)
 static void
 displace(const struct yield *y, double factor, double *v)
 {
-    const double *u = y->plastic != NULL ? y->plastic->u : NULL;
+    const double *u = y->plastic != NULL ? y->plastic->maps.u : NULL;
 
     for (size_t k = 0; k < y->n && u != NULL; k++)
         v[k] += factor * u[k];
@@ -525,7 +525,7 @@ look_apart(const struct yield *y, double *gap, struct rc_contact *c, struct rc_e
 static double
 highest(const struct yield *y)
 {
-    const double *u = y->plastic != NULL ? y->plastic->u : NULL;
+    const double *u = y->plastic != NULL ? y->plastic->maps.u : NULL;
     double top = -INFINITY;
 
     for (size_t k = 0; k < y->n; k++)
@@ -537,7 +537,7 @@ highest(const struct yield *y)
 static size_t
 increment_of(const struct rc_yield_solver *p)
 {
-    return p->stage == RC_YIELD_PROBE ? 0 : p->increment;
+    return p->stage == RC_YIELD_PROBE ? 0 : p->run.increment;
 }
 
 static void
@@ -623,11 +623,11 @@ progress(const struct rc_model *m, struct rc_loops *l)
     l->coming = y->stage == MAKE ? more_bytes(y) : 0;
     if (y->plastic != NULL) {
         const double increment = fmin((double)increment_of(y->plastic), most);
-        rc_loops_add(l, "load", "N", y->plastic->set, NAN);
+        rc_loops_add(l, "load", "N", y->plastic->way.set, NAN);
         rc_loops_add(l, "increment", NULL, increment, most);
-        rc_loops_add(l, "application", NULL, (double)y->plastic->trial, NAN);
+        rc_loops_add(l, "application", NULL, (double)y->plastic->run.trial, NAN);
         /* between increments a state is smaller; the last increment may take long */
-        l->worth = y->plastic->trial == 0 || increment >= most;
+        l->worth = y->plastic->run.trial == 0 || increment >= most;
     } else if (y->elastic != NULL) {
         rc_solver_progress(y->elastic, &at);
         rc_loops_add(l, "iteration", NULL, (double)at.iterations, NAN);

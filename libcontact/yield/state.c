@@ -27,9 +27,9 @@ columns_of(const struct rc_yield_solver *p)
 {
     const bool rests = p->stage <= RC_YIELD_PROBE || p->stage >= RC_YIELD_AGAIN;
 
-    if (rests && !p->travels)
+    if (rests && !p->asked.travels)
         return REACHED;
-    return rests || p->trial == 0 ? BETWEEN : WITHIN;
+    return rests || p->run.trial == 0 ? BETWEEN : WITHIN;
 }
 
 /* ---- voxels ---- */
@@ -109,17 +109,17 @@ exchange_figures(struct rc_yield_solver *p, struct rc_state *s)
 
     if (rc_state_reads(s))
         *f = (struct rc_yield_load){0};
-    RC_STATE_COUNTS(s, &p->increments);
-    rc_state_count(s, &p->count, p->increments);
-    rc_state_count(s, &p->increment, p->increments + 1);
-    RC_STATE_COUNTS(s, &p->trial, &p->taken, &f->applications);
-    RC_STATE_FLAGS(s, &p->elastic, &p->few, &p->once, &p->thorough, &p->follows, &p->alone,
-                   &p->stopped, &p->pressed);
-    RC_STATE_SIZES(s, &p->start, &p->low, &p->kept, &p->from, &p->to, &p->set, &p->worst, &f->lag,
-                   &f->iteration_error);
-    rc_state_number(s, &p->high, p->low);
-    rc_state_number(s, &p->tol, DBL_MIN);
-    number_or(s, &p->resistance, 0, INFINITY);
+    RC_STATE_COUNTS(s, &p->asked.increments);
+    rc_state_count(s, &p->run.count, p->asked.increments);
+    rc_state_count(s, &p->run.increment, p->asked.increments + 1);
+    RC_STATE_COUNTS(s, &p->run.trial, &p->run.taken, &f->applications);
+    RC_STATE_FLAGS(s, &p->is.elastic, &p->errors.few, &p->asked.once, &p->asked.thorough,
+                   &p->asked.follows, &p->is.alone, &p->is.stopped, &p->is.pressed);
+    RC_STATE_SIZES(s, &p->way.start, &p->way.low, &p->errors.kept, &p->way.from, &p->way.to,
+                   &p->way.set, &p->errors.worst, &f->lag, &f->iteration_error);
+    rc_state_number(s, &p->way.high, p->way.low);
+    rc_state_number(s, &p->run.tol, DBL_MIN);
+    number_or(s, &p->run.resistance, 0, INFINITY);
     number_or(s, &f->increment_error, -1, NAN);
     number_or(s, &f->inherited_error, -1, NAN);
 }
@@ -133,15 +133,16 @@ resume(struct rc_yield_solver *p, struct rc_state *s, enum rc_yield_solver_stage
     struct rc_err err;
 
     p->stage = stage == RC_YIELD_DONE ? RC_YIELD_AGAIN : stage;
-    p->order = stage != RC_YIELD_PROBE && (p->increment > 1 || p->follows) ? RC_YIELD_BETA : 0;
+    p->run.order =
+        stage != RC_YIELD_PROBE && (p->run.increment > 1 || p->asked.follows) ? RC_YIELD_BETA : 0;
     for (size_t r = 0; r < p->voxels.slabs * p->voxels.rows && stage == RC_YIELD_DONE; r++)
         for (size_t k = 0; k < p->voxels.row[r].n; k++)
             memset(p->voxels.row[r].v[k].x, 0, sizeof p->voxels.row[r].v[k].x);
-    p->figures.increments = p->count;
-    p->moved = true; /* the displacement due to the strain is computed again */
-    rc_yield_solver_solve_to(p, p->tol);
+    p->figures.increments = p->run.count;
+    p->is.moved = true; /* the displacement due to the strain is computed again */
+    rc_yield_solver_solve_to(p, p->run.tol);
     if (rc_solver_set_load(p->solver, load, 0, &err) != RC_OK ||
-        (p->pressed && rc_solver_warm_start(p->solver, load, p->other, &err) != RC_OK))
+        (p->is.pressed && rc_solver_warm_start(p->solver, load, p->maps.other, &err) != RC_OK))
         rc_state_refuse(s, "its load or its pressure is not finite or negative");
     else
         rc_yield_solver_keep_pressure(p);
@@ -162,7 +163,7 @@ rc_yield_solver_exchange(void *plastic, struct rc_state *s)
     exchange_figures(p, s);
     /* the cast is safe: writing does not change the pressure */
     rc_state_finite(s, p->n,
-                    rc_state_reads(s) ? p->other : (double *)rc_solver_pressure(p->solver));
+                    rc_state_reads(s) ? p->maps.other : (double *)rc_solver_pressure(p->solver));
     if (rc_state_reads(s))
         rc_voxels_clear(&p->voxels);
     for (size_t r = 0; r < p->voxels.slabs * p->voxels.rows; r++)

@@ -105,13 +105,13 @@ strain_row(void *ctx, size_t slab, enum rc_component c, size_t j, double *to)
 
 /* The return from e + beta last: finds the growth of the equivalent strain, the trial stress and its size. */
 static double
-return_from(const struct rc_yield_solver *p, const struct rc_voxel *v, const double *s, double beta,
-            double *trial, double *size)
+return_from(const struct rc_yield_body *body, const struct rc_voxel *v, const double *s,
+            double beta, double *trial, double *size)
 {
     for (size_t a = 0; a < RC_DEVIATOR; a++)
-        trial[a] = s[a] + 2 * p->shear * (v->x[a] - beta * v->last[a]);
+        trial[a] = s[a] + 2 * body->shear * (v->x[a] - beta * v->last[a]);
     *size = rc_mises_of(trial);
-    return rc_yield_law_return(&p->law, 3 * p->shear, v->strain + beta * v->grown, *size);
+    return rc_yield_law_return(&body->law, 3 * body->shear, v->strain + beta * v->grown, *size);
 }
 
 static void
@@ -123,25 +123,26 @@ flow_by(double growth, const double *trial, double size, double *flow)
 
 /* Applies F to a voxel under the stress s. `adds`: note the terms of second order in time. */
 static void
-flow(const struct rc_yield_solver *p, struct rc_voxel *v, const double *s, bool adds)
+flow(const struct rc_yield_body *body, double order, bool follows, struct rc_voxel *v,
+     const double *s, bool adds)
 {
     double trial[RC_DEVIATOR], first[RC_DEVIATOR], size;
-    double low = 0, high = p->order, growth = return_from(p, v, s, 0, trial, &size);
+    double low = 0, high = order, growth = return_from(body, v, s, 0, trial, &size);
 
     flow_by(growth, trial, size, first);
     memcpy(v->f, first, sizeof v->f);
     v->beta = 0;
     /* the voxel begins to flow within the step: as if BDF2 followed a step without flow */
-    for (size_t a = 0; a < RC_DEVIATOR && p->follows && adds && v->grown == 0; a++)
+    for (size_t a = 0; a < RC_DEVIATOR && follows && adds && v->grown == 0; a++)
         v->missed[a] -= (float)(RC_YIELD_BETA * first[a]);
-    if (growth == 0 || p->order == 0)
+    if (growth == 0 || order == 0)
         return;
-    growth = return_from(p, v, s, high, trial, &size);
+    growth = return_from(body, v, s, high, trial, &size);
     if (growth > 0)
         low = high;
     for (int halving = 0; halving < HALVINGS && low < high; halving++) {
         double middle = (low + high) / 2;
-        growth = return_from(p, v, s, middle, trial, &size);
+        growth = return_from(body, v, s, middle, trial, &size);
         if (growth > 0)
             low = middle;
         else
@@ -149,7 +150,7 @@ flow(const struct rc_yield_solver *p, struct rc_voxel *v, const double *s, bool 
     }
     v->beta = (float)low;
     low = (double)v->beta;
-    growth = return_from(p, v, s, low, trial, &size);
+    growth = return_from(body, v, s, low, trial, &size);
     flow_by(growth, trial, size, v->f);
     for (size_t a = 0; a < RC_DEVIATOR; a++) {
         v->f[a] += low * v->last[a];
@@ -158,7 +159,7 @@ flow(const struct rc_yield_solver *p, struct rc_voxel *v, const double *s, bool 
 }
 
 static void
-sum_up(const struct rc_yield_solver *p, const struct rc_voxel *v, double thickness, double *sums)
+sum_up(const struct rc_yield_body *body, const struct rc_voxel *v, double thickness, double *sums)
 {
     double r[RC_DEVIATOR], turned[RC_DEVIATOR], moved[RC_DEVIATOR], lag;
 
@@ -167,7 +168,7 @@ sum_up(const struct rc_yield_solver *p, const struct rc_voxel *v, double thickne
         turned[a] = r[a] - (double)v->left[a];
         moved[a] = (double)v->moved[a];
     }
-    lag = 2 * p->shear * rc_mises_of(r) / p->yield;
+    lag = 2 * body->shear * rc_mises_of(r) / body->yield;
     if (rc_deviator_product(v->f, v->f) > 0 || rc_deviator_product(v->x, v->x) > 0) {
         sums[RC_LAG] += lag * lag;
         sums[RC_FLOWING]++;
@@ -190,13 +191,13 @@ stress_at(double *const s[RC_COMPONENTS], size_t i, double *to)
 
 /* Counts the nodes of a row that yield for the first time; `place`: array for their indices, or NULL. */
 static size_t
-yields_first(const struct rc_yield_solver *p, const struct rc_voxel_row *row, double *const s[],
+yields_first(double yield, size_t nx, const struct rc_voxel_row *row, double *const s[],
              uint32_t *place)
 {
-    double square = p->yield * p->yield / 1.5;
+    double square = yield * yield / 1.5;
     size_t count = 0, known = 0;
 
-    for (size_t i = 0; i < p->shape.nx; i++) {
+    for (size_t i = 0; i < nx; i++) {
         double at[RC_DEVIATOR];
         stress_at(s, i, at);
         while (known < row->n && row->v[known].i < i)
@@ -211,9 +212,9 @@ yields_first(const struct rc_yield_solver *p, const struct rc_voxel_row *row, do
 }
 
 static enum rc_status
-take_in(const struct rc_yield_solver *p, struct rc_voxel_row *row, double *const s[])
+take_in(double yield, size_t nx, struct rc_voxel_row *row, double *const s[])
 {
-    size_t count = yields_first(p, row, s, NULL);
+    size_t count = yields_first(yield, nx, row, s, NULL);
     enum rc_status status = RC_OK;
     uint32_t *place;
 
@@ -222,7 +223,7 @@ take_in(const struct rc_yield_solver *p, struct rc_voxel_row *row, double *const
     place = malloc(count * sizeof *place);
     if (place == NULL)
         return RC_FAIL;
-    (void)yields_first(p, row, s, place);
+    (void)yields_first(yield, nx, row, s, place);
     status = rc_voxels_add(row, count, place);
     free(place);
     return status;
@@ -233,7 +234,7 @@ static void
 look_ahead(const struct rc_yield_solver *p, size_t slab, struct rc_voxel_row *row,
            double *const s[])
 {
-    double square = p->yield * p->yield / 1.5;
+    double square = p->body.yield * p->body.yield / 1.5;
 
     for (size_t i = 0, known = 0; i < p->shape.nx; i++) {
         struct rc_voxel fresh = {0};
@@ -245,16 +246,17 @@ look_ahead(const struct rc_yield_solver *p, size_t slab, struct rc_voxel_row *ro
         is_known = known < row->n && row->v[known].i == i;
         if (!is_known && !(rc_deviator_product(at, at) > square))
             continue;
-        flow(p, is_known ? &row->v[known] : &fresh, at, false);
-        sum_up(p, is_known ? &row->v[known] : &fresh, p->thickness[slab], row->sums);
+        flow(&p->body, p->run.order, p->asked.follows, is_known ? &row->v[known] : &fresh, at,
+             false);
+        sum_up(&p->body, is_known ? &row->v[known] : &fresh, p->maps.thickness[slab], row->sums);
     }
 }
 
 /* True if the load has one increment: its first application is also the elastic trial. */
 static bool
-in_one(const struct rc_yield_solver *p)
+in_one(const struct rc_yield_asked *asked)
 {
-    return p->increments == 1 && !p->follows;
+    return asked->increments == 1 && !asked->follows;
 }
 
 static void
@@ -262,23 +264,23 @@ stress_row(void *ctx, size_t slab, size_t j, double *const s[RC_COMPONENTS])
 {
     struct rc_yield_solver *p = ctx;
     struct rc_voxel_row *row = rc_voxels_row(&p->voxels, slab, j);
-    bool adds = p->trial + 1 == (p->increment == p->count ? LAST : EACH);
+    bool adds = p->run.trial + 1 == (p->run.increment == p->run.count ? LAST : EACH);
 
     memset(row->sums, 0, sizeof row->sums);
-    if (p->stage == RC_YIELD_PROBE && !in_one(p)) {
+    if (p->stage == RC_YIELD_PROBE && !in_one(&p->asked)) {
         look_ahead(p, slab, row, s);
         return;
     }
-    if (take_in(p, row, s) != RC_OK) {
+    if (take_in(p->body.yield, p->shape.nx, row, s) != RC_OK) {
 #pragma omp atomic write
-        p->failed = true;
+        p->is.failed = true;
         return;
     }
     for (size_t k = 0; k < row->n; k++) {
         double at[RC_DEVIATOR];
         stress_at(s, row->v[k].i, at);
-        flow(p, &row->v[k], at, adds);
-        sum_up(p, &row->v[k], p->thickness[slab], row->sums);
+        flow(&p->body, p->run.order, p->asked.follows, &row->v[k], at, adds);
+        sum_up(&p->body, &row->v[k], p->maps.thickness[slab], row->sums);
     }
 }
 
@@ -314,7 +316,7 @@ mix(struct rc_yield_solver *p, struct rc_voxel *v)
                 rounding * rounding *
                     (rc_deviator_product(moved, moved) + rc_deviator_product(left, left));
     for (size_t a = 0; a < RC_DEVIATOR; a++) {
-        double step = still ? -v->x[a] : r[a] - p->mix * (moved[a] + (r[a] - left[a]));
+        double step = still ? -v->x[a] : r[a] - p->run.mix * (moved[a] + (r[a] - left[a]));
         v->left[a] = (float)r[a];
         v->moved[a] = (float)step;
         v->x[a] += step;
@@ -335,7 +337,7 @@ accept(struct rc_yield_solver *p, struct rc_voxel *v)
         v->e[a] += v->x[a];
         v->last[a] = v->x[a];
         v->moved[a] = v->left[a] = 0;
-        v->missed[a] += p->once ? (float)v->x[a] : 0;
+        v->missed[a] += p->asked.once ? (float)v->x[a] : 0;
     }
 }
 
@@ -403,15 +405,15 @@ try_none(struct rc_yield_solver *p, struct rc_voxel *v)
 
 /* Finds the slabs with yielded voxels. Returns false if there are none. */
 static bool
-find_strained(struct rc_yield_solver *p)
+find_strained(struct rc_voxels *voxels)
 {
     bool any = false;
 
-    for (size_t k = 0; k < p->voxels.slabs; k++) {
-        p->voxels.strained[k] = false;
-        for (size_t j = 0; j < p->voxels.rows && !p->voxels.strained[k]; j++)
-            p->voxels.strained[k] = rc_voxels_row(&p->voxels, k, j)->n > 0;
-        any |= p->voxels.strained[k];
+    for (size_t k = 0; k < voxels->slabs; k++) {
+        voxels->strained[k] = false;
+        for (size_t j = 0; j < voxels->rows && !voxels->strained[k]; j++)
+            voxels->strained[k] = rc_voxels_row(voxels, k, j)->n > 0;
+        any |= voxels->strained[k];
     }
     return any;
 }
@@ -423,39 +425,38 @@ press(struct rc_yield_solver *p, struct rc_err *err)
     const struct rc_slab_strain strain = {p->voxels.strained, strain_row, p};
     enum rc_status status;
 
-    if (find_strained(p) || p->moved) {
-        rc_slabs_up(p->slabs, &strain, p->u);
+    if (find_strained(&p->voxels) || p->is.moved) {
+        rc_slabs_up(p->slabs, &strain, p->maps.u);
         for (size_t k = 0; k < p->n; k++)
-            p->form[k] = p->h[k] - p->u[k];
-        if (rc_solver_set_heights(p->solver, p->form, err) != RC_OK)
+            p->maps.form[k] = p->maps.h[k] - p->maps.u[k];
+        if (rc_solver_set_heights(p->solver, p->maps.form, err) != RC_OK)
             return RC_FAIL;
-        p->moved = false;
+        p->is.moved = false;
     }
-    if (p->alone)
+    if (p->is.alone)
         return RC_OK;
-    p->pressed = true;
+    p->is.pressed = true;
     do
         status = rc_solver_step(p->solver);
     while (status == RC_MORE);
-    p->stopped |= status != RC_OK;
+    p->is.stopped |= status != RC_OK;
     return RC_OK;
 }
 
 static const double *
 pressure(const struct rc_yield_solver *p)
 {
-    return p->alone ? NULL : rc_solver_pressure(p->solver);
+    return p->is.alone ? NULL : rc_solver_pressure(p->solver);
 }
 
-/* The relative L1 distance of this pressure from p->other. */
+/* The relative L1 distance of this pressure from the other one. */
 static double
-moved(const struct rc_yield_solver *p)
+moved(const double *is, const double *other, size_t n)
 {
-    const double *is = pressure(p);
     double sum = 0, all = 0;
 
-    for (size_t k = 0; k < p->n && is != NULL; k++) {
-        sum += fabs(is[k] - p->other[k]);
+    for (size_t k = 0; k < n && is != NULL; k++) {
+        sum += fabs(is[k] - other[k]);
         all += is[k];
     }
     return all > 0 ? sum / all : 0;
@@ -467,18 +468,18 @@ rc_yield_solver_keep_pressure(struct rc_yield_solver *p)
     const double *is = pressure(p);
 
     if (is != NULL)
-        memcpy(p->other, is, p->n * sizeof *is);
+        memcpy(p->maps.other, is, p->n * sizeof *is);
     else
-        memset(p->other, 0, p->n * sizeof *p->other);
+        memset(p->maps.other, 0, p->n * sizeof *p->maps.other);
 }
 
 static void
-total(const struct rc_yield_solver *p, double sums[RC_VOXEL_SUMS])
+total(const struct rc_voxels *voxels, double sums[RC_VOXEL_SUMS])
 {
     memset(sums, 0, RC_VOXEL_SUMS * sizeof *sums);
-    for (size_t r = 0; r < p->voxels.slabs * p->voxels.rows; r++)
+    for (size_t r = 0; r < voxels->slabs * voxels->rows; r++)
         for (size_t q = 0; q < RC_VOXEL_SUMS; q++)
-            sums[q] += p->voxels.row[r].sums[q];
+            sums[q] += voxels->row[r].sums[q];
 }
 
 /* Applies F to e + x, and finds the lag of x. */
@@ -492,23 +493,23 @@ apply(struct rc_yield_solver *p, struct rc_err *err)
         return RC_FAIL;
     rc_slabs_down(p->slabs, pressure(p), &stress);
     p->figures.applications++;
-    if (p->failed)
+    if (p->is.failed)
         return rc_err_set(err, "out of memory for the strain of %zu voxels",
                           rc_voxels_count(&p->voxels));
-    total(p, sums);
-    last = p->trial > 0 ? p->figures.lag : INFINITY;
-    p->flows = sums[RC_FLOWING] > 0;
-    p->figures.lag = p->flows ? sqrt(sums[RC_LAG] / sums[RC_FLOWING]) : 0;
-    p->mix = 0;
+    total(&p->voxels, sums);
+    last = p->run.trial > 0 ? p->figures.lag : INFINITY;
+    p->is.flows = sums[RC_FLOWING] > 0;
+    p->figures.lag = p->is.flows ? sqrt(sums[RC_LAG] / sums[RC_FLOWING]) : 0;
+    p->run.mix = 0;
     /* F itself never raises the energy, but a mixture may. A mixture is not taken if the last one did not
      * lower the lag. Comparing energies instead needs one more displacement by the pressure, and is no
      * better. One increment of 300 random maps of 24 x 24 nodes, Hm from 0 to 100 Y, took 6404 applications
      * by the energy, and 6413 by the lag. It took 6547 by neither, and 13403 without mixtures, where 7 maps
      * took more than 200. */
-    if (p->trial > 0 && sums[RC_CHANGE] > 0 && p->figures.lag < last)
-        p->mix = sums[RC_NEW_OLD] / sums[RC_CHANGE];
-    if (p->trial > 0 && sums[RC_ADVANCE] > 0 && sums[RC_RESISTED] > 0)
-        p->resistance = fmin(p->resistance, sums[RC_RESISTED] / sums[RC_ADVANCE]);
+    if (p->run.trial > 0 && sums[RC_CHANGE] > 0 && p->figures.lag < last)
+        p->run.mix = sums[RC_NEW_OLD] / sums[RC_CHANGE];
+    if (p->run.trial > 0 && sums[RC_ADVANCE] > 0 && sums[RC_RESISTED] > 0)
+        p->run.resistance = fmin(p->run.resistance, sums[RC_RESISTED] / sums[RC_ADVANCE]);
     return RC_OK;
 }
 
@@ -517,26 +518,26 @@ apply(struct rc_yield_solver *p, struct rc_err *err)
 static enum rc_status
 set_load(struct rc_yield_solver *p, double load, struct rc_err *err)
 {
-    p->set = load;
-    p->alone = !(load > 0);
-    return p->alone ? RC_OK : rc_solver_set_load(p->solver, load, 0, err);
+    p->way.set = load;
+    p->is.alone = !(load > 0);
+    return p->is.alone ? RC_OK : rc_solver_set_load(p->solver, load, 0, err);
 }
 
 static double
-share_of_way(const struct rc_yield_solver *p, double share)
+share_of_way(const struct rc_yield_way *way, double share)
 {
-    return share == 1 ? p->to : p->from + (p->to - p->from) * share;
+    return share == 1 ? way->to : way->from + (way->to - way->from) * share;
 }
 
 /* Starts the increments of the load at the load `start`. */
 static void
 begin_increments(struct rc_yield_solver *p, size_t count, double start)
 {
-    p->count = p->figures.increments = count;
-    p->start = start;
-    p->increment = 1;
-    p->trial = 0;
-    p->resistance = INFINITY;
+    p->run.count = p->figures.increments = count;
+    p->way.start = start;
+    p->run.increment = 1;
+    p->run.trial = 0;
+    p->run.resistance = INFINITY;
     p->stage = RC_YIELD_TRIAL;
 }
 
@@ -544,42 +545,42 @@ begin_increments(struct rc_yield_solver *p, size_t count, double start)
 static bool
 follows_little(const struct rc_yield_solver *p)
 {
-    return !p->few && !p->thorough && rc_voxels_count(&p->voxels) > 0;
+    return !p->errors.few && !p->asked.thorough && rc_voxels_count(&p->voxels) > 0;
 }
 
 /* Tries an elastic step: first to the end of the load, then to shorter shares of it, by bisection. */
 static enum rc_status
 probe(struct rc_yield_solver *p, struct rc_err *err)
 {
-    double share = p->trial == 0 ? 1 : (p->low + p->high) / 2;
+    double share = p->run.trial == 0 ? 1 : (p->way.low + p->way.high) / 2;
 
-    if (set_load(p, share_of_way(p, share), err) != RC_OK || apply(p, err) != RC_OK)
+    if (set_load(p, share_of_way(&p->way, share), err) != RC_OK || apply(p, err) != RC_OK)
         return RC_FAIL;
-    p->trial++;
-    if (p->flows)
-        p->high = share;
+    p->run.trial++;
+    if (p->is.flows)
+        p->way.high = share;
     else
-        p->low = share;
-    if (p->low == 1) {
-        p->elastic = true;
-        if (p->follows)
+        p->way.low = share;
+    if (p->way.low == 1) {
+        p->is.elastic = true;
+        if (p->asked.follows)
             for_each(p, rest);
-        begin_increments(p, 1, p->to);
+        begin_increments(p, 1, p->way.to);
         p->stage = RC_YIELD_STATE;
-    } else if (p->follows) {
-        begin_increments(p, 1, p->to);
-    } else if (p->trial == 1 && p->figures.lag < (follows_little(p) ? little : trace)) {
-        p->once = !p->few;
-        begin_increments(p, 1, p->from);
-    } else if (in_one(p)) {
-        p->few = true;
-        begin_increments(p, 1, p->from);
-    } else if (p->trial > BISECTIONS || (p->trial > BISECT_FIRST && p->low == 0)) {
-        begin_increments(p, p->increments, share_of_way(p, p->low));
-        p->few |= p->increments < FEW;
+    } else if (p->asked.follows) {
+        begin_increments(p, 1, p->way.to);
+    } else if (p->run.trial == 1 && p->figures.lag < (follows_little(p) ? little : trace)) {
+        p->asked.once = !p->errors.few;
+        begin_increments(p, 1, p->way.from);
+    } else if (in_one(&p->asked)) {
+        p->errors.few = true;
+        begin_increments(p, 1, p->way.from);
+    } else if (p->run.trial > BISECTIONS || (p->run.trial > BISECT_FIRST && p->way.low == 0)) {
+        begin_increments(p, p->asked.increments, share_of_way(&p->way, p->way.low));
+        p->errors.few |= p->asked.increments < FEW;
     }
-    if (in_one(p) && p->flows) {
-        p->trial = 1;
+    if (in_one(&p->asked) && p->is.flows) {
+        p->run.trial = 1;
         for_each(p, mix);
         rc_yield_solver_keep_pressure(p);
     }
@@ -589,10 +590,13 @@ probe(struct rc_yield_solver *p, struct rc_err *err)
 static enum rc_status
 begin_increment(struct rc_yield_solver *p, struct rc_err *err)
 {
-    double share = (double)p->increment / (double)p->count;
+    double share = (double)p->run.increment / (double)p->run.count;
 
-    p->order = p->increment > 1 || p->follows ? RC_YIELD_BETA : 0;
-    return set_load(p, p->increment == p->count ? p->to : p->start + (p->to - p->start) * share,
+    p->run.order = p->run.increment > 1 || p->asked.follows ? RC_YIELD_BETA : 0;
+    return set_load(p,
+                    p->run.increment == p->run.count
+                        ? p->way.to
+                        : p->way.start + (p->way.to - p->way.start) * share,
                     err);
 }
 
@@ -600,18 +604,19 @@ begin_increment(struct rc_yield_solver *p, struct rc_err *err)
 static double
 iteration_error(const struct rc_yield_solver *p)
 {
-    return 1.5 * moved(p) / fmin(p->resistance, 1); /* a resistance is at most 1 */
+    return 1.5 * moved(pressure(p), p->maps.other, p->n) /
+           fmin(p->run.resistance, 1); /* a resistance is at most 1 */
 }
 
 static bool
 enough(const struct rc_yield_solver *p)
 {
-    if (rc_voxels_count(&p->voxels) == 0 || (p->trial == 1 && !p->flows))
+    if (rc_voxels_count(&p->voxels) == 0 || (p->run.trial == 1 && !p->is.flows))
         return true;
-    if (p->increment < p->count)
-        return p->trial >= MOST_EACH || (p->trial >= EACH && p->figures.lag <= lags);
-    return p->trial >= MOST ||
-           (p->trial >= LAST && p->figures.lag <= p->lag && iteration_error(p) <= moves);
+    if (p->run.increment < p->run.count)
+        return p->run.trial >= MOST_EACH || (p->run.trial >= EACH && p->figures.lag <= lags);
+    return p->run.trial >= MOST ||
+           (p->run.trial >= LAST && p->figures.lag <= p->asked.lag && iteration_error(p) <= moves);
 }
 
 static enum rc_status
@@ -619,37 +624,36 @@ advance(struct rc_yield_solver *p, struct rc_err *err)
 {
     bool done;
 
-    if (p->trial == 0 && begin_increment(p, err) != RC_OK)
+    if (p->run.trial == 0 && begin_increment(p, err) != RC_OK)
         return RC_FAIL;
     if (apply(p, err) != RC_OK)
         return RC_FAIL;
-    p->trial++;
+    p->run.trial++;
     for_each(p, mix);
     done = enough(p);
-    if (p->increment == p->count)
+    if (p->run.increment == p->run.count)
         rc_yield_solver_keep_pressure(p);
     if (!done)
         return RC_OK;
-    p->stopped |= p->trial >= MOST;
+    p->is.stopped |= p->run.trial >= MOST;
     for_each(p, accept);
-    p->trial = 0;
-    if (p->increment++ < p->count)
+    p->run.trial = 0;
+    if (p->run.increment++ < p->run.count)
         return RC_OK;
     p->stage = RC_YIELD_STATE;
     return RC_OK;
 }
 
 static double
-largest_mean(const struct rc_yield_solver *p)
+largest_mean(const double *v, const struct rc_shape *shape, bool round)
 {
-    const double *v = pressure(p);
-    size_t nx = p->shape.nx, ny = p->shape.ny;
+    size_t nx = shape->nx, ny = shape->ny;
     double most = 0;
 
     for (size_t j = 0; j < ny && v != NULL; j++)
         for (size_t i = 0; i < nx; i++) {
-            size_t right = i + 1 < nx ? i + 1 : p->round ? 0 : i;
-            size_t below = j + 1 < ny ? j + 1 : p->round ? 0 : j;
+            size_t right = i + 1 < nx ? i + 1 : round ? 0 : i;
+            size_t below = j + 1 < ny ? j + 1 : round ? 0 : j;
             most = fmax(most, (v[j * nx + i] + v[j * nx + right] + v[below * nx + i] +
                                v[below * nx + right]) /
                                   4);
@@ -666,33 +670,33 @@ find_figures(struct rc_yield_solver *p)
     f->voxels = 0;
     f->depth = f->volume = f->max_strain = f->work = f->strained = 0;
     for (size_t k = 0; k < p->voxels.slabs; k++) {
-        bottom += p->thickness[k];
+        bottom += p->maps.thickness[k];
         for (size_t j = 0; j < p->voxels.rows; j++) {
             const struct rc_voxel_row *row = rc_voxels_row(&p->voxels, k, j);
             for (size_t i = 0; i < row->n; i++) {
-                double strain = row->v[i].strain, part = cell * p->thickness[k];
+                double strain = row->v[i].strain, part = cell * p->maps.thickness[k];
                 if (!(strain > 0))
                     continue;
                 f->voxels++;
                 f->depth = bottom;
                 f->volume += part;
                 f->strained += part * strain;
-                f->work += part * rc_yield_law_work(&p->law, strain);
+                f->work += part * rc_yield_law_work(&p->body.law, strain);
                 f->max_strain = fmax(f->max_strain, strain);
             }
         }
     }
-    f->max_pressure_mean4 = largest_mean(p);
+    f->max_pressure_mean4 = largest_mean(pressure(p), &p->shape, p->round);
 }
 
 /* Accepts the state, and compares its pressure with the pressure of the last application. */
 static enum rc_status
 settle(struct rc_yield_solver *p, struct rc_err *err)
 {
-    p->trial = 0;
-    p->taken += p->count;
-    if (p->elastic) { /* its contact is solved, except in a state that was just read */
-        if (p->moved && press(p, err) != RC_OK)
+    p->run.trial = 0;
+    p->run.taken += p->run.count;
+    if (p->is.elastic) { /* its contact is solved, except in a state that was just read */
+        if (p->is.moved && press(p, err) != RC_OK)
             return RC_FAIL;
         p->figures.iteration_error = 0;
     } else {
@@ -700,12 +704,12 @@ settle(struct rc_yield_solver *p, struct rc_err *err)
         if (press(p, err) != RC_OK)
             return RC_FAIL;
         p->figures.iteration_error = iteration_error(p);
-        p->kept += keeps * (double)p->count * p->tol;
+        p->errors.kept += keeps * (double)p->run.count * p->run.tol;
     }
     rc_yield_solver_keep_pressure(p);
-    p->figures.increment_error = p->few && !p->elastic ? NAN : 0;
-    p->figures.inherited_error = p->few ? NAN : 0;
-    p->stage = p->few || rc_voxels_count(&p->voxels) == 0 ? RC_YIELD_DONE : RC_YIELD_ORDER;
+    p->figures.increment_error = p->errors.few && !p->is.elastic ? NAN : 0;
+    p->figures.inherited_error = p->errors.few ? NAN : 0;
+    p->stage = p->errors.few || rc_voxels_count(&p->voxels) == 0 ? RC_YIELD_DONE : RC_YIELD_ORDER;
     return RC_OK;
 }
 
@@ -719,28 +723,28 @@ compare_order(struct rc_yield_solver *p, struct rc_err *err)
     for_each(p, try_missed);
     if (press(p, err) != RC_OK)
         return RC_FAIL;
-    all = moved(p);
+    all = moved(pressure(p), p->maps.other, p->n);
     rc_yield_solver_keep_pressure(p);
     for_each(p, try_before);
-    if (!p->elastic && press(p, err) != RC_OK)
+    if (!p->is.elastic && press(p, err) != RC_OK)
         return RC_FAIL;
-    own = moved(p);
+    own = moved(pressure(p), p->maps.other, p->n);
     rc_yield_solver_keep_pressure(p);
     for_each(p, try_none);
     if (press(p, err) != RC_OK)
         return RC_FAIL;
-    inherited = moved(p);
+    inherited = moved(pressure(p), p->maps.other, p->n);
     p->figures.increment_error = own > 0 ? all * own / (own + inherited) : 0;
     p->figures.inherited_error = all - p->figures.increment_error;
-    if (p->follows)
-        p->figures.increment_error = fmax(of_steps * p->figures.increment_error, p->worst);
-    p->worst = p->figures.increment_error;
+    if (p->asked.follows)
+        p->figures.increment_error = fmax(of_steps * p->figures.increment_error, p->errors.worst);
+    p->errors.worst = p->figures.increment_error;
     p->stage = RC_YIELD_DONE;
-    if (p->once && !in_one(p) &&
+    if (p->asked.once && !in_one(&p->asked) &&
         p->figures.increment_error > fmax(once_part * p->figures.inherited_error, once_least)) {
-        p->once = p->stopped = false;
+        p->asked.once = p->is.stopped = false;
         for_each(p, undo);
-        p->trial = 1; /* the first trial is known */
+        p->run.trial = 1; /* the first trial is known */
         p->stage = RC_YIELD_PROBE;
     }
     return RC_OK;
@@ -767,9 +771,9 @@ image_error(const struct rc_yield_solver *p)
         touching += v[k] > 0;
     }
     each = few / fmax(touching, least);
-    return most * 2 * (1 + p->nu) * p->shear * p->figures.strained /
+    return most * 2 * (1 + p->body.nu) * p->body.shear * p->figures.strained /
                (side * side * side * sum / touching) +
-           share * (1 + each * each) * sum / (double)p->n / (4 * p->yield);
+           share * (1 + each * each) * sum / (double)p->n / (4 * p->body.yield);
 }
 
 /* The error of the pressure from the tolerance of this contact, and from earlier ones that flow has kept. */
@@ -778,10 +782,10 @@ contact_error(const struct rc_yield_solver *p)
 {
     struct rc_progress at;
 
-    if (p->alone)
+    if (p->is.alone)
         return 0;
     rc_solver_progress(p->solver, &at);
-    return fmax(p->tol, at.error) + p->kept;
+    return fmax(p->run.tol, at.error) + p->errors.kept;
 }
 
 static void
@@ -791,7 +795,7 @@ sum_errors(struct rc_yield_solver *p)
 
     f->image_error = image_error(p);
     f->contact_error = contact_error(p);
-    if (p->alone) /* the pressure is 0 and has no error */
+    if (p->is.alone) /* the pressure is 0 and has no error */
         f->increment_error = f->inherited_error = f->iteration_error = 0;
     f->error = f->increment_error + f->inherited_error + f->iteration_error + f->contact_error +
                f->image_error;
@@ -801,7 +805,7 @@ static void
 judge(struct rc_yield_solver *p, struct rc_voxel *v)
 {
     for (size_t a = 0; a < RC_DEVIATOR; a++)
-        v->missed[a] *= (float)p->judged;
+        v->missed[a] *= (float)p->errors.judged;
 }
 
 /* ---- the interface ---- */
@@ -812,10 +816,10 @@ rc_yield_solver_judge(struct rc_yield_solver *p, double increment, double inheri
     struct rc_yield_load *f = &p->figures;
 
     if (f->increment_error > 0) {
-        p->judged = increment / f->increment_error;
+        p->errors.judged = increment / f->increment_error;
         for_each(p, judge);
     }
-    f->increment_error = p->worst = increment;
+    f->increment_error = p->errors.worst = increment;
     f->inherited_error = inherited;
     sum_errors(p);
 }
@@ -830,15 +834,16 @@ rc_yield_solver_set_load(struct rc_yield_solver *p, double load, struct rc_err *
                           "load %.9g N: it must be below %.9g N, 0.9 of the load at which the mean "
                           "pressure alone makes all depths of a periodic body yield",
                           load, p->bearable);
-    p->to = load;
-    p->trial = 0;
-    p->low = p->order = 0;
-    p->high = 1;
-    p->stopped = p->elastic = p->once = false;
+    p->way.to = load;
+    p->run.trial = 0;
+    p->way.low = p->run.order = 0;
+    p->way.high = 1;
+    p->is.stopped = p->is.elastic = p->asked.once = false;
     p->figures = (struct rc_yield_load){0};
     p->stage = RC_YIELD_PROBE;
-    rc_yield_solver_solve_to(p, fmin(p->asked_tol, kept_goal / (double)(p->taken + p->increments)));
-    if (!p->follows)
+    rc_yield_solver_solve_to(
+        p, fmin(p->asked.tol, kept_goal / (double)(p->run.taken + p->asked.increments)));
+    if (!p->asked.follows)
         for_each(p, begin_load);
     return RC_OK;
 }
@@ -846,31 +851,31 @@ rc_yield_solver_set_load(struct rc_yield_solver *p, double load, struct rc_err *
 void
 rc_yield_solver_follow(struct rc_yield_solver *p)
 {
-    if (!p->follows)
+    if (!p->asked.follows)
         for_each(p, rest); /* the increments before were steps of another length */
     rc_yield_solver_set_increments(p, 1);
-    p->follows = true;
+    p->asked.follows = true;
 }
 
 void
 rc_yield_solver_set_increments(struct rc_yield_solver *p, size_t increments)
 {
-    p->follows = false;
-    p->increments = increments > 0 ? increments : INCREMENTS;
+    p->asked.follows = false;
+    p->asked.increments = increments > 0 ? increments : INCREMENTS;
 }
 
 void
 rc_yield_solver_solve_to(struct rc_yield_solver *p, double tol)
 {
-    p->tol = tol;
+    p->run.tol = tol;
     rc_solver_set_tol(p->solver, tol);
 }
 
 void
 rc_yield_solver_set_heights(struct rc_yield_solver *p, const double *h)
 {
-    memcpy(p->h, h, p->n * sizeof *h);
-    p->moved = true;
+    memcpy(p->maps.h, h, p->n * sizeof *h);
+    p->is.moved = true;
 }
 
 enum rc_status
@@ -892,10 +897,10 @@ rc_yield_solver_step(struct rc_yield_solver *p, struct rc_err *err)
         p->stage = RC_YIELD_DONE;
     if (status != RC_OK || p->stage != RC_YIELD_DONE)
         return status == RC_OK ? RC_MORE : status;
-    p->from = p->to;
+    p->way.from = p->way.to;
     find_figures(p);
     sum_errors(p);
-    return p->stopped ? RC_SHORT : RC_OK;
+    return p->is.stopped ? RC_SHORT : RC_OK;
 }
 
 void
@@ -964,11 +969,12 @@ make_room(struct rc_yield_solver *p, const double *h, const struct rc_yield_prob
 {
     size_t slabs = problem->slabs;
 
-    p->h = rc_store_copy(&p->own, p->n, sizeof *h, h);
-    p->u = rc_store_zeros(&p->own, p->n, sizeof *p->u);
-    p->form = rc_store_take(&p->own, p->n, sizeof *p->form);
-    p->other = rc_store_take(&p->own, p->n, sizeof *p->other);
-    p->thickness = rc_store_copy(&p->own, slabs, sizeof *p->thickness, problem->thickness);
+    p->maps.h = rc_store_copy(&p->own, p->n, sizeof *h, h);
+    p->maps.u = rc_store_zeros(&p->own, p->n, sizeof *p->maps.u);
+    p->maps.form = rc_store_take(&p->own, p->n, sizeof *p->maps.form);
+    p->maps.other = rc_store_take(&p->own, p->n, sizeof *p->maps.other);
+    p->maps.thickness =
+        rc_store_copy(&p->own, slabs, sizeof *p->maps.thickness, problem->thickness);
     if (p->own.failed || rc_voxels_new(&p->voxels, slabs, p->shape.ny) != RC_OK)
         return rc_err_set(err, "out of memory for the plasticity of %zu x %zu nodes", p->shape.nx,
                           p->shape.ny);
@@ -999,16 +1005,16 @@ rc_yield_solver_new(const struct rc_shape *shape, const double *h,
     *p = (struct rc_yield_solver){.shape = *shape,
                                   .n = shape->nx * shape->ny,
                                   .threads = rc_useful_threads(shape, contact.threads),
-                                  .law = problem->law,
-                                  .shear = options.shear,
-                                  .nu = one->nu,
-                                  .yield = rc_yield_law_stress(&problem->law, 0),
-                                  .lag = problem->lag > 0 ? problem->lag : settled};
+                                  .body = {.law = problem->law,
+                                           .shear = options.shear,
+                                           .nu = one->nu,
+                                           .yield = rc_yield_law_stress(&problem->law, 0)},
+                                  .asked.lag = problem->lag > 0 ? problem->lag : settled};
     rc_yield_solver_set_increments(p, problem->increments);
     /* the mean pressure causes a Mises stress of (1 - 2 nu)/2 times itself at every depth; on a profile
      * more */
     p->bearable = contact.boundary == RC_FREE ? INFINITY
-                                              : 0.9 * 2 * p->yield / (1 - 2 * one->nu) *
+                                              : 0.9 * 2 * p->body.yield / (1 - 2 * one->nu) *
                                                     (double)p->n * shape->dx * shape->dy;
     p->round = contact.boundary == RC_PERIODIC;
     contact.approach = 0;
@@ -1019,6 +1025,6 @@ rc_yield_solver_new(const struct rc_shape *shape, const double *h,
         (p->solver = rc_solver_new(shape, h, &contact, err)) == NULL)
         return NULL;
     rc_solver_progress(p->solver, &at);
-    p->tol = p->asked_tol = at.tol;
+    p->run.tol = p->asked.tol = at.tol;
     return rc_give(&p);
 }

@@ -22,45 +22,79 @@ enum rc_yield_solver_stage {
     RC_YIELD_DONE
 };
 
+struct rc_yield_body {
+    struct rc_yield_law law;
+    double shear, nu, yield; /* mu, Poisson's ratio, initial yield stress */
+};
+
+struct rc_yield_maps {
+    double *h, *u, *form; /* heights, displacement of the surface by e, heights minus that */
+    double *thickness;    /* of each slab */
+    double *other;        /* an earlier pressure, for comparison */
+};
+
+/* The request of the caller. */
+struct rc_yield_asked {
+    bool once;         /* one increment follows, and all of its flow counts as an error */
+    bool thorough;     /* increments also for little flow */
+    bool follows;      /* the load is one more increment of the last one, on other heights */
+    bool travels;      /* such loads may come */
+    size_t increments; /* of a load with flow */
+    double tol;        /* of the contacts */
+    double lag;        /* allowed */
+};
+
+/* Loads of an increment. */
+struct rc_yield_way {
+    double from, to, set; /* loads: of the last result, requested, of this increment */
+    double low, high;     /* parts of the load change: without flow, and with flow */
+    double start;         /* load at which the increments start */
+};
+
+/* The course of the iteration. */
+struct rc_yield_run {
+    size_t count;            /* increments of this load */
+    size_t increment, trial; /* index of the increment, and of its application */
+    size_t taken;            /* increments of all loads so far                                */
+    double tol;              /* of the contacts of this load */
+    double order, resistance;
+    double mix; /* Anderson's weight of the previous trial */
+};
+
+struct rc_yield_errors {
+    double kept;   /* error from tolerances of earlier contacts, kept by plastic flow */
+    double worst;  /* largest error of the increments at the positions of this load */
+    double judged; /* factor of the terms of second order of this load, see rc_yield_solver_judge */
+    bool few;      /* some load was reached in too few increments to know their error */
+};
+
+struct rc_yield_is {
+    bool alone;   /* no load: p is 0                                                          */
+    bool flows;   /* some voxel flowed in the last application */
+    bool elastic; /* no voxel flows up to this load */
+    bool failed;  /* a row had no memory */
+    bool pressed; /* a load was solved: the next contact starts from its pressure */
+    bool stopped; /* a contact stopped short                                                  */
+    bool moved;   /* the heights have changed */
+};
+
 struct rc_yield_solver {
     struct rc_shape shape;
     size_t n;
     int threads;
-    struct rc_yield_law law;
-    double shear, nu, yield, lag; /* mu, Poisson's ratio, initial yield stress, allowed lag */
-    double *h, *u, *form; /* heights, displacement of the surface by e, heights minus that */
-    double *thickness;
+    bool round;      /* the map repeats */
+    double bearable; /* N: above it all depths yield under the mean pressure */
+    struct rc_yield_body body;
+    struct rc_yield_maps maps;
     struct rc_store own;
     struct rc_solver *solver;
     struct rc_slabs *slabs;
     struct rc_voxels voxels;
-    bool round;      /* the map repeats */
-    double bearable; /* N: above it all depths yield under the mean pressure */
-    double *other;   /* an earlier pressure, for comparison */
-    bool alone;      /* no load: p is 0                                                          */
-    bool flows;      /* some voxel flowed in the last application */
-    bool elastic;    /* no voxel flows up to this load */
-    bool once;       /* one increment follows, and all of its flow counts as an error */
-    bool thorough;   /* increments also for little flow */
-    bool follows;    /* the load is one more increment of the last one, on other heights */
-    bool travels;    /* such loads may come */
-    bool few;        /* some load was reached in too few increments to know their error */
-    bool failed;     /* a row had no memory */
-    bool pressed;    /* a load was solved: the next contact starts from its pressure */
-    bool stopped;    /* a contact stopped short                                                  */
-    bool moved;      /* the heights have changed */
-    double from, to, set;     /* loads: of the last result, requested, of this increment */
-    double low, high;         /* parts of the load change: without flow, and with flow */
-    double start;             /* load at which the increments start */
-    size_t increments, count; /* increments of a load with flow, and of this load */
-    size_t increment, trial;  /* index of the increment, and of its application */
-    size_t taken;             /* increments of all loads so far                                */
-    double tol, asked_tol;    /* tolerance of the contacts of this load, and the requested one */
-    double kept;              /* error from tolerances of earlier contacts, kept by plastic flow */
-    double worst;             /* largest error of the increments at the positions of this load */
-    double judged; /* factor of the terms of second order of this load, see rc_yield_solver_judge */
-    double order, resistance;
-    double mix; /* Anderson's weight of the previous trial */
+    struct rc_yield_asked asked;
+    struct rc_yield_way way;
+    struct rc_yield_run run;
+    struct rc_yield_errors errors;
+    struct rc_yield_is is;
     enum rc_yield_solver_stage stage;
     struct rc_yield_load figures;
 };

@@ -197,7 +197,7 @@ yielding(void **state)
                 ;
             assert_true(rc_model_number(m, "plastic_volume") == plastic->figures.volume);
             assert_int_equal(rc_model_frame(m, "residual", p, &err), RC_OK);
-            assert_memory_equal(p, plastic->u, sizeof p);
+            assert_memory_equal(p, plastic->maps.u, sizeof p);
         }
         if (k > 0 && loads[k] > 0) {
             assert_int_equal(rc_model_frame(m, "pressure", p, &err), RC_OK);

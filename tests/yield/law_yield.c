@@ -305,8 +305,8 @@ let_go(void **state)
 
     (void)state;
     strain = pressed(plastic, load)->max_strain;
-    dent = plastic->u[middle];
-    assert_true(dent > 0 && plastic->u[0] < dent);
+    dent = plastic->maps.u[middle];
+    assert_true(dent > 0 && plastic->maps.u[0] < dent);
     (void)pressed(plastic, 0);
     for (size_t k = 0; k < SLABS; k++) {
         double *const to[RC_YIELD_STRAINS] = {voxels_map(&e, k, RC_SXX), voxels_map(&e, k, RC_SYY),
@@ -381,13 +381,13 @@ free_maps(void **state)
                    there = (j + (LARGE - SMALL) / 2) * LARGE + i + (LARGE - SMALL) / 2;
             double p = rc_solver_pressure(plastic[0]->solver)[at];
             double q = rc_solver_pressure(plastic[1]->solver)[there];
-            double u = plastic[0]->u[at];
-            double v = plastic[1]->u[there];
+            double u = plastic[0]->maps.u[at];
+            double v = plastic[1]->maps.u[there];
             off += fabs(p - q);
             all += q;
             /* the mean stress of both is that of an unloaded body */
-            bend = fmax(bend, fabs(u - v - plastic[0]->u[0] +
-                                   plastic[1]->u[(LARGE - SMALL) / 2 * (LARGE + 1)]));
+            bend = fmax(bend, fabs(u - v - plastic[0]->maps.u[0] +
+                                   plastic[1]->maps.u[(LARGE - SMALL) / 2 * (LARGE + 1)]));
             dent = fmax(dent, v);
         }
     print_message("free maps of 32 and 96 nodes: pressure %.1e, residual displacement %.1e apart\n",
