@@ -4,76 +4,53 @@
 #include <stddef.h>
 #include <string.h>
 
-/* The kind of a value, and the type of its member. */
-enum kind {
-    TEXT,      /* struct rc_piece                                         */
-    LENGTH,    /* double, m                                               */
-    NUMBER,    /* double, without further text */
-    COUNT,     /* size_t                                                  */
-    IN_METRES, /* struct rc_ascii_unit: a unit of length                  */
-    UNLESS_NO, /* bool                                                    */
-    CHARACTER, /* char: the only one                                      */
-    PRESENT,   /* bool: that the key is there                             */
-    /* these kinds have no member: */
-    VALUE_UNIT, /* unit of the heights */
-    RANGE,      /* a number and that unit                                 */
-    SCAN_SIZE,
+/* The values of the keys, as they are in the file; n = 0: not given. */
+struct given {
+    struct rc_piece channel, width, height, pixel, factor, ny, nx, x_length, y_length, x_unit,
+        y_unit, z_unit, z_range, bit, any_line, x_step, y_step, scale, scaled, size, separator;
 };
 
-#define TO(member) offsetof(struct rc_ascii_head, member)
+#define TO(member) offsetof(struct given, member)
 static const struct {
     const char *key; /* in upper or lower case; several keys are separated by '|' */
-    enum kind kind;
     size_t to;
     bool anywhere; /* profiles and lists of points have such lines too */
 } keys[] = {
-    {"channel|display", TEXT, TO(channel), false},
-    {"width|x-length|x amplitude", LENGTH, TO(width), false},
-    {"height|y-length|y amplitude", LENGTH, TO(height), false},
-    {"value units|data unit|unit data|exported image units", VALUE_UNIT, 0, false},
-    {"pixel size", LENGTH, TO(pixel), false},
-    {"height conversion factor (-> m)", NUMBER, TO(factor), false},
-    {"h|y-pixels|ny", COUNT, TO(ny), false},
-    {"w|x-pixels|nx", COUNT, TO(nx), false},
-    {"x-length", NUMBER, TO(as_given.x_length), false},
-    {"y-length", NUMBER, TO(as_given.y_length), false},
-    {"x-unit|unit x", IN_METRES, TO(as_given.x_unit), true},
-    {"y-unit|unit y", IN_METRES, TO(as_given.y_unit), true},
-    {"z-unit", VALUE_UNIT, 0, true},
-    {"bit2nm", NUMBER, TO(as_given.bit), false},
-    {"file format", PRESENT, TO(any_line), false},
-    {"scale x", NUMBER, TO(as_given.x_step), false},
-    {"scale y", NUMBER, TO(as_given.y_step), false},
-    {"scale data", NUMBER, TO(as_given.scale), false},
-    {"datascaleneeded", UNLESS_NO, TO(as_given.scaled), false},
-    {"scan size", SCAN_SIZE, 0, false},
-    {"sep", CHARACTER, TO(separator), true},
-    {"z amplitude", RANGE, 0, false},
+    {"channel|display", TO(channel), false},
+    {"width|x-length|x amplitude", TO(width), false},
+    {"height|y-length|y amplitude", TO(height), false},
+    {"value units|data unit|unit data|exported image units", TO(z_unit), false},
+    {"pixel size", TO(pixel), false},
+    {"height conversion factor (-> m)", TO(factor), false},
+    {"h|y-pixels|ny", TO(ny), false},
+    {"w|x-pixels|nx", TO(nx), false},
+    {"x-length", TO(x_length), false},
+    {"y-length", TO(y_length), false},
+    {"x-unit|unit x", TO(x_unit), true},
+    {"y-unit|unit y", TO(y_unit), true},
+    {"z-unit", TO(z_unit), true},
+    {"bit2nm", TO(bit), false},
+    {"file format", TO(any_line), false},
+    {"scale x", TO(x_step), false},
+    {"scale y", TO(y_step), false},
+    {"scale data", TO(scale), false},
+    {"datascaleneeded", TO(scaled), false},
+    {"scan size", TO(size), false},
+    {"sep", TO(separator), true},
+    {"z amplitude", TO(z_range), false}, /* a number, and the unit of the heights */
 };
 #undef TO
 
+/* The lines of a header, while they are read. */
+struct lines {
+    struct given given;
+    bool known;    /* at least one line is */
+    bool any_line; /* up to `Start of Data` all lines belong to the header */
+    size_t comments;
+    struct rc_piece comment[4];
+};
+
 /* ---- values of a header ---- */
-
-/* The number at the start of a value and the rest; numbers in a header have the decimal mark of the exporting
- * program. */
-static bool
-leading_number(struct rc_piece *p, double *value)
-{
-    char copy[64];
-    size_t n = p->n < sizeof copy - 1 ? p->n : sizeof copy - 1;
-    const char *end;
-
-    memcpy(copy, p->text, n);
-    copy[n] = '\0';
-    if (strchr(copy, '.') == NULL && strchr(copy, ',') != NULL)
-        *strchr(copy, ',') = '.';
-    if ((end = rc_number_read(copy, false, value)) == NULL)
-        return false;
-    p->text += end - copy;
-    p->n -= (size_t)(end - copy);
-    rc_trim(&p->text, &p->n);
-    return true;
-}
 
 /* A division by a power of ten that a double holds rounds once: 5 um is the double 5e-06. */
 static double
@@ -88,7 +65,7 @@ length_of(struct rc_piece p)
 {
     double value, unit;
 
-    if (!leading_number(&p, &value))
+    if (p.n == 0 || !rc_piece_number(p, &value, &p))
         return NAN;
     unit = rc_piece_metres(rc_piece_bare(p));
     return isnan(unit) ? NAN : in_metres(value, unit);
@@ -99,7 +76,7 @@ number_of(struct rc_piece p)
 {
     double value;
 
-    return leading_number(&p, &value) && p.n == 0 ? value : NAN;
+    return p.n > 0 && rc_piece_number(p, &value, &p) && p.n == 0 ? value : NAN;
 }
 
 static size_t
@@ -118,9 +95,9 @@ take_scan_size(struct rc_ascii_head *h, struct rc_piece p)
 {
     double a, b, unit;
 
-    if (!leading_number(&p, &a))
+    if (p.n == 0 || !rc_piece_number(p, &a, &p))
         return;
-    if (!leading_number(&p, &b))
+    if (!rc_piece_number(p, &b, &p))
         b = a;
     if (rc_length_unit(p.text, p.n, &unit)) {
         h->width = in_metres(a, unit);
@@ -136,53 +113,6 @@ take_unit(struct rc_ascii_head *h, struct rc_piece p)
     rc_text_clean(h->unit, sizeof h->unit, p.text, p.n);
     if (rc_length_unit(p.text, p.n, &h->z))
         h->unit[0] = '\0';
-}
-
-/* Puts a value into the member that is `to` bytes into the head. */
-static void
-take(struct rc_ascii_head *h, enum kind kind, size_t to, struct rc_piece value)
-{
-    void *member = (char *)h + to;
-    double number;
-
-    switch (kind) {
-    case TEXT:
-        *(struct rc_piece *)member = value;
-        break;
-    case LENGTH:
-        *(double *)member = length_of(value);
-        break;
-    case NUMBER:
-        *(double *)member = number_of(value);
-        break;
-    case COUNT:
-        *(size_t *)member = count_of(value);
-        break;
-    case IN_METRES:
-        *(struct rc_ascii_unit *)member =
-            (struct rc_ascii_unit){true, rc_piece_metres(rc_piece_bare(value))};
-        break;
-    case UNLESS_NO:
-        *(bool *)member = !rc_piece_is(value, "no");
-        break;
-    case CHARACTER:
-        if (value.n == 1)
-            *(char *)member = *value.text;
-        break;
-    case PRESENT:
-        *(bool *)member = true;
-        break;
-    case VALUE_UNIT:
-        take_unit(h, value);
-        break;
-    case RANGE:
-        if (leading_number(&value, &number))
-            take_unit(h, value);
-        break;
-    case SCAN_SIZE:
-        take_scan_size(h, value);
-        break;
-    }
 }
 
 /* ---- lines of a header ---- */
@@ -204,7 +134,7 @@ find_mark(const char *s, size_t n, size_t *width)
 
 /* `key: value` or `key=value`; whether the key is one of ours. */
 static bool
-take_entry(struct rc_ascii_head *h, const char *s, size_t n, struct rc_piece *value)
+take_entry(struct lines *h, const char *s, size_t n, struct rc_piece *value)
 {
     size_t width;
     const char *mark = find_mark(s, n, &width);
@@ -220,7 +150,8 @@ take_entry(struct rc_ascii_head *h, const char *s, size_t n, struct rc_piece *va
     key = rc_piece_trim((struct rc_piece){s, (size_t)(mark - s)});
     for (size_t k = 0; k < sizeof keys / sizeof *keys; k++)
         if (rc_piece_is(key, keys[k].key)) {
-            take(h, keys[k].kind, keys[k].to, *value);
+            memcpy((char *)&h->given + keys[k].to, value, sizeof *value);
+            h->any_line = h->any_line || rc_piece_is(key, "file format");
             h->known = h->known || !keys[k].anywhere;
             found = true;
         }
@@ -229,7 +160,7 @@ take_entry(struct rc_ascii_head *h, const char *s, size_t n, struct rc_piece *va
 
 /* Several `key=value` without white space on one line: "h=305 w=75". */
 static bool
-take_words(struct rc_ascii_head *h, const char *s, size_t n)
+take_words(struct lines *h, const char *s, size_t n)
 {
     struct rc_piece value;
     size_t length;
@@ -245,17 +176,9 @@ take_words(struct rc_ascii_head *h, const char *s, size_t n)
     return true;
 }
 
-static void
-remember(struct rc_ascii_head *h, struct rc_piece value)
-{
-    if (h->comments < sizeof h->comment / sizeof *h->comment)
-        h->comment[h->comments] = (struct rc_ascii_comment){value, length_of(value)};
-    h->comments++;
-}
-
 /* True if the line belongs to the header. */
 static bool
-take_line(struct rc_ascii_head *h, const char *s, size_t n)
+take_line(struct lines *h, const char *s, size_t n)
 {
     struct rc_piece value;
 
@@ -268,7 +191,9 @@ take_line(struct rc_ascii_head *h, const char *s, size_t n)
         rc_trim(&s, &n);
         take_entry(h, s, n, &value);
         h->any_line = false; /* this is for headers without a mark in their lines */
-        remember(h, value);
+        if (h->comments < sizeof h->comment / sizeof *h->comment)
+            h->comment[h->comments] = value;
+        h->comments++;
         return true;
     }
     if (n > 1 && *s == '"' && s[1] == '\\') {
@@ -296,66 +221,71 @@ take_line(struct rc_ascii_head *h, const char *s, size_t n)
 /* Gwyddion writes its header in the user's language: four lines. The second and third are lengths, and
  * the last is a unit. */
 static void
-take_by_shape(struct rc_ascii_head *h)
+take_by_shape(struct rc_ascii_head *h, const struct lines *l)
 {
-    const struct rc_ascii_comment *c = h->comment;
+    const struct rc_piece *c = l->comment;
 
-    if (h->comments != 4 || !isnan(h->width) || !isnan(h->height) || isnan(c[1].length) ||
-        isnan(c[2].length) || !isnan(c[0].length) || !isnan(c[3].length))
+    if (l->comments != 4 || !isnan(h->width) || !isnan(h->height) || isnan(length_of(c[1])) ||
+        isnan(length_of(c[2])) || !isnan(length_of(c[0])) || !isnan(length_of(c[3])))
         return;
     h->known = true;
-    h->channel = c[0].value;
-    h->width = c[1].length;
-    h->height = c[2].length;
-    take_unit(h, c[3].value);
+    h->channel = c[0];
+    h->width = length_of(c[1]);
+    h->height = length_of(c[2]);
+    take_unit(h, c[3]);
 }
 
 /* Numbers that have their unit on another line. SPIP's lengths without one are in nanometres, and
  * its Bit2nm is for what has no unit; Nova's scale counts where the header says so. */
 static void
-join_units(struct rc_ascii_head *h)
+join_units(struct rc_ascii_head *h, const struct given *g)
 {
-    double x = h->as_given.x_unit.given ? h->as_given.x_unit.metres : 1e-9;
-    double y = h->as_given.y_unit.given ? h->as_given.y_unit.metres : x;
+    bool has_x = g->x_unit.text != NULL;
+    double x = has_x ? rc_piece_metres(rc_piece_bare(g->x_unit)) : 1e-9;
+    double y = g->y_unit.text != NULL ? rc_piece_metres(rc_piece_bare(g->y_unit)) : x;
 
-    if (!isnan(h->as_given.x_length))
-        h->width = in_metres(h->as_given.x_length, x);
-    if (!isnan(h->as_given.y_length))
-        h->height = in_metres(h->as_given.y_length, y);
-    if (h->as_given.x_unit.given) {
-        h->step_x = in_metres(h->as_given.x_step, x);
-        h->step_y = in_metres(h->as_given.y_step, y);
-    }
-    if (isnan(h->z) && h->unit[0] == '\0' && !isnan(h->as_given.bit))
-        h->z = in_metres(h->as_given.bit, 1e-9);
-    if (h->as_given.scaled)
-        h->z *= h->as_given.scale;
+    if (!isnan(number_of(g->x_length)))
+        h->width = in_metres(number_of(g->x_length), x);
+    if (!isnan(number_of(g->y_length)))
+        h->height = in_metres(number_of(g->y_length), y);
+    h->step_x = has_x ? in_metres(number_of(g->x_step), x) : NAN;
+    h->step_y = has_x ? in_metres(number_of(g->y_step), y) : NAN;
+    if (isnan(h->z) && h->unit[0] == '\0')
+        h->z = in_metres(number_of(g->bit), 1e-9);
+    if (g->scaled.text != NULL && !rc_piece_is(g->scaled, "no"))
+        h->z *= number_of(g->scale);
     if (isnan(h->z))
-        h->z = h->factor;
+        h->z = number_of(g->factor);
 }
 
 void
 rc_ascii_read_head(struct rc_ascii_head *h, struct rc_lines *lines)
 {
     struct rc_lines ahead = *lines;
+    struct lines l = {.known = false};
+    const struct given *g = &l.given;
+    struct rc_piece range;
     const char *line;
+    double number;
     size_t n;
 
-    *h = (struct rc_ascii_head){.width = NAN,
-                                .height = NAN,
-                                .pixel = NAN,
-                                .step_x = NAN,
-                                .step_y = NAN,
-                                .z = NAN,
-                                .factor = NAN,
-                                .as_given = {.x_length = NAN,
-                                             .y_length = NAN,
-                                             .x_step = NAN,
-                                             .y_step = NAN,
-                                             .bit = NAN,
-                                             .scale = NAN}};
-    while (rc_lines_next(&ahead, &line, &n) && take_line(h, line, n))
+    while (rc_lines_next(&ahead, &line, &n) && take_line(&l, line, n))
         *lines = ahead;
-    take_by_shape(h);
-    join_units(h);
+    *h = (struct rc_ascii_head){.known = l.known,
+                                .channel = g->channel,
+                                .width = length_of(g->width),
+                                .height = length_of(g->height),
+                                .pixel = length_of(g->pixel),
+                                .z = NAN,
+                                .nx = count_of(g->nx),
+                                .ny = count_of(g->ny)};
+    if (g->separator.n == 1)
+        h->separator[0] = *g->separator.text;
+    if (g->z_range.n > 0 && rc_piece_number(g->z_range, &number, &range))
+        take_unit(h, range);
+    if (g->z_unit.text != NULL)
+        take_unit(h, g->z_unit);
+    take_scan_size(h, g->size);
+    take_by_shape(h, &l);
+    join_units(h, g);
 }

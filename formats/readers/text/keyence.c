@@ -42,20 +42,8 @@ cells_of(struct rc_piece line, struct rc_piece *cell, size_t most)
 {
     size_t n = 0;
 
-    for (line = rc_piece_trim(line); line.n > 0 && n < most; n++) {
-        bool quoted = *line.text == '"';
-        const char *end = line.text + line.n, *stop = line.text + quoted;
-
-        while (stop < end &&
-               (quoted ? *stop != '"' : *stop != ',' && *stop != ';' && *stop != '\t'))
-            stop++;
-        cell[n] = rc_piece_trim(
-            (struct rc_piece){line.text + quoted, (size_t)(stop - line.text) - quoted});
-        while (stop < end && *stop != ',' && *stop != ';' && *stop != '\t')
-            stop++;
-        line = stop < end ? (struct rc_piece){stop + 1, (size_t)(end - stop) - 1}
-                          : (struct rc_piece){end, 0};
-    }
+    for (line = rc_piece_trim(line); n < most && rc_piece_word(&line, ",;\t", &cell[n]);)
+        n++;
     return n;
 }
 

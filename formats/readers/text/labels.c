@@ -179,24 +179,21 @@ is_alone(const struct edges *e, bool row, struct rc_labels *l, struct rc_err *er
 static void
 corner_units(const struct edges *e, struct rc_labels *l)
 {
-    struct rc_titled_table one = {.titles = 1, .title = {e->corner}};
-    struct rc_piece before, after, unit = rc_titled_table_unit(&one, 0, 'x');
+    struct rc_piece before, after, unit = rc_title_unit(rc_piece_bare(e->corner));
     bool y_first = e->corner.n > 0 && (*e->corner.text | 0x20) == 'y';
 
     l->metres[0] = l->metres[1] = rc_piece_metres(unit);
-    if (unit.n > 0 && rc_titled_table_role(&one, 0) == RC_ROLE_Z) {
+    if (unit.n > 0 && rc_title_role(rc_piece_bare(e->corner)) == RC_ROLE_Z) {
         l->metres[0] = l->metres[1] = NAN;
         l->height_unit = unit;
         return;
     }
     if (!rc_piece_part(e->corner, "\\/|", &before, &after))
         return;
-    one.title[0] = before;
-    if (isnan(rc_piece_metres(unit = rc_titled_table_unit(&one, 0, 'x'))))
+    if (isnan(rc_piece_metres(unit = rc_title_unit(rc_piece_bare(before)))))
         return;
     l->metres[y_first] = rc_piece_metres(unit);
-    one.title[0] = after;
-    if (!isnan(rc_piece_metres(unit = rc_titled_table_unit(&one, 0, 'x'))))
+    if (!isnan(rc_piece_metres(unit = rc_title_unit(rc_piece_bare(after)))))
         l->metres[!y_first] = rc_piece_metres(unit);
 }
 
@@ -254,9 +251,8 @@ judge_row_alone(const struct edges *e, struct rc_err *err)
 static bool
 names_rows(const struct edges *e)
 {
-    struct rc_titled_table one = {.titles = 1, .title = {e->corner}};
-
-    return e->words && (e->corner.n == 0 || rc_titled_table_role(&one, 0) == RC_ROLE_INDEX);
+    return e->words &&
+           (e->corner.n == 0 || rc_title_role(rc_piece_bare(e->corner)) == RC_ROLE_INDEX);
 }
 
 static enum rc_status

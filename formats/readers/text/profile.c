@@ -74,7 +74,6 @@ pick_columns(struct profile *p, struct rc_err *err)
 {
     struct rc_titled_table *t = p->table;
     size_t columns = t->numbers.columns;
-    enum rc_status status;
 
     if (columns == 1) {
         p->valid = p->heights = 1;
@@ -94,9 +93,8 @@ pick_columns(struct profile *p, struct rc_err *err)
         rc_titled_table_column(t, RC_ROLE_Z) < columns)
         return rc_err_set(err, "the titles name x, y and z: that is a list of points, no profile; "
                                "--format xyz reads it");
-    status = rc_titled_table_read(t, err);
-    p->known = t->v != NULL;
-    if (status != RC_OK)
+    p->known = true;
+    if (rc_titled_table_read(t, err) != RC_OK)
         return RC_FAIL;
     p->valid = rc_titled_table_column(t, RC_ROLE_VALID);
     p->x = positions_of(p);

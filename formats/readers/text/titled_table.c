@@ -48,9 +48,8 @@ is_row(struct rc_piece line, size_t columns)
 
 /* ---- titles and units ---- */
 
-/* The unit in a title: the text in brackets, otherwise a word that is a length. */
-static struct rc_piece
-unit_of(struct rc_piece title)
+struct rc_piece
+rc_title_unit(struct rc_piece title)
 {
     static const char *const brackets[] = {"()", "[]", "<>"};
 
@@ -183,7 +182,7 @@ rc_titled_table_unit(const struct rc_titled_table *t, size_t column, char axis)
     struct rc_piece unit = {"", 0};
 
     if (column < t->titles && column < RC_TITLES_MOST)
-        unit = unit_of(rc_piece_bare(t->title[column]));
+        unit = rc_title_unit(rc_piece_bare(t->title[column]));
     return unit.n > 0 ? unit : t->axis_unit[axis - 'x'];
 }
 
@@ -218,12 +217,18 @@ title_of(const struct rc_titled_table *t, size_t column)
                  : (struct rc_piece){"", 0};
 }
 
+static struct rc_piece
+name_of(struct rc_piece title)
+{
+    struct rc_piece before, after;
+
+    return rc_piece_part(title, "([<", &before, &after) && before.n > 0 ? before : title;
+}
+
 struct rc_piece
 rc_titled_table_name(const struct rc_titled_table *t, size_t column)
 {
-    struct rc_piece title = title_of(t, column), before, after;
-
-    return rc_piece_part(title, "([<", &before, &after) && before.n > 0 ? before : title;
+    return name_of(title_of(t, column));
 }
 
 /* "z" of z1, but "encoder1" whole. */
@@ -243,9 +248,9 @@ role_of_word(struct rc_piece word)
 }
 
 enum rc_role
-rc_titled_table_role(const struct rc_titled_table *t, size_t column)
+rc_title_role(struct rc_piece title)
 {
-    struct rc_piece name = rc_titled_table_name(t, column);
+    struct rc_piece name = name_of(title);
     enum rc_role role = RC_ROLE_NONE, other;
 
     for (size_t k = 0, n; k < name.n; k += n + 1) {
@@ -259,6 +264,12 @@ rc_titled_table_role(const struct rc_titled_table *t, size_t column)
         role = role == RC_ROLE_NONE ? other : role;
     }
     return role;
+}
+
+enum rc_role
+rc_titled_table_role(const struct rc_titled_table *t, size_t column)
+{
+    return rc_title_role(title_of(t, column));
 }
 
 size_t
@@ -358,20 +369,19 @@ rc_titled_table_left_out(const struct rc_titled_table *t, struct rc_notes *notes
 static bool
 comma_parts_titles(struct rc_piece before, struct rc_piece row)
 {
-    struct rc_titled_table two = {.numbers = {.columns = 2}};
-    struct rc_piece a, b;
+    struct rc_piece titles = without_mark(before), title, a, b;
+    size_t n = 0;
 
     row = rc_piece_trim(row);
     if (rc_piece_part(row, " \t;", &a, &b) || !rc_piece_part(row, ",", &a, &b) ||
         rc_piece_part(b, ",", &a, &b))
         return false;
-    if (part_at(&two, without_mark(before), ',') != 2)
-        return false;
-    for (size_t c = 0; c < 2; c++)
-        if (rc_titled_table_role(&two, c) == RC_ROLE_NONE &&
-            rc_titled_table_name(&two, c).n == rc_piece_bare(two.title[c]).n)
+    for (; rc_title_next(&titles, ',', &title); n++) {
+        title = rc_piece_bare(title);
+        if (rc_title_role(title) == RC_ROLE_NONE && name_of(title).n == title.n)
             return false;
-    return true;
+    }
+    return n == 2;
 }
 
 /* The text of the file, as UTF-8 or Latin-1, without its mark. */
@@ -488,14 +498,17 @@ rc_titled_table_check(const struct rc_titled_table *t, struct rc_err *err)
 enum rc_status
 rc_titled_table_read(struct rc_titled_table *t, struct rc_err *err)
 {
+    RC_OWNED double *v = NULL;
     size_t n;
 
-    if (t->v == NULL) {
-        t->read = rc_number_table_size(&t->numbers, &n, &t->unread);
-        if (t->read == RC_OK && (t->v = malloc(n * sizeof *t->v)) == NULL)
-            t->read = rc_err_set(&t->unread, "out of memory for %zu values", n);
-        if (t->read == RC_OK)
-            t->read = rc_number_table_read(&t->numbers, t->v, &t->unread);
-    }
-    return t->read == RC_OK ? RC_OK : rc_err_set(err, "%s", t->unread.text);
+    if (t->v != NULL)
+        return RC_OK;
+    if (rc_number_table_size(&t->numbers, &n, err) != RC_OK)
+        return RC_FAIL;
+    if ((v = malloc(n * sizeof *v)) == NULL)
+        return rc_err_set(err, "out of memory for %zu values", n);
+    if (rc_number_table_read(&t->numbers, v, err) != RC_OK)
+        return RC_FAIL;
+    t->v = rc_give(&v);
+    return RC_OK;
 }

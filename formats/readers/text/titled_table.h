@@ -43,8 +43,6 @@ struct rc_titled_table {
     enum rc_status status;        /* RC_FAIL: there is no table in the file, for this reason */
     struct rc_err why;
     double *v; /* numbers.rows * numbers.columns values; NULL: not yet read */
-    enum rc_status read;
-    struct rc_err unread;
     struct rc_table_found {
         const struct rc_table_kind *kind; /* NULL: not yet looked for */
         void *found;
@@ -70,11 +68,15 @@ void *rc_table_as(struct rc_maps *maps, const struct rc_table_kind *kind, enum r
 /* For the kinds. RC_FAIL when the file has no table of numbers: rows of at least two columns, otherwise of
  * one. */
 enum rc_status rc_titled_table_check(const struct rc_titled_table *table, struct rc_err *err);
-/* Reads its values, the first time. RC_FAIL names the first row that differs from the first one in its
+/* Reads its values, unless they are read. RC_FAIL names the first row that differs from the first one in its
  * columns. */
 enum rc_status rc_titled_table_read(struct rc_titled_table *table, struct rc_err *err);
-/* The unit of a column is the text in brackets in its title, otherwise a word in the title that is a length.
- * Otherwise it is the unit of the axis 'x', 'y' or 'z' from a separate line. Empty if there is none. */
+/* Of a title without quotes: the unit is the text in brackets, otherwise a word that is a length; empty if
+ * there is none. */
+struct rc_piece rc_title_unit(struct rc_piece title);
+enum rc_role rc_title_role(struct rc_piece title);
+/* The unit of a column is that of its title, otherwise that of the axis 'x', 'y' or 'z' from a separate
+ * line. */
 struct rc_piece rc_titled_table_unit(const struct rc_titled_table *table, size_t column, char axis);
 enum rc_role rc_titled_table_role(const struct rc_titled_table *table, size_t column);
 /* The first column of this kind; without one, the number of columns. */
