@@ -41,12 +41,14 @@ read_all(const struct made_file *f, const unsigned char *bytes, size_t n, size_t
     struct rc_wish wish = wish_for(f->flags);
     struct rc_channel channel[CHANNELS];
     struct rc_grid *kept = NULL;
+    struct rc_maps *maps;
     size_t channels;
 
     memcpy(copy, bytes, n);
     rc_format_find(&file, NULL);
     err->text[0] = '\0';
-    channels = list_maps(format, &file, &wish, channel, CHANNELS, err);
+    maps = rc_format_open(format, &file, &wish, err);
+    channels = maps == NULL ? 0 : rc_maps_list(maps, channel, CHANNELS);
     if (channels == 0 && err->text[0] == '\0')
         fail_msg("%s, %zu bytes: not listed, without a reason", f->title, n);
     check_words(f, err->text);
@@ -55,7 +57,7 @@ read_all(const struct made_file *f, const unsigned char *bytes, size_t n, size_t
         struct rc_grid *g;
 
         err->text[0] = '\0';
-        g = read_map(format, &file, &wish, k, &notes, err);
+        g = rc_format_read(maps, &wish, k, &notes, err);
         if (g == NULL && err->text[0] == '\0')
             fail_msg("%s, %zu bytes: refused without a reason", f->title, n);
         check_words(f, err->text);
@@ -68,6 +70,7 @@ read_all(const struct made_file *f, const unsigned char *bytes, size_t n, size_t
         else
             rc_grid_free(g);
     }
+    rc_maps_free(maps);
     free(copy);
     return kept;
 }
