@@ -47,36 +47,77 @@ rc_adhesion_law_named(const char *name)
 /* ---- a path ---- */
 
 enum {
-    SLOW = 2,        /* successive steps that lower the eigenvalue by less than 2 % */
-    BELOW = 2,       /* successive states with an error below tol */
-    LEAVES = 20,     /* most saddles of a state */
-    PARTS = 40,      /* of a way, at most */
-    TURNS = 16,      /* with frozen attraction, at most */
-    COARSEST = 32,   /* nodes along a map; a smaller coarse grid does not pay */
-    EIGEN_STEPS = 40 /* at most */
+    /* Successive steps that lower the eigenvalue by less than 2 %. Not sensitive: half and double
+     * change the convolutions by less than 1 % (27 runs of bench/constants.py). */
+    SLOW = 2,
+    /* Successive states with an error below tol. One state may be below it by chance: with half the
+     * convolutions are 10 % fewer, and the error up to 24 times as large. Double takes 26 % more (27
+     * runs of bench/constants.py). */
+    BELOW = 2,
+    /* Most saddles of a state. Not sensitive: half and double change no bit (27 runs of
+     * bench/constants.py). */
+    LEAVES = 20,
+    /* Most parts of a way. Not sensitive: half and double change no bit (27 runs of
+     * bench/constants.py). */
+    PARTS = 40,
+    /* Most turns with frozen attraction. Not sensitive: half and double change no bit (27 runs of
+     * bench/constants.py). */
+    TURNS = 16,
+    /* Nodes along a map; a smaller coarse grid does not pay. Not sensitive: half and double take 1 %
+     * fewer convolutions (27 runs of bench/constants.py). */
+    COARSEST = 32,
+    /* Most steps of an eigenvalue. Not sensitive: half and double change no bit (27 runs of
+     * bench/constants.py). */
+    EIGEN_STEPS = 40
 };
-static const double nodes_default =
-    2; /* nodes in the cohesive length if the grid determines the range */
-static const double eigen_exact = 0.2; /* accepted error of the eigenvalue, relative */
-static const double loosest = 1e-3;    /* largest tol: with a larger error the eigenvalue has no
-                                          meaning */
-/* The error is at most 2 e/sqrt(mu). If soft modes have most of it, the bound is 1.25 e/mu. It is not used
- * below `soft`, because soft modes never have all of the error. Most errors are near e: a ratio is measured
- * by the change of the pressure while e halves. The softest mode may hide from it, and is found apart. */
+/* Nodes in the cohesive length if the grid determines the range: with fewer the grid pins the contact,
+ * see contact-theory(7). It is a choice of the problem, not of its solution. */
+static const double nodes_default = 2;
+/* Accepted relative error of the eigenvalue, which decides about stability and the estimate only. Half
+ * takes 1 % more convolutions, double 1 % fewer (27 runs of bench/constants.py). */
+static const double eigen_exact = 0.2;
+/* Largest tol: with a larger error the eigenvalue has no meaning. At 1e-2 a state was taken for a
+ * saddle and left, with 148 convolutions in place of 57 at 1e-4. */
+static const double loosest = 1e-3;
+/* The error is at most 2 e/sqrt(mu). If soft modes have most of it, the bound is 1.25 e/mu. It is not
+ * used below `soft`, because soft modes never have all of the error. Most errors are near e: a ratio is
+ * measured by the change of the pressure while e halves. The softest mode may hide from it, and is
+ * found apart. Half of `safe` takes 3 % fewer convolutions, with errors up to 4 times as large; double
+ * takes 6 % more (27 runs of bench/constants.py). Half of the other two changes no convolution; double
+ * takes up to 2 % more. */
 static const double safe = 2, safe_soft = 1.25, soft = 0.05;
-static const double least_ratio = 1.25; /* of error to e */
-/* Fraction of tol, because the errors of dents stay and those of later states add up. */
+/* The least ratio of error to e. Half changes no convolution, double takes 0.4 % more (27 runs of
+ * bench/constants.py). */
+static const double least_ratio = 1.25;
+/* Fraction of tol, because the errors of dents stay and those of later states add up. Not sensitive:
+ * half and double change the convolutions by less than 1 % (27 runs of bench/constants.py). */
 static const double yielding_part = 0.05;
-static const double coarse_tol = 1e-3; /* correction of the state on a coarser grid, relative */
-static const double single = 4e-6;     /* error of an eigenvalue in single precision */
-static const double energy_rounding = 1e-6; /* relative */
-static const double unclear = 0.4;  /* part of the loss that a way without jumps cannot exceed */
-static const double most_way = 0.4; /* over the range: a part where the load reverses */
-static const double force_noise = 0.003; /* variation of the load from node to node, relative */
-static const double finest =
-    0.1; /* shortest part that is divided because of its loss, over the way */
-static const double near = 0.1;   /* an error from which the iteration ends at the nearest state */
-static const double turned = 0.1; /* part of the error at the begin of a turn */
+/* Correction of the state on a coarser grid, relative. Not sensitive: half and double change the
+ * convolutions by less than 1 % (27 runs of bench/constants.py). */
+static const double coarse_tol = 1e-3;
+/* Relative error of an eigenvalue in single precision, some 30 roundings of 1.2e-7. Half and double
+ * change no bit (27 runs of bench/constants.py). */
+static const double single = 4e-6;
+/* Relative rounding of an energy in single precision. Half and double change no bit (27 runs of
+ * bench/constants.py). */
+static const double energy_rounding = 1e-6;
+/* Part of the loss that a way without jumps cannot exceed, above which the part is divided. Half
+ * divides one of 27 runs more, double changes no bit (bench/constants.py). */
+static const double unclear = 0.4;
+/* Over the range: the longest part where the load reverses. Half takes 8 % more convolutions, with
+ * errors down to 0.8 times. Double takes 0.5 % fewer (27 runs of bench/constants.py). */
+static const double most_way = 0.4;
+/* Relative variation of the load from node to node. Not sensitive: half and double change no bit (27
+ * runs of bench/constants.py). */
+static const double force_noise = 0.003;
+/* Shortest part that is divided because of its loss, over the way. */
+static const double finest = 0.1;
+/* An error from which the iteration ends at the nearest state. Not sensitive: half changes one of 27
+ * runs by 2 %, double none (bench/constants.py). */
+static const double near = 0.1;
+/* Part of the error at the begin of a turn. Not sensitive: half and double change the convolutions by
+ * less than 1 % (27 runs of bench/constants.py). */
+static const double turned = 0.1;
 
 enum stage {
     STAGE_NEW,

@@ -9,24 +9,49 @@
 #include <stdlib.h>
 #include <string.h>
 
-static const double clipped_anew =
-    0.02; /* part of the free nodes: if more reach 0 in a step, CG restarts */
-static const double curvature = 0.05; /* factor of d'A d: the least curvature that a step assumes */
+/* Part of the free nodes: if more reach 0 in a step, CG restarts. */
+static const double clipped_anew = 0.02;
+/* Factor of d'A d: the least curvature that a step assumes. Not sensitive: half and double change no
+ * convolution (27 runs of bench/constants.py). */
+static const double curvature = 0.05;
+/* Factor of a step that rises. Not sensitive: half and double change the convolutions by at most 1 %
+ * (27 runs of bench/constants.py). */
 static const double shorter = 0.4;
-static const double single = 1e-6;           /* error of A d in single precision */
-static const double float_rounding = 1.2e-7; /* error of the pressures of a step, L1 */
-static const double vanishing = 1e-12;       /* relative to the largest traction */
-static const double rounding = 4e-15;        /* error of A u in double precision, L1 */
-static const double fresh =
-    1e-4; /* when the error has fallen by this factor, A u is computed again */
-static const double linear = 1e-2; /* an error below which the corrections are those of the state */
-static const double most_cut = 0.2; /* part of the error from neglected coefficients */
-static const double exact = 1e-3;   /* part of the slope that a line search may leave */
+/* Error of A d in single precision, some ten roundings of 1.2e-7. Half and double change no bit. */
+static const double single = 1e-6;
+/* Error of the pressures of a step, L1: the rounding of single precision. Half and double change the
+ * estimate by at most 10 %. */
+static const double float_rounding = 1.2e-7;
+/* Relative to the largest traction: rounding of the sum of a map. Half and double change no bit (27
+ * runs of bench/constants.py). */
+static const double vanishing = 1e-12;
+/* Error of A u in double precision, L1, some twenty roundings of 2.2e-16. Half and double change no
+ * convolution. */
+static const double rounding = 4e-15;
+/* When the error has fallen by this factor, A u is computed again: single precision would be felt at
+ * 1e-6. */
+static const double fresh = 1e-4;
+/* An error below which the corrections are those of the state. Not sensitive: half and double change
+ * the convolutions by less than 1 % (27 runs of bench/constants.py). */
+static const double linear = 1e-2;
+/* Part of the error from neglected coefficients. */
+static const double most_cut = 0.2;
+/* Part of the slope that a line search may leave. Half changes no convolution, double takes 0.4 % more
+ * (27 runs of bench/constants.py). */
+static const double exact = 1e-3;
 enum {
     LINE = RC_GAP_LINE,
+    /* Most steps of Newton's method on a line. Not sensitive: half and double change the convolutions
+     * by at most 1 % (27 runs of bench/constants.py). */
     NEWTON = 12,
+    /* Most shorter trials of a step, down to 0.4^12 = 2e-5 of it. Not sensitive: half and double change
+     * the convolutions by less than 1 % (27 runs of bench/constants.py). */
     SHORTEN = 12,
+    /* Most steps of Newton's method for a given mean. Not sensitive: half and double change no
+     * convolution (27 runs of bench/constants.py). */
     PROJECT = 4,
+    /* Most longer trials, each twice as long. Half and double change no bit (27 runs of
+     * bench/constants.py). */
     DOUBLE = 10
 };
 
