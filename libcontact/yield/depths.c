@@ -12,6 +12,8 @@
 enum {
     MOST = 80 /* most slabs: starting with half a node, so many reach deeper than any map needs */
 };
+/* Thickness of a slab over that of the one above it: the stress changes over lengths as large as its
+ * depth. */
 static const double growth = 1.25;
 
 /* Finds the largest Mises stress at the middle of each slab, and the number of nodes with more than

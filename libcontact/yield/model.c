@@ -17,27 +17,50 @@
 #include "libcontact/memory.h"
 
 enum {
-    FIRST = 8,       /* increments of the first try of a load */
-    MOST_AUTO = 128, /* increments of the last try */
+    /* Increments of the first try of a load: with fewer their error is unknown, see FEW. Half takes 1.4
+     * times the applications and double 1.2 times (23 lists of loads of bench/constants.py). */
+    FIRST = 8,
+    /* Increments of the last try, so that a load ends. Half and double change no bit (23 lists of loads
+     * of bench/constants.py). */
+    MOST_AUTO = 128,
+    /* Half, one try, takes 0.8 times the applications, and five loads miss their goal; double changes no
+     * bit (23 lists of loads of bench/constants.py). */
     TRIES = 3
 };
-static const double deserved = 1e-2;      /* goal of the error that determines the increments */
-static const double contact_most = 1e-4;  /* largest tolerance of each contact */
-static const double contact_least = 1e-6; /* its smallest tolerance, for a smaller goal */
-static const double contact_share = 0.1;  /* part of the goal */
-static const double lag_least = 1e-3;     /* the smallest lag that single precision allows */
-static const double for_later = 0.7;      /* part of the goal for a load that others follow */
-/* The increments of the next try over those of the last one: the first factor times error over goal, within
- * bounds. The second line is for a third try, whose error is known better. */
+/* Goal of the error that determines the increments. Half takes 1.3 times the applications, double 0.8
+ * times, and errors follow (23 lists of loads of bench/constants.py). */
+static const double deserved = 1e-2;
+/* Largest tolerance of each contact. Half changes no number of applications; double takes 4 % more,
+ * because flow keeps a part of the error (23 lists of loads of bench/constants.py). */
+static const double contact_most = 1e-4;
+/* Its smallest tolerance, for a smaller goal. Half and double change no bit (23 lists of loads of
+ * bench/constants.py). */
+static const double contact_least = 1e-6;
+/* Part of the goal. Half and double change no bit (23 lists of loads of bench/constants.py). */
+static const double contact_share = 0.1;
+/* The smallest lag that single precision allows. Half and double change no bit (23 lists of loads of
+ * bench/constants.py). */
+static const double lag_least = 1e-3;
+/* Part of the goal for a load that others follow: they inherit its error. Half takes 1.2 times the
+ * applications, double 0.9 times, with errors up to 5 times as large (23 lists of loads of
+ * bench/constants.py). */
+static const double for_later = 0.7;
+/* The increments of the next try over those of the last one: the first factor times error over goal,
+ * within bounds. The second line is for a third try, whose error is known better. Not sensitive: half
+ * and double of each number change the applications by at most 5 % (23 lists of loads of
+ * bench/constants.py). */
 static const struct {
     double beyond, least, most;
 } second = {1.6, 2, 4}, third = {1.3, 1.2, 4};
-/* Two runs give two errors of the increments, and the estimate is the larger one. The first is `of_terms`
- * times the error from the terms of second order. The second is `of_change` times the change of the pressure
- * over ratio - 1. In 367 loads of random lists no estimate was below the error for 8 and 16 or 8 and 24
- * increments, one for 16 and 32, two for 8 and 32. */
+/* Two runs give two errors of the increments, and the estimate is the larger one. The first is
+ * `of_terms` times the error from the terms of second order. The second is `of_change` times the change
+ * of the pressure over ratio - 1. In 367 loads of random lists no estimate was below the error for 8
+ * and 16 or 8 and 24 increments, one for 16 and 32, two for 8 and 32. Half of the factors takes as many
+ * applications or 4 % fewer, double 9 and 18 % more (23 lists of loads of bench/constants.py). */
 static const double of_terms = 0.6, of_change = 1.5;
-static const double least_ratio = 2, most_ratio = 4; /* of the increments of the two runs */
+/* Of the increments of the two runs. Half and double of both change the applications by at most 4 % (23
+ * lists of loads of bench/constants.py). */
+static const double least_ratio = 2, most_ratio = 4;
 
 enum stage {
     APART,   /* no load, and nothing has yielded */
