@@ -277,29 +277,63 @@ CONTACT(to_an_approach, bare, .approach = 1e-7, .discretization = true)
 CONTACT(coated_contact, layered, .load = 1e-3)
 CONTACT(free_to_tilt, bare, .load = 1e-3, .tilt_free = true)
 
-/* Takes a model to two points, the second one in another model that is restored from the first state; reads
- * figures and a frame. */
-static enum rc_status
-elastic_model(double *out, struct rc_err *err)
-{
-    static const struct rc_problem o = {
-        .pair.estar = 1e9, .tol = 1e-5, .hardness = 2e7, .threads = 1};
-    static const struct rc_elastic_asks asks = {.stiffness = true};
-    struct rc_model *m = rc_elastic_new(&shape, rough, &o, &asks, err), *other = NULL;
-    enum rc_status status = RC_FAIL;
-    struct rc_point to = {0}, at;
-    struct rc_expected expected;
-    struct rc_loops loops;
-    double *state = NULL;
-    const void *data;
-    size_t n = 0;
-    bool going;
+/* ---- models ---- */
 
-    rc_point_set(&to, RC_LOAD, 1e-3);
-    if (m == NULL || rc_model_plan(m, &to, &expected, err) != RC_OK ||
-        rc_model_set_heights(m, rough, err) != RC_OK || rc_model_run(m, &to, err) == RC_FAIL ||
-        rc_model_keep(m, err) != RC_OK || rc_model_go(m, &to, err) != RC_MORE ||
-        rc_model_step(m, err) == RC_FAIL)
+/* A model and two points of its history. The first point becomes history. On the way to the second one, after
+ * some steps, the state goes into another model, which reaches the point; a frame and a figure are read. */
+struct story {
+    struct rc_model *(*make)(struct rc_err *err);
+    struct rc_relaxation *(*material)(struct rc_err *err); /* NULL: none; it outlives the models */
+    struct rc_point first, second;
+    int steps;                             /* on the way to the second point, at least one */
+    bool (*under_way)(struct rc_model *m); /* more steps, until it is true; NULL: none     */
+    const char *frame;
+    double (*figure)(struct rc_model *m);
+    /* what only this model has, at the second point; NULL: nothing */
+    enum rc_status (*more)(struct rc_model *m, double *out, struct rc_err *err);
+};
+static struct rc_relaxation *rubber; /* the material of the present story */
+
+static void
+set_point(struct rc_point *to, const struct rc_point *given)
+{
+    for (enum rc_axis axis = 0; axis < RC_AXES; axis++)
+        if (given->given >> axis & 1)
+            rc_point_set(to, axis, given->at[axis]);
+}
+
+/* To the first point, and some steps towards the second one. */
+static enum rc_status
+begin(struct rc_model *m, const struct story *s, struct rc_point *to, struct rc_err *err)
+{
+    struct rc_expected expected;
+
+    set_point(to, &s->first);
+    if (rc_model_plan(m, to, &expected, err) != RC_OK || rc_model_run(m, to, err) == RC_FAIL ||
+        rc_model_keep(m, err) != RC_OK)
+        return RC_FAIL;
+    set_point(to, &s->second);
+    if (rc_model_go(m, to, err) != RC_MORE)
+        return RC_FAIL;
+    for (int k = 0; k < s->steps || (s->under_way != NULL && !s->under_way(m)); k++)
+        if (rc_model_step(m, err) != RC_MORE)
+            return rc_err_set(err, "%s: no step %d", rc_model_name(m), k);
+    return RC_OK;
+}
+
+static enum rc_status
+told(const struct story *s, double *out, struct rc_err *err)
+{
+    struct rc_model *m = NULL, *other = NULL;
+    enum rc_status status = RC_FAIL;
+    struct rc_point to = {0};
+    double *state = NULL;
+    bool going;
+    size_t n;
+
+    if (s->material != NULL && (rubber = s->material(err)) == NULL)
+        return RC_FAIL;
+    if ((m = s->make(err)) == NULL || begin(m, s, &to, err) != RC_OK)
         goto done;
     n = rc_model_state_size(m);
     if ((state = malloc(n * sizeof *state)) == NULL) {
@@ -307,339 +341,296 @@ elastic_model(double *out, struct rc_err *err)
         goto done;
     }
     rc_model_state(m, state);
-    if ((other = rc_elastic_new(&shape, rough, &o, &asks, err)) == NULL ||
-        rc_model_restore(other, state, n, &going, err) != RC_OK ||
-        rc_model_set_heights(other, rough, err) != RC_OK ||
-        rc_model_set_compliance(other, 0, NULL, 0, err) != RC_OK ||
-        rc_model_run(other, &to, err) == RC_FAIL || rc_model_look(other, &at, err) != RC_OK ||
-        rc_model_frame(other, rc_model_frame_kind(other, 1)->name, out, err) != RC_OK)
+    if ((other = s->make(err)) == NULL || rc_model_restore(other, state, n, &going, err) != RC_OK)
         goto done;
-    rc_model_progress(other, &loops);
-    out[N] = rc_model_number(other, rc_model_figure(other, 0, &data)->name);
-    out[N + 1] = rc_elastic_result(other)->stiffness + (double)loops.n + (double)going;
-    out[N + 2] = at.at[RC_LOAD] + (double)rc_model_shape(other).nx + rc_model_name(other)[0];
-    out[N + 3] = rc_axis_info(0)->name[0] + rc_solver_load(rc_model_solver(other));
-    status = RC_OK;
+    assert_true(going);
+    while ((status = rc_model_step(other, err)) == RC_MORE)
+        continue;
+    if (status == RC_FAIL)
+        goto done;
+    status = RC_FAIL;
+    if (rc_model_look(other, NULL, err) == RC_OK &&
+        rc_model_frame(other, s->frame, out, err) == RC_OK) {
+        out[N] = s->figure(other);
+        status = s->more == NULL ? RC_OK : s->more(other, out + N + 1, err);
+    }
 done:
     free(state);
     rc_model_free(m);
     rc_model_free(other);
+    rc_relaxation_free(rubber);
+    rubber = NULL;
     return status;
 }
 
-/* The model of yield: a load, a second load that is discarded half-way, and a larger one. */
+/* MAKER(name, model): the function `name` makes this model. FIGURE(name, result): the function `name` gives this result of a model m. */
+#define MAKER(name, model)                                                                         \
+    static struct rc_model *name(struct rc_err *err)                                               \
+    {                                                                                              \
+        return model;                                                                              \
+    }
+#define FIGURE(name, result)                                                                       \
+    static double name(struct rc_model *m)                                                         \
+    {                                                                                              \
+        return result;                                                                             \
+    }
+
+static struct rc_model *
+elastic(struct rc_err *err)
+{
+    static const struct rc_problem o = {
+        .pair.estar = 1e9, .tol = 1e-5, .hardness = 2e7, .threads = 1};
+    static const struct rc_elastic_asks asks = {.stiffness = true};
+
+    return rc_elastic_new(&shape, rough, &o, &asks, err);
+}
+FIGURE(stiffness, rc_elastic_result(m)->stiffness)
+
 static enum rc_status
-yield_model(double *out, struct rc_err *err)
+other_heights(struct rc_model *m, double *out, struct rc_err *err)
+{
+    struct rc_loops loops;
+    struct rc_point at;
+    const void *data;
+
+    if (rc_model_set_heights(m, rough, err) != RC_OK ||
+        rc_model_set_compliance(m, 0, NULL, 0, err) != RC_OK ||
+        rc_model_run(m, &(struct rc_point){1U << RC_LOAD, {[RC_LOAD] = 1e-3}}, err) == RC_FAIL ||
+        rc_model_look(m, &at, err) != RC_OK ||
+        rc_model_frame(m, rc_model_frame_kind(m, 1)->name, out, err) != RC_OK)
+        return RC_FAIL;
+    rc_model_progress(m, &loops);
+    out[N] = rc_model_number(m, rc_model_figure(m, 0, &data)->name) + (double)loops.n;
+    out[N + 1] = at.at[RC_LOAD] + (double)rc_model_shape(m).nx + rc_model_name(m)[0];
+    out[N + 2] = rc_axis_info(0)->name[0] + rc_solver_load(rc_model_solver(m));
+    return RC_OK;
+}
+
+static const struct rc_problem *
+pressed(enum rc_boundary boundary)
+{
+    static struct rc_problem contact;
+
+    contact = (struct rc_problem){.boundary = boundary, .pair = bare, .tol = 1e-3, .threads = 1};
+    return &contact;
+}
+
+static struct rc_yield_problem
+yields(void)
+{
+    return (struct rc_yield_problem){
+        .contact = {.boundary = RC_PERIODIC, .pair = bare, .tol = 0.1, .threads = 1},
+        .law.stress = bare.one.e / 100};
+}
+
+static struct rc_model *
+given_slabs(struct rc_err *err)
 {
     static const double slabs[] = {.5e-6, .7e-6, 1e-6};
-    struct rc_yield_problem problem = {
-        .contact = {.boundary = RC_PERIODIC, .pair = bare, .tol = 0.1, .threads = 1},
-        .law.stress = bare.one.e / 100,
-        .slabs = 3,
-        .thickness = slabs,
-        .increments = 4};
-    struct rc_model *m = rc_yield_new(&shape, rough, &problem, err);
-    enum rc_status status = RC_FAIL;
-    struct rc_point to = {0};
+    struct rc_yield_problem problem = yields();
 
-    rc_point_set(&to, RC_LOAD, 1e-3);
-    if (m == NULL || rc_model_run(m, &to, err) == RC_FAIL || rc_model_look(m, NULL, err) != RC_OK ||
-        rc_model_keep(m, err) != RC_OK || rc_model_go(m, &to, err) != RC_MORE ||
+    problem.slabs = 3;
+    problem.thickness = slabs;
+    problem.increments = 4;
+    return rc_yield_new(&shape, rough, &problem, err);
+}
+FIGURE(depth, rc_yield_result(m)->last.depth + (double)rc_yield_result(m)->slabs)
+
+/* A load is given up half-way for the same again. */
+static enum rc_status
+again(struct rc_model *m, double *out, struct rc_err *err)
+{
+    const struct rc_point to = {1U << RC_LOAD, {[RC_LOAD] = 1e-3}};
+
+    if (rc_model_keep(m, err) != RC_OK || rc_model_go(m, &to, err) != RC_MORE ||
         rc_model_step(m, err) == RC_FAIL || rc_model_run(m, &to, err) == RC_FAIL ||
-        rc_model_look(m, NULL, err) != RC_OK || rc_model_frame(m, "residual", out, err) != RC_OK)
-        goto done;
-    out[N] = rc_yield_result(m)->last.depth + (double)rc_yield_result(m)->slabs;
-    status = RC_OK;
-done:
-    rc_model_free(m);
-    return status;
+        rc_model_look(m, NULL, err) != RC_OK)
+        return RC_FAIL;
+    return rc_model_frame(m, "residual", out, err);
 }
 
-/* Dissimilar bodies are pressed and moved; half-way to a second point the state is restored in another
- * model. */
-static enum rc_status
-friction_model(double *out, struct rc_err *err)
+/* Automatic slabs and increments; the first of two loads does not yield. */
+static struct rc_model *
+may_yield(struct rc_err *err)
 {
-    const struct rc_problem contact = {.boundary = RC_PERIODIC, .pair = bare, .threads = 1};
-    struct rc_friction_problem law = {
+    const struct rc_yield_problem problem = yields();
+    struct rc_model *m = rc_yield_new(&shape, rough, &problem, err);
+
+    if (m != NULL)
+        rc_yield_plan(m, 2, 1e-3);
+    return m;
+}
+
+static double
+slabs_found(struct rc_model *m)
+{
+    const struct rc_yield_problem problem = yields();
+
+    return (double)rc_yield_result(m)->slabs + rc_yield_law_stress(&problem.law, 0);
+}
+
+static bool
+has_strain(struct rc_model *m)
+{
+    static double map[N];
+    double *const strain[RC_YIELD_STRAINS] = {map};
+
+    return rc_yield_strain(m, 0, strain);
+}
+
+/* Dissimilar bodies are pressed and moved. */
+static struct rc_friction_problem
+rubs(void)
+{
+    return (struct rc_friction_problem){
         .law = {.boundary = RC_PERIODIC, .pair = bare, .mu = 0.3, .threads = 1},
         .increments = 2,
         .fewer = 1};
-    struct rc_model *m, *other = NULL;
-    enum rc_status status = RC_FAIL;
-    struct rc_point to = {0};
-    double *state = NULL;
-    bool going;
-    size_t n;
-
-    law.inner_of_fewer[0] = rc_elastic_new(&shape, rough, &contact, NULL, err);
-    m = rc_friction_new(rc_elastic_new(&shape, rough, &contact, NULL, err), rough, &law, err);
-    rc_point_set(&to, RC_LOAD, 1e-3);
-    rc_point_set(&to, RC_DISPLACEMENT_X, 1e-9);
-    rc_point_set(&to, RC_DISPLACEMENT_Y, 1e-10);
-    if (m == NULL || rc_model_run(m, &to, err) == RC_FAIL || rc_model_keep(m, err) != RC_OK)
-        goto done;
-    rc_point_set(&to, RC_DISPLACEMENT_X, 2e-9);
-    if (rc_model_go(m, &to, err) != RC_MORE || rc_model_step(m, err) == RC_FAIL)
-        goto done;
-    n = rc_model_state_size(m);
-    if ((state = malloc(n * sizeof *state)) == NULL) {
-        rc_err_set(err, "out of memory");
-        goto done;
-    }
-    rc_model_state(m, state);
-    law.inner_of_fewer[0] = rc_elastic_new(&shape, rough, &contact, NULL, err);
-    other = rc_friction_new(rc_elastic_new(&shape, rough, &contact, NULL, err), rough, &law, err);
-    if (other == NULL || rc_model_restore(other, state, n, &going, err) != RC_OK ||
-        rc_model_run(other, &to, err) == RC_FAIL || rc_model_look(other, NULL, err) != RC_OK ||
-        rc_model_frame(other, "traction-x", out, err) != RC_OK)
-        goto done;
-    out[N] =
-        rc_friction_result(other)->last.force[0] +
-        (double)rc_friction_leg(&law, &(struct rc_leg){0}, &(struct rc_point){0}, &to).increments;
-    status = RC_OK;
-done:
-    free(state);
-    rc_model_free(m);
-    rc_model_free(other);
-    return status;
 }
 
-/* A ball rolls, with the force given; half-way the state is restored in another model. */
-static enum rc_status
-rolling_model_of(bool path, double *out, struct rc_err *err)
+static struct rc_model *
+friction(struct rc_err *err)
 {
-    const struct rc_problem contact = {.pair = bare, .tol = 1e-3, .threads = 1};
+    const struct rc_problem contact = {.boundary = RC_PERIODIC, .pair = bare, .threads = 1};
+    struct rc_friction_problem law = rubs();
+
+    law.inner_of_fewer[0] = rc_elastic_new(&shape, rough, &contact, NULL, err);
+    return rc_friction_new(rc_elastic_new(&shape, rough, &contact, NULL, err), rough, &law, err);
+}
+
+static double
+force(struct rc_model *m)
+{
+    const struct rc_point to = {1U << RC_DISPLACEMENT_X, {[RC_DISPLACEMENT_X] = 2e-9}};
+    const struct rc_friction_problem law = rubs();
+
+    return rc_friction_result(m)->last.force[0] +
+           (double)rc_friction_leg(&law, &(struct rc_leg){0}, &(struct rc_point){0}, &to)
+               .increments;
+}
+
+/* A ball rolls, with the force given. */
+static struct rc_model *
+roller(bool path, struct rc_err *err)
+{
     const struct rc_rolling_problem law = {
         .law = {.pair = bare, .mu = 0.3, .tol = 1e-2, .threads = 1}, .force = true, .path = path};
-    struct rc_model *m, *other = NULL;
-    enum rc_status status = RC_FAIL;
-    double ball[N], *state = NULL;
-    struct rc_expected expected;
-    struct rc_point to = {0};
-    bool going;
-    size_t n;
+    static double ball[N];
 
     for (size_t k = 0; k < N; k++) {
         const double x = (double)(k % shape.nx) - (double)shape.nx / 2,
                      y = (double)k / (double)shape.nx - (double)shape.ny / 2;
         ball[k] = -(x * x + y * y) * shape.dx * 0.01;
     }
-    m = rc_rolling_new(rc_elastic_new(&shape, ball, &contact, NULL, err), &law, err);
-    rc_point_set(&to, RC_LOAD, 1e-3);
-    rc_point_set(&to, RC_TANGENTIAL_X, 1e-4);
-    rc_point_set(&to, RC_POSITION, 0);
-    rc_point_set(&to, RC_TANGENTIAL_Y, 0);
-    if (m == NULL || rc_model_plan(m, &to, &expected, err) != RC_OK ||
-        rc_model_run(m, &to, err) == RC_FAIL || rc_model_keep(m, err) != RC_OK)
-        goto done;
-    rc_point_set(&to, RC_TANGENTIAL_Y, 1e-4);
-    rc_point_set(&to, RC_POSITION, 2e-6);
-    if (rc_model_go(m, &to, err) != RC_MORE)
-        goto done;
-    for (int k = 0; k < (path ? 4 : 25); k++)
-        if (rc_model_step(m, err) == RC_FAIL)
-            goto done;
-    n = rc_model_state_size(m);
-    if ((state = malloc(n * sizeof *state)) == NULL) {
-        rc_err_set(err, "out of memory");
-        goto done;
-    }
-    rc_model_state(m, state);
-    other = rc_rolling_new(rc_elastic_new(&shape, ball, &contact, NULL, err), &law, err);
-    if (other == NULL || rc_model_restore(other, state, n, &going, err) != RC_OK ||
-        rc_model_run(other, &to, err) == RC_FAIL || rc_model_look(other, NULL, err) != RC_OK ||
-        rc_model_frame(other, "traction-x", out, err) != RC_OK)
-        goto done;
-    out[N] = rc_rolling_result(other)->creep[0];
-    status = RC_OK;
-done:
-    free(state);
-    rc_model_free(m);
-    rc_model_free(other);
-    return status;
+    return rc_rolling_new(rc_elastic_new(&shape, ball, pressed(RC_FREE), NULL, err), &law, err);
 }
+MAKER(rolling, roller(false, err))
+MAKER(rolling_along, roller(true, err))
+FIGURE(creepage, rc_rolling_result(m)->creep[0])
 
-static enum rc_status
-rolling_model(double *out, struct rc_err *err)
+/* Both bodies wear, with a coefficient that differs between two phases, or they slide over each other. */
+static struct rc_model *
+worn(bool two_bodies, struct rc_err *err)
 {
-    return rolling_model_of(false, out, err);
-}
-
-static enum rc_status
-rolling_path(double *out, struct rc_err *err)
-{
-    return rolling_model_of(true, out, err);
-}
-
-/* Both bodies wear, with a coefficient that differs between two phases, or they slide over each other.
- * Half-way the state is restored in another model. */
-static enum rc_status
-wear_model_of(bool slides, double *out, struct rc_err *err)
-{
-    const struct rc_problem contact = {
-        .pair = bare, .hardness = slides ? 0 : 2e7, .tol = 1e-3, .threads = 1};
-    double phase[N];
+    struct rc_problem contact = *pressed(RC_FREE);
+    static double phase[N];
     const struct rc_wear_problem law = {.k = {1e-12, 1e-12},
                                         .estar = 1e9,
                                         .tol = 0.3,
-                                        .part = slides ? NULL : phase,
-                                        .two_bodies = slides,
+                                        .part = two_bodies ? NULL : phase,
+                                        .two_bodies = two_bodies,
                                         .h2 = rough};
-    struct rc_model *m, *other = NULL;
-    enum rc_status status = RC_FAIL;
-    struct rc_expected expected;
-    struct rc_point to = {0};
-    double *state = NULL;
-    bool going;
-    size_t n;
 
+    contact.hardness = two_bodies ? 0 : 2e7;
     for (size_t k = 0; k < N; k++)
         phase[k] = k < N / 2 ? 1 : 0.05;
-    m = rc_wear_new(rc_elastic_new(&shape, rough, &contact, NULL, err), rough, &law, err);
-    rc_point_set(&to, RC_LOAD, 1e-3);
-    rc_point_set(&to, RC_DISTANCE, 1e-3);
-    if (m == NULL || rc_model_plan(m, &to, &expected, err) != RC_OK ||
-        rc_model_run(m, &to, err) == RC_FAIL || rc_model_keep(m, err) != RC_OK)
-        goto done;
-    rc_point_set(&to, RC_DISTANCE, 3e-3);
-    if (rc_model_go(m, &to, err) != RC_MORE || rc_model_step(m, err) == RC_FAIL)
-        goto done;
-    n = rc_model_state_size(m);
-    if ((state = malloc(n * sizeof *state)) == NULL) {
-        rc_err_set(err, "out of memory");
-        goto done;
-    }
-    rc_model_state(m, state);
-    other = rc_wear_new(rc_elastic_new(&shape, rough, &contact, NULL, err), rough, &law, err);
-    if (other == NULL || rc_model_restore(other, state, n, &going, err) != RC_OK ||
-        rc_model_run(other, &to, err) == RC_FAIL || rc_model_look(other, NULL, err) != RC_OK ||
-        rc_model_frame(other, "wear", out, err) != RC_OK)
-        goto done;
-    out[N] = rc_wear_result(other)->wear_volume;
-    status = RC_OK;
-done:
-    free(state);
-    rc_model_free(m);
-    rc_model_free(other);
-    return status;
+    return rc_wear_new(rc_elastic_new(&shape, rough, &contact, NULL, err), rough, &law, err);
 }
+MAKER(wear, worn(false, err))
+MAKER(wear_of_two, worn(true, err))
+FIGURE(volume, rc_wear_result(m)->wear_volume)
 
-static enum rc_status
-wear_model(double *out, struct rc_err *err)
+/* A ball travels over a map. */
+static struct rc_model *
+travel(struct rc_err *err)
 {
-    return wear_model_of(false, out, err);
-}
-
-static enum rc_status
-wear_two_bodies_model(double *out, struct rc_err *err)
-{
-    return wear_model_of(true, out, err);
-}
-
-/* A ball travels over a map; half-way to the third position the state is restored in another model. */
-static enum rc_status
-travel_model(double *out, struct rc_err *err)
-{
-    const struct rc_problem contact = {.pair = bare, .tol = 1e-3, .threads = 1};
     const struct rc_travel_problem law = {
         .track = shape, .h1 = rough, .counter = shape, .h2 = rough, .radius = 1e-4};
-    struct rc_model *m =
-        rc_travel_new(rc_elastic_new(&shape, rough, &contact, NULL, err), &law, err);
-    struct rc_model *other = NULL;
-    enum rc_status status = RC_FAIL;
-    struct rc_expected expected;
-    struct rc_point to = {0};
-    double *state = NULL;
-    bool going;
-    size_t n;
 
-    rc_point_set(&to, RC_LOAD, 1e-3);
-    rc_point_set(&to, RC_POSITION, 0);
-    if (m == NULL || rc_model_plan(m, &to, &expected, err) != RC_OK)
-        goto done;
-    for (int k = 0; k < 2; k++) {
-        rc_point_set(&to, RC_POSITION, k * shape.dx);
-        if (rc_model_run(m, &to, err) == RC_FAIL)
-            goto done;
-    }
-    rc_point_set(&to, RC_POSITION, 2 * shape.dx);
-    if (rc_model_go(m, &to, err) != RC_MORE || rc_model_step(m, err) == RC_FAIL)
-        goto done;
-    n = rc_model_state_size(m);
-    if ((state = malloc(n * sizeof *state)) == NULL) {
-        rc_err_set(err, "out of memory");
-        goto done;
-    }
-    rc_model_state(m, state);
-    other = rc_travel_new(rc_elastic_new(&shape, rough, &contact, NULL, err), &law, err);
-    if (other == NULL || rc_model_restore(other, state, n, &going, err) != RC_OK)
-        goto done;
-    while ((status = rc_model_step(other, err)) == RC_MORE)
-        ;
-    if (status == RC_FAIL || rc_model_look(other, NULL, err) != RC_OK ||
-        rc_model_frame(other, "pressure", out, err) != RC_OK)
-        status = RC_FAIL;
-    else
-        out[N] = rc_travel_result(other)->height;
-done:
-    free(state);
-    rc_model_free(m);
-    rc_model_free(other);
-    return status;
+    return rc_travel_new(rc_elastic_new(&shape, rough, pressed(RC_FREE), NULL, err), &law, err);
+}
+FIGURE(height, rc_travel_result(m)->height)
+
+/* A load dents the bodies, which are then moved and pulled apart. */
+static struct rc_adhesion_problem
+sticky(void)
+{
+    struct rc_adhesion_problem problem = {.contact = *pressed(RC_FREE), .work = 1e-3};
+
+    problem.contact.hardness_map = hardness;
+    return problem;
 }
 
-/* ---- adhesion ---- */
-
-/* The model of adhesion: a load that dents; on the way to a second point the state goes into another model. The
- * other one then retracts the bodies. */
-static enum rc_status
-adhesion_model(double *out, struct rc_err *err)
+static struct rc_model *
+adhesion(struct rc_err *err)
 {
-    const struct rc_adhesion_problem problem = {
-        .contact = {.pair = bare, .tol = 1e-3, .threads = 1, .hardness_map = hardness},
-        .work = 1e-3};
-    struct rc_model *m = rc_adhesion_new(&shape, rough, &problem, err), *other = NULL;
+    const struct rc_adhesion_problem problem = sticky();
+
+    return rc_adhesion_new(&shape, rough, &problem, err);
+}
+FIGURE(attraction, rc_adhesion_result(m)->state.load)
+
+static enum rc_status
+pulled_off(struct rc_model *m, double *out, struct rc_err *err)
+{
+    const struct rc_adhesion_problem problem = sticky();
     struct rc_adhesion_scales scales;
     struct rc_expected expected;
-    enum rc_status status = RC_FAIL;
     struct rc_point to = {0};
-    double *state = NULL;
-    bool going;
-    size_t n;
 
-    rc_point_set(&to, RC_LOAD, 1e-3);
-    if (rc_adhesion_check(&shape, &problem, &scales, err) != RC_OK ||
-        rc_adhesion_expect(&shape, &problem, &expected, err) != RC_OK || m == NULL ||
-        rc_model_run(m, &to, err) == RC_FAIL || rc_model_keep(m, err) != RC_OK)
-        goto done;
-    rc_point_set(&to, RC_APPROACH, 0);
-    if (rc_model_go(m, &to, err) != RC_MORE || rc_model_step(m, err) == RC_FAIL)
-        goto done;
-    n = rc_model_state_size(m);
-    if ((state = malloc(n * sizeof *state)) == NULL) {
-        rc_err_set(err, "out of memory");
-        goto done;
-    }
-    rc_model_state(m, state);
-    other = rc_adhesion_new(&shape, rough, &problem, err);
-    if (other == NULL || rc_model_restore(other, state, n, &going, err) != RC_OK ||
-        rc_model_run(other, &to, err) == RC_FAIL || rc_model_look(other, NULL, err) != RC_OK ||
-        rc_model_frame(other, "adhesion", out, err) != RC_OK || rc_model_keep(other, err) != RC_OK)
-        goto done;
-    out[N] = rc_adhesion_result(other)->state.load;
     rc_point_set(&to, RC_APPROACH, -INFINITY);
-    if (rc_model_run(other, &to, err) == RC_FAIL || rc_model_look(other, NULL, err) != RC_OK)
-        goto done;
-    out[N + 1] = rc_adhesion_result(other)->state.pull_off_load;
-    out[N + 2] = scales.range + rc_adhesion_law_info(0)->ranged;
-    status = RC_OK;
-done:
-    free(state);
-    rc_model_free(m);
-    rc_model_free(other);
-    return status;
+    if (rc_adhesion_check(&shape, &problem, &scales, err) != RC_OK ||
+        rc_adhesion_expect(&shape, &problem, &expected, err) != RC_OK ||
+        rc_model_keep(m, err) != RC_OK || rc_model_run(m, &to, err) == RC_FAIL ||
+        rc_model_look(m, NULL, err) != RC_OK)
+        return RC_FAIL;
+    out[0] = rc_adhesion_result(m)->state.pull_off_load;
+    out[1] = scales.range + rc_adhesion_law_info(0)->ranged;
+    return RC_OK;
 }
+
+/* Body 2 slides over a viscoelastic body, or is pressed on it in time. */
+static struct rc_relaxation *
+fast_rubber(struct rc_err *err)
+{
+    return rc_relaxation_new(1e9, 1, (double[]){4e9}, (double[]){1e-3}, err);
+}
+static struct rc_relaxation *
+slow_rubber(struct rc_err *err)
+{
+    return rc_relaxation_new(4e8, 2, (double[]){4e8, 2e8}, (double[]){0.1, 1}, err);
+}
+
+static struct rc_model *
+sliding(struct rc_err *err)
+{
+    const struct rc_problem contact = {.boundary = RC_PERIODIC, .tol = 1e-3, .threads = 1};
+    const struct rc_sliding_problem law = {.material = rubber};
+
+    return rc_sliding_new(&shape, rough, &contact, &law, err);
+}
+FIGURE(losses, rc_sliding_result(m)->friction)
+
+static struct rc_model *
+creep(struct rc_err *err)
+{
+    const struct rc_problem contact = {.pair.estar = 1e9, .tol = 1e-5, .threads = 1};
+    const struct rc_viscoelastic_problem law = {.material = rubber, .share = 1, .increments = 2};
+
+    return rc_viscoelastic_new(rc_elastic_new(&shape, rough, &contact, NULL, err), rough, &law,
+                               err);
+}
+FIGURE(equivalent_load, rc_viscoelastic_result(m)->equivalent_load)
 
 /* ---- leakage ---- */
 
@@ -677,60 +668,6 @@ leaks(double *out, struct rc_err *err)
 }
 
 /* ---- stresses ---- */
-
-/* Two loads with automatic increments; the first does not yield. During the second one the state goes into
- * another model. */
-static enum rc_status
-may_yield(double *out, struct rc_err *err)
-{
-    const struct rc_yield_problem problem = {
-        .contact = {.boundary = RC_PERIODIC, .pair = bare, .tol = 0.1, .threads = 1},
-        .law = {.stress = bare.one.e / 100}};
-    double *const strain[RC_YIELD_STRAINS] = {out + N};
-    struct rc_model *m = rc_yield_new(&shape, rough, &problem, err), *other = NULL;
-    enum rc_status status = RC_FAIL;
-    struct rc_point to = {0};
-    double *state = NULL;
-    size_t n;
-    bool going;
-
-    rc_point_set(&to, RC_LOAD, 1e-7);
-    if (m == NULL)
-        return RC_FAIL;
-    rc_yield_plan(m, 2, 1e-3);
-    if (rc_model_run(m, &to, err) == RC_FAIL || rc_model_keep(m, err) != RC_OK)
-        goto done;
-    rc_point_set(&to, RC_LOAD, 1e-3);
-    if (rc_model_go(m, &to, err) != RC_MORE)
-        goto done;
-    while (!rc_yield_strain(m, 0, strain))
-        if (rc_model_step(m, err) != RC_MORE)
-            goto done;
-    n = rc_model_state_size(m);
-    if ((state = malloc(n * sizeof *state)) == NULL) {
-        rc_err_set(err, "out of memory for a state of %zu numbers", n);
-        goto done;
-    }
-    rc_model_state(m, state);
-    if ((other = rc_yield_new(&shape, rough, &problem, err)) == NULL ||
-        rc_model_restore(other, state, n, &going, err) != RC_OK)
-        goto done;
-    while ((status = rc_model_step(other, err)) == RC_MORE)
-        ;
-    if (status == RC_FAIL || rc_model_look(other, NULL, err) != RC_OK) {
-        status = RC_FAIL;
-        goto done;
-    }
-    memcpy(out, rc_solver_pressure(rc_model_solver(other)), N * sizeof *out);
-    out[N] = (double)rc_yield_result(other)->slabs;
-    out[N + 1] = rc_yield_law_stress(&problem.law, 0);
-    status = RC_OK;
-done:
-    free(state);
-    rc_model_free(m);
-    rc_model_free(other);
-    return status;
-}
 
 static enum rc_status
 stressed(const struct rc_stress_options *o, double *out, struct rc_err *err)
@@ -865,81 +802,6 @@ relaxes(double *out, struct rc_err *err)
     }
     rc_relaxation_free(r);
     rc_relaxation_free(fit);
-    return status;
-}
-
-/* Body 2 slides over a viscoelastic body; under way the state is restored in another model. */
-static enum rc_status
-slide_model(double *out, struct rc_err *err)
-{
-    const struct rc_problem contact = {.boundary = RC_PERIODIC, .tol = 1e-3, .threads = 1};
-    struct rc_relaxation *r = rc_relaxation_new(1e9, 1, (double[]){4e9}, (double[]){1e-3}, err);
-    const struct rc_sliding_problem law = {.material = r};
-    struct rc_model *m = r == NULL ? NULL : rc_sliding_new(&shape, rough, &contact, &law, err);
-    struct rc_model *other = NULL;
-    enum rc_status status = RC_FAIL;
-    struct rc_expected expected;
-    struct rc_point to = {0};
-    double *state = NULL;
-    bool going;
-    size_t n;
-
-    rc_point_set(&to, RC_LOAD, 1e-3);
-    rc_point_set(&to, RC_SPEED, 5e-3);
-    if (m == NULL || rc_model_plan(m, &to, &expected, err) != RC_OK ||
-        rc_model_go(m, &to, err) != RC_MORE || rc_model_step(m, err) == RC_FAIL)
-        goto done;
-    n = rc_model_state_size(m);
-    if ((state = malloc(n * sizeof *state)) == NULL) {
-        rc_err_set(err, "out of memory");
-        goto done;
-    }
-    rc_model_state(m, state);
-    other = rc_sliding_new(&shape, rough, &contact, &law, err);
-    if (other == NULL || rc_model_restore(other, state, n, &going, err) != RC_OK)
-        goto done;
-    while ((status = rc_model_step(other, err)) == RC_MORE)
-        ;
-    if (status == RC_FAIL || rc_model_look(other, NULL, err) != RC_OK ||
-        rc_model_frame(other, "pressure", out, err) != RC_OK)
-        status = RC_FAIL;
-    else
-        out[N] = rc_sliding_result(other)->friction;
-done:
-    free(state);
-    rc_model_free(m);
-    rc_model_free(other);
-    rc_relaxation_free(r);
-    return status;
-}
-
-static enum rc_status
-creeps(double *out, struct rc_err *err)
-{
-    const double modulus[] = {4e8, 2e8}, time[] = {0.1, 1};
-    const struct rc_problem contact = {.pair.estar = 1e9, .tol = 1e-5, .threads = 1};
-    struct rc_relaxation *r = rc_relaxation_new(4e8, 2, modulus, time, err);
-    const struct rc_viscoelastic_problem law = {.material = r, .share = 1, .increments = 2};
-    struct rc_point to = {0};
-    struct rc_model *m = NULL;
-    enum rc_status status = RC_FAIL;
-
-    if (r == NULL)
-        return RC_FAIL;
-    m = rc_viscoelastic_new(rc_elastic_new(&shape, rough, &contact, NULL, err), rough, &law, err);
-    rc_point_set(&to, RC_LOAD, 1e-3);
-    rc_point_set(&to, RC_TIME, 0);
-    if (m == NULL || rc_model_run(m, &to, err) == RC_FAIL || rc_model_keep(m, err) != RC_OK)
-        goto done;
-    rc_point_set(&to, RC_TIME, 1);
-    if (rc_model_run(m, &to, err) == RC_FAIL || rc_model_look(m, NULL, err) != RC_OK ||
-        rc_model_frame(m, "pressure", out, err) != RC_OK)
-        goto done;
-    out[N] = rc_viscoelastic_result(m)->equivalent_load;
-    status = RC_OK;
-done:
-    rc_model_free(m);
-    rc_relaxation_free(r);
     return status;
 }
 
@@ -1088,10 +950,34 @@ without(double *out, struct rc_err *err)
  * rc_solver_engine_reason( rc_solver_method( rc_stress_values( rc_stress_engine(
  * rc_stress_counted( rc_grid_shape( rc_grid_case( */
 
+#define AT(a, x)                                                                                   \
+    {                                                                                              \
+        1U << RC_##a,                                                                              \
+        {                                                                                          \
+            [RC_##a] = x                                                                           \
+        }                                                                                          \
+    }
+#define AT2(a, x, b, y)                                                                            \
+    {                                                                                              \
+        1U << RC_##a | 1U << RC_##b,                                                               \
+        {                                                                                          \
+            [RC_##a] = x, [RC_##b] = y                                                             \
+        }                                                                                          \
+    }
+#define ROLLED                                                                                     \
+    {                                                                                              \
+        1U << RC_LOAD | 1U << RC_TANGENTIAL_X | 1U << RC_TANGENTIAL_Y | 1U << RC_POSITION,         \
+        {                                                                                          \
+            [RC_LOAD] = 1e-3, [RC_TANGENTIAL_X] = 1e-4                                             \
+        }                                                                                          \
+    }
+
+/* clang-format off */
 static const struct {
     const char *name;
-    use *use;
+    use *use;     /* NULL: the story */
     bool without; /* it allocates nothing */
+    struct story story;
 } uses[] = {
     {.name = "grids and their keys", .use = grids},
     {.name = "self-affine roughness", .use = selfaffine},
@@ -1122,16 +1008,37 @@ static const struct {
     {.name = "contact, to an approach", .use = to_an_approach},
     {.name = "contact, coated", .use = coated_contact},
     {.name = "contact, free to tilt", .use = free_to_tilt},
-    {.name = "the elastic model", .use = elastic_model},
-    {.name = "the model of yield", .use = yield_model},
-    {.name = "the friction model", .use = friction_model},
-    {.name = "rolling", .use = rolling_model},
-    {.name = "rolling along a path", .use = rolling_path},
-    {.name = "the wear model", .use = wear_model},
-    {.name = "the model of wear of two bodies", .use = wear_two_bodies_model},
-    {.name = "the travel model", .use = travel_model},
-    {.name = "plasticity after elasticity", .use = may_yield},
-    {.name = "the model of adhesion", .use = adhesion_model},
+    {.name = "the elastic model",
+     .story = {elastic, NULL, AT(LOAD, 1e-3), AT(LOAD, 1.2e-3), 1, NULL,
+               "gap", stiffness, other_heights}},
+    {.name = "the model of yield",
+     .story = {given_slabs, NULL, AT(LOAD, 1e-3), AT(LOAD, 1.1e-3), 1, NULL,
+               "residual", depth, again}},
+    {.name = "the friction model",
+     .story = {friction, NULL, {1U << RC_LOAD | 1U << RC_DISPLACEMENT_X | 1U << RC_DISPLACEMENT_Y,
+               {[RC_LOAD] = 1e-3, [RC_DISPLACEMENT_X] = 1e-9, [RC_DISPLACEMENT_Y] = 1e-10}},
+               AT(DISPLACEMENT_X, 2e-9), 1, NULL, "traction-x", force, NULL}},
+    {.name = "rolling",
+     .story = {rolling, NULL, ROLLED, AT2(TANGENTIAL_Y, 1e-4, POSITION, 2e-6), 3, NULL,
+               "traction-x", creepage, NULL}},
+    {.name = "rolling along a path",
+     .story = {rolling_along, NULL, ROLLED, AT2(TANGENTIAL_Y, 1e-4, POSITION, 2e-6), 2, NULL,
+               "traction-x", creepage, NULL}},
+    {.name = "the wear model",
+     .story = {wear, NULL, AT2(LOAD, 1e-3, DISTANCE, 1e-3), AT(DISTANCE, 3e-3), 1, NULL,
+               "wear", volume, NULL}},
+    {.name = "the model of wear of two bodies",
+     .story = {wear_of_two, NULL, AT2(LOAD, 1e-3, DISTANCE, 1e-3), AT(DISTANCE, 3e-3), 1, NULL,
+               "wear", volume, NULL}},
+    {.name = "the travel model",
+     .story = {travel, NULL, AT2(LOAD, 1e-3, POSITION, 0), AT(POSITION, 2.2e-6), 1, NULL,
+               "pressure", height, NULL}},
+    {.name = "plasticity after elasticity",
+     .story = {may_yield, NULL, AT(LOAD, 1e-7), AT(LOAD, 1e-3), 1, has_strain,
+               "pressure", slabs_found, NULL}},
+    {.name = "the model of adhesion",
+     .story = {adhesion, NULL, AT(LOAD, 1e-3), AT(APPROACH, 0), 1, NULL,
+               "adhesion", attraction, pulled_off}},
     {.name = "leakage", .use = leaks},
     {.name = "stress", .use = free_stress},
     {.name = "stress, periodic", .use = periodic_stress},
@@ -1146,13 +1053,24 @@ static const struct {
     {.name = "fatigue", .use = fatigued},
     {.name = "heat", .use = heated},
     {.name = "relaxation", .use = relaxes},
-    {.name = "the model of sliding", .use = slide_model},
-    {.name = "viscoelastic", .use = creeps},
+    {.name = "the model of sliding",
+     .story = {sliding, fast_rubber, AT2(LOAD, 1e-3, SPEED, 5e-3), AT(SPEED, 6e-3), 1, NULL,
+               "pressure", losses, NULL}},
+    {.name = "viscoelastic",
+     .story = {creep, slow_rubber, AT2(LOAD, 1e-3, TIME, 0), AT(TIME, 1), 1, NULL,
+               "pressure", equivalent_load, NULL}},
     {.name = "slabs", .use = slabs_double},
     {.name = "slabs, single precision", .use = slabs_single},
     {.name = "what a plan takes", .use = plans, .without = true},
     {.name = "what allocates nothing", .use = without, .without = true},
 };
+/* clang-format on */
+
+static enum rc_status
+use_of(size_t k, double *out, struct rc_err *err)
+{
+    return uses[k].use == NULL ? told(&uses[k].story, out, err) : uses[k].use(out, err);
+}
 
 /* Equal, except for the order of sums: without memory for sorting the C library uses another algorithm. */
 static bool
@@ -1184,7 +1102,7 @@ try_one(size_t k, size_t n, bool stay, const double *right)
 
     memset(out, 0, sizeof out);
     fault_arm(n, stay);
-    status = uses[k].use(out, &err);
+    status = use_of(k, out, &err);
     fault_disarm();
     tried++;
     refused += status != RC_OK;
@@ -1209,9 +1127,9 @@ every_allocation_fails(void **state)
         size_t last;
 
         memset(right, 0, sizeof right);
-        uses[k].use(warm, &err); /* from here on FFTW and GSL hold no further memory */
+        use_of(k, warm, &err); /* from here on FFTW and GSL hold no further memory */
         fault_arm(0, false);
-        if (uses[k].use(right, &err) != RC_OK)
+        if (use_of(k, right, &err) != RC_OK)
             fail_msg("%s: %s", uses[k].name, err.text);
         last = fault_disarm();
         assert_int_equal(fault_held(), 0);
