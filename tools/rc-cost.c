@@ -7,17 +7,19 @@
 #include <unistd.h>
 
 #include "tools/cost/cost.h"
-#include "tools/solve/solve.h"
+#include "tools/problem/problem.h"
 
 static struct args {
-    struct solve_args contact;
+    struct physics physics;
+    const char *yield, *adhesion; /* words of the command line, or NULL */
+    struct tilt_args tilt;
     size_t kernels, methods; /* bits */
     double limit, budget, error;
     const char *depths; /* for rc-stress */
     double nu, mu;
     const char *plot, *report, *leak;
     bool dry_run;
-} args = {.contact = {.physics = PHYSICS_NONE},
+} args = {.physics = PHYSICS_NONE,
           .kernels = SIZE_MAX,
           .methods = SIZE_MAX,
           .limit = 60,
@@ -29,7 +31,11 @@ static struct args {
 #define ABOVE_0 .min = 0, .max = INFINITY, .above = true
 /* clang-format off */
 static const struct opt opts[] = {
-    {.group = solve_contact_options, AT(contact)},
+    {.group = physics_options, AT(physics)},
+    {.group = yield_option, AT(yield)},
+    {.group = adhesion_option, AT(adhesion)},
+    {.group = history_option, AT(physics.history)},
+    {.group = tilt_options, AT(tilt)},
     {.name = "kernel", .alias = "engine", .type = OPT_WORDS, AT(kernels), .words = words_engine,
      .arg = "LIST", .help = "try only these, of %s (default: all)"},
     {.name = "method", .type = OPT_WORDS, AT(methods), .words = words_method, .arg = "LIST",
@@ -90,16 +96,15 @@ choosing(void)
 static void
 check_effects(struct tool *t)
 {
-    const char *effect = args.contact.yield != NULL ? "--yield" : "--adhesion";
+    const char *effect = args.yield != NULL ? "--yield" : "--adhesion";
 
-    if (args.contact.yield == NULL && args.contact.adhesion == NULL)
+    if (args.yield == NULL && args.adhesion == NULL)
         return;
     if (tool_given(t, "kernel") || tool_given(t, "method"))
         tool_usage(t, "%s does not work with --kernel and --method: %s", effect,
-                   args.contact.yield != NULL
-                       ? "the trials vary increments and slabs, with pcg and fft"
-                       : "there is only one method");
-    if (args.contact.yield != NULL && tool_given(t, "depths"))
+                   args.yield != NULL ? "the trials vary increments and slabs, with pcg and fft"
+                                      : "there is only one method");
+    if (args.yield != NULL && tool_given(t, "depths"))
         tool_usage(
             t, "--yield does not work with --depths: compute these stresses with rc-stress from "
                "the frames of rc-solve");
@@ -109,9 +114,9 @@ static void
 check_arguments(struct costs *run)
 {
     struct tool *t = &run->t;
-    struct physics *physics = &args.contact.physics;
+    struct physics *physics = &args.physics;
 
-    physics->adhesion = args.contact.adhesion != NULL;
+    physics->pulls = args.adhesion != NULL;
     physics_check(t, physics);
     if (physics_steps(physics)->n > 1 && !physics->history)
         tool_usage(t, "one load at a time: %zu were given", physics_steps(physics)->n);
@@ -260,7 +265,7 @@ do_case(struct costs *run, struct rc_grid *g, const struct rc_grid *hardness)
                           .heights = g,
                           .shape = rc_grid_shape(g),
                           .about = COST_PRESSURE,
-                          .periodic = args.contact.physics.periodic,
+                          .periodic = args.physics.periodic,
                           .leak = args.leak,
                           .depths = stresses ? args.depths : NULL,
                           .nu = number(args.nu, nu),
@@ -275,8 +280,7 @@ do_case(struct costs *run, struct rc_grid *g, const struct rc_grid *hardness)
     if (++run->cases > 1 && (choosing() || args.plot != NULL))
         tool_refuse(&run->t, g, "%s is for one case: give one height map",
                     args.plot != NULL ? "a picture" : "a command");
-    c.about |= (args.contact.yield != NULL ? COST_YIELD : 0) |
-               (args.contact.adhesion != NULL ? COST_ADHESION : 0) |
+    c.about |= (args.yield != NULL ? COST_YIELD : 0) | (args.adhesion != NULL ? COST_ADHESION : 0) |
                (args.leak != NULL ? COST_LEAK : 0) | (stresses ? COST_STRESS : 0);
     c.words = tool_result_words(&run->t, c.word, COST_WORDS / 2);
     cost_trials(&c, args.kernels, args.methods);

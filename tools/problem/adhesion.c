@@ -6,7 +6,14 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "tools/cli/cli.h"
+const struct opt adhesion_option[] = {
+    {.name = "adhesion",
+     .type = OPT_TEXT,
+     .result = true,
+     .arg = "WORK[,LAW[,RANGE]]",
+     .help = "the bodies attract each other: 50mJ/m2, 50mJ/m2,exponential,2nm; a list is a path"},
+    {.name = NULL},
+};
 
 static bool
 is_law(const char *text, size_t n)

@@ -5,12 +5,14 @@
 #define RC_TOOL_ADHESION_H
 
 #include "libcontact/contact.h"
+#include "tools/cli/cli.h"
 
 struct adhesion_law {
     struct rc_adhesion_problem problem; /* the contact in it is not set; its law points to `name` */
     char name[64];
 };
 
+extern const struct opt adhesion_option[]; /* its text */
 /* "WORK", "WORK,LAW" or "WORK,LAW,RANGE". */
 enum rc_status adhesion_law_read(struct adhesion_law *a, const char *text, struct rc_err *err);
 

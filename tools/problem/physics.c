@@ -11,13 +11,13 @@
 #define ANY .min = -INFINITY, .max = INFINITY
 /* clang-format off */
 const struct opt physics_options[] = {
-    {.name = "load", .type = OPT_NUMBERS, .unit = UNIT_N, AT(load), ANY, .result = true,
+    {.name = "load", .type = OPT_NUMBERS, .unit = UNIT_N, AT(load), ANY, .result = true, .points = true,
      .per_metre = true, .arg = "LIST",
      .help = "total normal force, or a list a,b,c, a:b:n or a:b:log:n, each a case"},
     {.name = "mean-pressure", .type = OPT_NUMBERS, .unit = UNIT_PA, AT(mean_pressure), ANY,
-     .result = true, .arg = "LIST", .help = "load over the area of the map, or a list"},
+     .result = true, .points = true, .arg = "LIST", .help = "load over the area of the map, or a list"},
     {.name = "approach", .type = OPT_NUMBERS, .unit = UNIT_M, AT(approach), ANY,
-     .result = true, .arg = "LIST",
+     .result = true, .points = true, .arg = "LIST",
      .help = "instead of the load: approach of the bodies from first touch, or a list"},
     {.name = "estar", .type = OPT_NUMBER, .unit = UNIT_PA, AT(estar), ABOVE_0, .result = true,
      .arg = "MODULUS", .help = "composite modulus E*, 1/E* = (1-nu1^2)/E1 + (1-nu2^2)/E2"},
@@ -42,6 +42,20 @@ const struct opt physics_options[] = {
      .help = "the map repeats without end (default: a free half-space, loaded on the map only)"},
     {.name = NULL},
 };
+const struct opt history_option[] = {
+    {.name = "history", .type = OPT_FLAG, .result = true,
+     .help = "apply the loads in sequence, keeping plastic shape; 0 separates the bodies"},
+    {.name = NULL},
+};
+const struct opt tilt_options[] = {
+    {.name = "tilt", .type = OPT_CHOICE, .at = offsetof(struct tilt_args, tilt), .result = true,
+     .list = (const char *const[]){"fixed", "free", NULL},
+     .help = "free: the counter body tilts until the moment is zero (default fixed)"},
+    {.name = "at", .type = OPT_NUMBERS, .unit = UNIT_M, .at = offsetof(struct tilt_args, at),
+     .min = -INFINITY, .max = INFINITY, .result = true, .arg = "X,Y",
+     .help = "point where the load acts, with --tilt free (default: the middle)"},
+    {.name = NULL},
+};
 /* clang-format on */
 
 static const char *
@@ -58,7 +72,7 @@ check_steps(struct tool *t, const struct physics *a)
     const char *name = name_of_steps(a);
     bool rises = true;
 
-    for (size_t k = 0; k < steps->n && !a->adhesion; k++) {
+    for (size_t k = 0; k < steps->n && !a->pulls; k++) {
         if (steps->v[k] < 0)
             tool_usage(t, "--%s %s %s: it must be at least 0: a negative %s needs --adhesion", name,
                        rc_number(steps->v[k]),

@@ -20,13 +20,19 @@ struct physics {
     double relaxes;         /* Pa: instantaneous modulus of a viscoelastic body; 0: there is none */
     size_t relaxing_layers; /* layers that have this modulus, instead of body 1                 */
     bool travels;           /* the sphere is not part of the map, but moves over it             */
-    bool adhesion;          /* loads and approaches may be negative or 0                        */
+    bool pulls;             /* loads and approaches may be negative or 0                        */
     bool history;           /* each load acts on the shape that earlier ones left, and may be 0 */
 };
 
 /* Its options, for a row of a tool's table: .group = physics_options, .at = offset of struct physics in the
  * arguments. */
 extern const struct opt physics_options[];
+/* --history, a bool; and --tilt with its place. */
+extern const struct opt history_option[], tilt_options[];
+struct tilt_args {
+    const char *tilt;  /* a word, or NULL */
+    struct numbers at; /* x and y; none: the middle */
+};
 /* The values without options. */
 #define PHYSICS_NONE                                                                               \
     {                                                                                              \

@@ -6,6 +6,15 @@
 #include <math.h>
 #include <string.h>
 
+const struct opt yield_option[] = {
+    {.name = "yield",
+     .type = OPT_TEXT,
+     .result = true,
+     .arg = "Y[,HM]|FILE",
+     .help = "yield stress of body 1 (in its volume), and its increase per plastic strain, HM"},
+    {.name = NULL},
+};
+
 static const struct wanted_column columns[] = {
     {.names = "strain plasticstrain equivalentplasticstrain", .unit = UNIT_NONE},
     {.names = "stress yieldstress flowstress", .unit = UNIT_PA},

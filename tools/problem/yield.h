@@ -13,6 +13,7 @@ struct yield_law {
     struct columns table; /* plastic strain and stress, of a file */
 };
 
+extern const struct opt yield_option[]; /* its text */
 /* "Y", "Y,HM" or a file with a table. */
 enum rc_status yield_law_read(struct yield_law *law, const char *text, struct rc_err *err);
 /* Ends the tool if an option that excludes --yield is given. */

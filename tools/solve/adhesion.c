@@ -13,7 +13,28 @@ static const double enough = 2;       /* nodes that the warning recommends */
 static const double faint = 0.01;     /* fraction of the largest traction */
 static const double too_strong = 0.1; /* fraction of E*: above it a solid is not linear elastic */
 
+static struct {
+    const char *law; /* words of the command line, or NULL */
+    bool pull_off;   /* pull-off is an additional last case */
+} args;
+
+static struct {
+    struct adhesion_law law;
+    struct rc_adhesion_scales scales;        /* scales of the law on this grid */
+    const struct rc_adhesion_state *figures; /* figures of the current point; NULL: none */
+    bool pulling;                            /* this case is the pull-off */
+} own;
+
 /* ---- the command line ---- */
+
+/* clang-format off */
+static const struct opt options[] = {
+    {.group = adhesion_option, .base = &args.law},
+    {.name = "pull-off", .type = OPT_FLAG, .base = &args.pull_off, .result = true, .points = true,
+     .help = "after the last state separate the bodies, and find the pull-off load"},
+    {.name = NULL},
+};
+/* clang-format on */
 
 static void
 refuse(struct run *run, bool given, const char *what, const char *why)
@@ -22,82 +43,126 @@ refuse(struct run *run, bool given, const char *what, const char *why)
         tool_usage(&run->d.t, "--adhesion does not work with %s: %s", what, why);
 }
 
-void
-adhesion_read(struct run *run)
+static bool
+ask(struct run *run)
 {
-    const struct solve_args *args = run->args;
-    struct adhering *a = &run->adhering;
-
-    a->wanted = args->adhesion != NULL;
-    if (!a->wanted && args->pull_off)
+    if (args.law == NULL && args.pull_off)
         tool_usage(&run->d.t,
                    "--pull-off needs --adhesion: without attraction the pull-off load is 0");
-    if (!a->wanted && solve_wanted(args, SOLVE_ADHESION))
-        tool_usage(&run->d.t, "--output adhesion needs --adhesion");
-    if (!a->wanted)
-        return;
-    if (adhesion_law_read(&a->law, args->adhesion, &run->d.t.err) != RC_OK)
-        tool_usage(&run->d.t, "--adhesion %s: %s", args->adhesion, run->d.t.err.text);
-    refuse(run, args->yield != NULL, "--yield",
+    run->physics->pulls = args.law != NULL;
+    return args.law != NULL;
+}
+
+static void
+read(struct run *run)
+{
+    const struct tool *t = &run->d.t;
+
+    if (adhesion_law_read(&own.law, args.law, &run->d.t.err) != RC_OK)
+        tool_usage(&run->d.t, "--adhesion %s: %s", args.law, run->d.t.err.text);
+    refuse(run, tool_given(t, "yield"), "--yield",
            "plasticity in the volume supports pressures only, no attraction");
-    refuse(run, run->tilt, "--tilt free", "with adhesion the bodies move along their normal only");
+    refuse(run, run->turns, "--tilt free", "with adhesion the bodies move along their normal only");
     refuse(
-        run, args->discretization, "--discretization",
+        run, tool_given(t, "discretization"), "--discretization",
         "a coarser grid may not resolve the law; solve a coarser map in a second command instead");
-    refuse(run, args->stiffness, "--stiffness", "use a list of --approach values instead");
-    refuse(run, args->conductivity != NULL, "--conductivity",
+    refuse(run, tool_given(t, "stiffness"), "--stiffness",
+           "use a list of --approach values instead");
+    refuse(run, tool_given(t, "conductivity"), "--conductivity",
            "the analogy of conductance and stiffness holds only without attraction");
-    refuse(run,
-           solve_wanted(args, SOLVE_PLASTIC) || solve_wanted(args, SOLVE_RESIDUAL) ||
-               solve_wanted(args, SOLVE_STRAIN),
-           "--output plastic, residual or strain",
+    refuse(run, solve_wanted(run->args, SOLVE_PLASTIC), "--output plastic, residual or strain",
            "there is no plasticity in the volume with adhesion");
+    if (solve_wanted(run->args, SOLVE_PRESSURE) || solve_wanted(run->args, SOLVE_GAP))
+        solve_add_frame(CONTACT_CHANNEL); /* the pressure does not determine the contact */
 }
 
 /* ---- the model ---- */
 
 static struct rc_adhesion_problem
-problem_of(const struct run *run, const struct rc_problem *contact)
+problem_of(const struct rc_problem *contact)
 {
-    struct rc_adhesion_problem problem = run->adhering.law.problem;
+    struct rc_adhesion_problem problem = own.law.problem;
 
     problem.contact = *contact;
     return problem;
 }
 
-struct rc_model *
-adhesion_model(struct run *run, const struct rc_grid *g, const struct rc_problem *contact)
+static struct rc_model *
+make(struct run *run, const struct rc_problem *contact)
 {
+    const struct rc_grid *g = run->g;
     const struct rc_shape shape = rc_grid_shape(g);
-    const struct rc_adhesion_problem problem = problem_of(run, contact);
+    const struct rc_adhesion_problem problem = problem_of(contact);
     struct rc_model *m = NULL;
 
-    if (rc_adhesion_check(&shape, &problem, &run->adhering.scales, &run->d.t.err) == RC_OK)
+    if (rc_adhesion_check(&shape, &problem, &own.scales, &run->d.t.err) == RC_OK)
         m = rc_adhesion_new(&shape, g->v, &problem, &run->d.t.err);
     if (m == NULL)
         tool_refuse(&run->d.t, g, "%s", run->d.t.err.text);
     return m;
 }
 
-void
-adhesion_set_key(struct run *run, struct rc_grid *as, const struct rc_contact *c)
+static void
+add_points(struct run *run)
+{
+    struct drive *d = &run->d;
+    size_t room = d->points;
+
+    if (!args.pull_off)
+        return;
+    d->point = tool_grown(&d->t, d->point, d->points, &room, sizeof *d->point, "the loads");
+    d->point[d->points] = d->point[0];
+    rc_point_set(&d->point[d->points++], RC_APPROACH, -INFINITY);
+}
+
+static void
+begin(struct run *run, struct rc_model *m, const struct rc_problem *problem)
+{
+    (void)m, (void)problem;
+    own.pulling = run->d.at == run->cases;
+    if (own.pulling)
+        run->d.course.checkpoint = NULL;
+}
+
+/* The error of the shape is not that of the heights. */
+static bool
+look(struct run *run, struct rc_model *m, struct solution *s)
+{
+    const struct rc_adhesion_figures *f = rc_adhesion_result(m);
+
+    (void)run;
+    own.figures = &f->state;
+    s->contact = f->contact;
+    s->contact.shape_error = NAN;
+    return true;
+}
+
+static void
+close(struct run *run)
+{
+    (void)run;
+    own.figures = NULL;
+}
+
+static void
+set_keys(struct run *run, struct rc_grid *as)
 {
     char law[128];
 
-    if (!run->adhering.wanted)
-        return;
-    snprintf(law, sizeof law, "%s,%s,%s", rc_number(run->adhering.law.problem.work),
-             run->adhering.scales.law, rc_number(run->adhering.scales.range));
+    snprintf(law, sizeof law, "%s,%s,%s", rc_number(own.law.problem.work), own.scales.law,
+             rc_number(own.scales.range));
     tool_must(&run->d.t, as, rc_grid_set(as, "adhesion", law, &run->d.t.err));
-    tool_must(&run->d.t, as, rc_grid_set_number(as, "load", c->load, &run->d.t.err));
+    tool_must(&run->d.t, as,
+              rc_grid_set_number(as, "load", run->solution.contact.load, &run->d.t.err));
 }
 
 /* ---- warnings ---- */
 
 static void
-warn_of_grid(struct run *run, const struct rc_grid *g, const char *where)
+warn_of_grid(struct run *run, const char *where)
 {
-    const struct rc_adhesion_scales *s = &run->adhering.scales;
+    const struct rc_grid *g = run->g;
+    const struct rc_adhesion_scales *s = &own.scales;
     double spacing = fmax(g->dx, g->dy);
     char length[SHOWN_NUMBER], range[SHOWN_NUMBER];
 
@@ -117,34 +182,35 @@ warn_of_grid(struct run *run, const struct rc_grid *g, const char *where)
 static double
 tabor(const struct run *run)
 {
-    const struct physics *p = &run->args->physics;
-    double w = run->adhering.law.problem.work / p->surface_estar;
+    const struct physics *p = run->physics;
+    double w = own.law.problem.work / p->surface_estar;
 
-    return cbrt(p->radius * w * w) / run->adhering.scales.range;
+    return cbrt(p->radius * w * w) / own.scales.range;
 }
 
 /* Warns if Tabor's number is below 3. The law jkr takes the shortest range that the grid resolves, and JKR
  * theory holds for Tabor's numbers of 3 and more. */
 static void
-warn_of_jkr(struct run *run, const struct rc_grid *g, const char *where)
+warn_of_jkr(struct run *run, const char *where)
 {
+    const struct rc_grid *g = run->g;
     const double enough_tabor = 3, is = tabor(run);
     char range[SHOWN_NUMBER];
 
-    if (strcmp(run->adhering.scales.law, "jkr") != 0 || !(is < enough_tabor))
+    if (strcmp(own.scales.law, "jkr") != 0 || !(is < enough_tabor))
         return;
     /* the range grows with the square root of the spacing */
     tool_warn(&run->d.t,
               "%s: Tabor's number is %.2g, below 3: the range, %s, is too long for JKR theory, and "
               "loads and areas may differ from it by some per cent: take a spacing of %s",
-              where, is, shown_in_unit_to(range, run->adhering.scales.range, "m"),
+              where, is, shown_in_unit_to(range, own.scales.range, "m"),
               shown_in_unit(fmax(g->dx, g->dy) * pow(is / enough_tabor, 2), "m"));
 }
 
 static void
 warn_of_state(struct run *run, const char *where, const struct rc_adhesion_state *f)
 {
-    const double estar = run->args->physics.surface_estar;
+    const double estar = run->physics->surface_estar;
 
     if (f->separated)
         tool_warn(&run->d.t,
@@ -154,8 +220,10 @@ warn_of_state(struct run *run, const char *where, const struct rc_adhesion_state
     else if (!f->stable && f->converged)
         course_warn(&run->d.course, "the state is not stable", "%s: the state is not stable",
                     where);
-    solve_warn_of_limits(run, where);
-    if (run->adhering.pulling && f->pull_off_at_start)
+    solve_warn_of_limits(
+        run, where,
+        f->stable && f->converged && !f->separated ? "a list of approaches passes the jump" : NULL);
+    if (own.pulling && f->pull_off_at_start)
         tool_warn(&run->d.t,
                   "%s: the lowest load is at the first point, so that the pull-off load may be "
                   "lower: end the list at a larger load or approach",
@@ -166,12 +234,12 @@ warn_of_state(struct run *run, const char *where, const struct rc_adhesion_state
             "%s: the traction at the edge of the map is %.2g of the largest: the bodies attract "
             "each other beyond the map too, where their heights are unknown: take a larger map",
             where, f->edge_traction);
-    if (run->adhering.scales.strength > too_strong * estar)
+    if (own.scales.strength > too_strong * estar)
         course_warn(&run->d.course, "a traction at which a solid is not linear elastic",
                     "%s: the largest traction, %s, is %.2g of E*: beyond %g a solid is not linear "
                     "elastic: is the range right?",
-                    where, shown_in_unit(run->adhering.scales.strength, "Pa"),
-                    run->adhering.scales.strength / estar, too_strong);
+                    where, shown_in_unit(own.scales.strength, "Pa"), own.scales.strength / estar,
+                    too_strong);
 }
 
 static void
@@ -195,34 +263,34 @@ tell(struct run *run, const char *where, const struct rc_adhesion_state *f, bool
         f->convolutions, tool_now() - run->d.began);
 }
 
-void
-adhesion_judge(struct run *run, const struct rc_grid *g, const struct solution *s)
+static void
+judge(struct run *run, const char *where, const struct solution *s)
 {
-    const struct rc_adhesion_state *f = run->adhering.figures;
-    char where[512];
+    const struct rc_adhesion_state *f = own.figures;
 
-    solve_where(run, g, where, sizeof where);
-    tell(run, where, f, run->adhering.pulling);
-    if (run->step == 0 && !run->adhering.pulling) {
-        warn_of_grid(run, g, where);
-        warn_of_jkr(run, g, where);
+    tell(run, where, f, own.pulling);
+    if (run->step == 0 && !own.pulling) {
+        warn_of_grid(run, where);
+        warn_of_jkr(run, where);
     }
     warn_of_state(run, where, f);
     if (f->separated)
         return;
     if (tool_interrupted() == 0 && s->contact.contact_nodes > 0)
-        solve_warn_of_theory(run, g, where, s);
-    solve_warn_of_end(run, where, &s->contact);
+        solve_warn_of_theory(run, where, s);
+    solve_warn_of_end(run, where, s);
 }
 
-size_t
-adhesion_memory(const struct run *run, const struct rc_grid *g, const struct rc_problem *contact)
+/* ---- plan and report ---- */
+
+static size_t
+memory(struct run *run, const struct rc_problem *contact)
 {
-    const struct rc_shape shape = rc_grid_shape(g);
-    const struct rc_adhesion_problem problem = problem_of(run, contact);
+    const struct rc_shape shape = rc_grid_shape(run->g);
+    const struct rc_adhesion_problem problem = problem_of(contact);
     /* heights, frame; state at the last point; shape of dents; state of --checkpoint */
-    const size_t maps = 2u + (run->steps->n > 1 || run->args->pull_off) +
-                        !isinf(run->hardness_min) + (run->d.checkpoint != NULL);
+    const size_t maps = 2u + (run->steps->n > 1 || args.pull_off) + !isinf(run->bound_min) +
+                        (run->d.checkpoint != NULL);
     const size_t kept =
         contact->boundary == RC_PERIODIC ? 32 : 128; /* bytes a node of a retraction */
     struct rc_expected expected = {0};
@@ -230,54 +298,88 @@ adhesion_memory(const struct run *run, const struct rc_grid *g, const struct rc_
 
     (void)rc_adhesion_expect(&shape, &problem, &expected, &err);
     return expected.memory +
-           ((run->args->pull_off ? kept : 0) + maps * sizeof *g->v) * rc_grid_nodes(g);
+           ((args.pull_off ? kept : 0) + maps * sizeof *run->g->v) * rc_grid_nodes(run->g);
 }
 
-/* ---- plan and report ---- */
-
-void
-adhesion_expect(struct run *run, const struct rc_grid *g, const struct rc_problem *contact,
-                struct rc_expected *expected)
+/* Finds the cost of a state and the scales of the law on this grid. */
+static void
+plan_cost(struct run *run, const struct rc_problem *contact, struct rc_expected *expected)
 {
-    const struct rc_shape shape = rc_grid_shape(g);
-    const struct rc_adhesion_problem problem = problem_of(run, contact);
+    const struct rc_shape shape = rc_grid_shape(run->g);
+    const struct rc_adhesion_problem problem = problem_of(contact);
 
-    tool_must(&run->d.t, g,
-              rc_adhesion_check(&shape, &problem, &run->adhering.scales, &run->d.t.err));
-    tool_must(&run->d.t, g, rc_adhesion_expect(&shape, &problem, expected, &run->d.t.err));
+    tool_must(&run->d.t, run->g, rc_adhesion_check(&shape, &problem, &own.scales, &run->d.t.err));
+    tool_must(&run->d.t, run->g, rc_adhesion_expect(&shape, &problem, expected, &run->d.t.err));
 }
 
-const char *
-adhesion_state(const struct run *run)
+/* Over the work of the first state. */
+static double
+loads_cost(const struct run *run)
+{
+    const double next = 1.5, retraction = 60;
+
+    return 1 + next * ((double)run->cases - 1) + (args.pull_off ? retraction : 0);
+}
+
+static const char *
+state(const struct run *run)
 {
     static char text[256];
-    const struct adhering *a = &run->adhering;
 
-    if (!a->wanted)
-        return "left out: no --adhesion";
     snprintf(text, sizeof text, "on: %s, %s over %s: at most %s, cohesive length %.2g nodes%s",
-             a->scales.law, shown_in_unit(a->law.problem.work, "J/m2"),
-             shown_in_unit(a->scales.range, "m"), shown_in_unit(a->scales.strength, "Pa"),
-             a->scales.cohesive_nodes,
-             isnan(run->args->physics.radius) ? "; Tabor's number needs --radius" : "");
+             own.scales.law, shown_in_unit(own.law.problem.work, "J/m2"),
+             shown_in_unit(own.scales.range, "m"), shown_in_unit(own.scales.strength, "Pa"),
+             own.scales.cohesive_nodes,
+             isnan(run->physics->radius) ? "; Tabor's number needs --radius" : "");
     return text;
 }
 
-void
-adhesion_report(struct report *r, const struct run *run)
+static void
+report(struct report *r, const struct run *run)
 {
-    const struct adhering *a = &run->adhering;
-    const struct rc_adhesion_state *f = a->figures;
+    const struct rc_adhesion_state *f = own.figures;
     const bool on = f != NULL;
     const struct figures from[] = {{rc_figures("adhesion"), f}, {NULL, NULL}};
 
-    report_number(r, "adhesion_work", on ? a->law.problem.work : NAN, "J/m2");
-    report_text(r, "adhesion_law", on ? a->scales.law : NULL);
-    report_number(r, "adhesion_range", on ? a->scales.range : NAN, "m");
-    report_number(r, "cohesive_nodes", on ? a->scales.cohesive_nodes : NAN, NULL);
+    report_number(r, "adhesion_work", on ? own.law.problem.work : NAN, "J/m2");
+    report_text(r, "adhesion_law", on ? own.scales.law : NULL);
+    report_number(r, "adhesion_range", on ? own.scales.range : NAN, "m");
+    report_number(r, "cohesive_nodes", on ? own.scales.cohesive_nodes : NAN, NULL);
     report_named(r, from, "attractive_load repulsive_load attractive_area min_pressure stability");
     report_text(r, "stable", !on ? NULL : f->stable ? "yes" : "no");
     report_text(r, "separated", !on ? NULL : f->separated ? "yes" : "no");
     report_named(r, from, "jumps pull_off_load pull_off_approach pull_off_spread");
     report_number(r, "tabor", on ? tabor(run) : NAN, NULL);
 }
+
+const struct effect solve_effect_adhesion = {
+    .name = "adhesion",
+    .title = "adhesion",
+    .options = options,
+    .ask = ask,
+    .read = read,
+    .sequence = true,
+    .tol = TOL_FREE,
+    .no_stiffness = "the bodies attract each other",
+    .close = close,
+    .points = add_points,
+    .base = make,
+    .at_once = true,
+    .by_gap = true,
+    .method = "gap",
+    .engine = "the gap is found by transforms",
+    .plan = plan_cost,
+    .loads = loads_cost,
+    .memory = memory,
+    .begin = begin,
+    .look = look,
+    .judge_alone = judge,
+    .keys = set_keys,
+    .frames = (const char *const[]){"adhesion", NULL},
+    .frames_alone = "needs --adhesion",
+    .off = "left out: no --adhesion",
+    .state = state,
+    .place = COLUMNS_OF_GAP,
+    .columns = true,
+    .report = report,
+};

@@ -5,7 +5,6 @@
 
 #include <math.h>
 
-static const double linear = 0.1;     /* fraction of E*: above it a solid is not linear elastic */
 static const double no_modulus = 1e5; /* Pa: lower than E* of any solid */
 /* Fewest nodes that resolve a contact on a profile and on a map, and one of its patches. */
 static const size_t fewest_nodes[] = {20, 100};
@@ -14,19 +13,16 @@ static const double fewest_each = 4;
 const char *
 solve_where(const struct run *run, const struct rc_grid *g, char *text, size_t size)
 {
-    const struct physics *a = &run->args->physics;
+    const struct physics *a = run->physics;
     const char *source = rc_grid_get(g, "source"), *name = "approach", *unit = "m";
-    char position[SHOWN_NUMBER + 16] = "";
+    char axes[2 * SHOWN_NUMBER + 64] = "";
+    size_t at = 0;
 
-    if (run->travelling.wanted)
-        snprintf(position, sizeof position, ", position %s",
-                 shown_in_unit(travel_position(run, run->d.at), "m"));
-    if (run->relaxing.wanted)
-        snprintf(position, sizeof position, ", time %s",
-                 shown_in_unit(relax_time(run, run->d.at), "s"));
-    if (run->sliding.wanted)
-        snprintf(position, sizeof position, ", speed %s",
-                 shown_in_unit(slide_speed(run, run->d.at), "m/s"));
+    for (size_t k = 0; k < RC_AXES && at < sizeof axes; k++)
+        if (k != RC_LOAD && k != RC_APPROACH && (run->d.point[run->d.at].given >> k & 1))
+            at += (size_t)snprintf(
+                axes + at, sizeof axes - at, ", %s %s", rc_axis_info(k)->name,
+                shown_in_unit(run->d.point[run->d.at].at[k], rc_axis_info(k)->unit));
     if (source == NULL)
         source = run->d.t.source == NULL ? "standard input" : run->d.t.source;
     if (a->load.n > 0) {
@@ -37,7 +33,7 @@ solve_where(const struct run *run, const struct rc_grid *g, char *text, size_t s
         unit = "Pa";
     }
     snprintf(text, size, "%s, case %zu, %s %s%s", source, run->d.course.number, name,
-             shown_in_unit(run->steps->v[run->step], unit), position);
+             shown_in_unit(run->steps->v[run->step], unit), axes);
     return text;
 }
 
@@ -45,14 +41,15 @@ solve_where(const struct run *run, const struct rc_grid *g, char *text, size_t s
 
 /* Warns of a pressure above E*, which no solid carries: a unit is probably wrong. */
 static void
-suspect_unit(struct run *run, const struct rc_grid *g, const char *where, const struct solution *s)
+suspect_unit(struct run *run, const char *where, const struct solution *s)
 {
+    const struct rc_grid *g = run->g;
     double width = g->dx * (double)g->nx, length = g->dy * (double)g->ny;
-    double estar = run->args->physics.surface_estar;
+    double estar = run->physics->surface_estar;
     char peak[SHOWN_NUMBER], modulus[SHOWN_NUMBER], mean[SHOWN_NUMBER];
-    const char *name;
+    const char *name = s->peak_name;
 
-    shown_in_unit_to(peak, yield_peak(run, s->contact.max_pressure, &name), "Pa");
+    shown_in_unit_to(peak, s->peak, "Pa");
     shown_in_unit_to(modulus, estar, "Pa");
     shown_in_unit_to(mean, s->contact.mean_pressure, "Pa");
     if (estar < no_modulus)
@@ -60,7 +57,7 @@ suspect_unit(struct run *run, const struct rc_grid *g, const char *where, const 
                     "%s: the %s, %s, is above E*, which is %s: was its unit forgotten, as in "
                     "114GPa?",
                     where, name, peak, modulus);
-    else if (s->contact.mean_pressure > linear * estar)
+    else if (s->contact.mean_pressure > SOLVE_LINEAR * estar)
         course_warn(&run->d.course, "the largest pressure is above E*",
                     "%s: the %s, %s, is above E* = %s; on a map of %s by %s the mean is %s: "
                     "are the load, %s, and E* in their right units?",
@@ -74,29 +71,29 @@ suspect_unit(struct run *run, const struct rc_grid *g, const char *where, const 
             where, name, peak, modulus, s->slope);
 }
 
-void
-solve_warn_of_theory(struct run *run, const struct rc_grid *g, const char *where,
-                     const struct solution *s)
+static bool
+is_high(struct run *run, const char *where, const struct solution *s)
 {
-    double estar = run->args->physics.surface_estar;
-    const char *name;
-    double peak = yield_peak(run, s->contact.max_pressure, &name);
+    bool warned = false;
 
-    if (peak > estar)
-        suspect_unit(run, g, where, s);
-    else if (peak > linear * estar && isfinite(run->hardness_max) && run->hardness_max >= peak)
-        course_warn(&run->d.course, "a pressure at which a solid is not linear elastic",
-                    "%s: the %s, %s, is %.2g of E*: beyond %g a solid is not linear elastic, and "
-                    "--hardness, %s, is above that: is its unit right?",
-                    where, name, shown_in_unit(peak, "Pa"), peak / estar, linear,
-                    shown_in_unit(run->hardness_max, "Pa"));
-    else if (peak > linear * estar)
+    SOLVE_EACH (run, e, high)
+        warned = warned || e->high(run, where, s);
+    return warned;
+}
+
+void
+solve_warn_of_theory(struct run *run, const char *where, const struct solution *s)
+{
+    const double estar = run->physics->surface_estar;
+
+    if (s->peak > estar)
+        suspect_unit(run, where, s);
+    else if (s->peak > SOLVE_LINEAR * estar && !is_high(run, where, s))
         course_warn(&run->d.course, "a pressure at which a solid is not linear elastic",
                     "%s: the %s, %s, is %.2g of E*: beyond %g a solid is not linear elastic: give "
                     "%sa smaller load",
-                    where, name, shown_in_unit(peak, "Pa"), peak / estar, linear,
-                    run->yielding.wanted || run->args->physics.relaxes > 0 ? ""
-                                                                           : "its --hardness, or ");
+                    where, s->peak_name, shown_in_unit(s->peak, "Pa"), s->peak / estar,
+                    SOLVE_LINEAR, run->relief);
     drive_judge_slope(&run->d.course, s->slope, where);
 }
 
@@ -120,10 +117,14 @@ warn_of_grid(struct run *run, const struct rc_grid *g, const char *where, const 
 /* ---- not converged ---- */
 
 void
-solve_warn_of_end(struct run *run, const char *where, const struct rc_contact *c)
+solve_warn_of_end(struct run *run, const char *where, const struct solution *s)
 {
+    const struct rc_contact *c = &s->contact;
     char error[64] = "its error is unknown";
 
+    SOLVE_EACH (run, e, end)
+        if (e->end(run, where, s))
+            return;
     if (c->converged)
         return;
     if (!isnan(c->pressure_error))
@@ -133,12 +134,6 @@ solve_warn_of_end(struct run *run, const char *where, const struct rc_contact *c
                   "%s: interrupted after %zu iterations: the frames hold the best state so far, "
                   "not a solution: %s",
                   where, c->iterations, error);
-    else if (run->tilt && c->hardness_active)
-        course_warn(
-            &run->d.course, "stopped short",
-            "%s: not converged after %zu iterations: %s: yielding nodes may not be able to balance "
-            "the load at this point: move --at nearer to the middle, or raise --hardness",
-            where, c->iterations, error);
     else if (c->inherited_error > c->pressure_error / 2)
         course_warn(&run->d.course, "stopped short",
                     "%s: %s, of which %.2g come from earlier loads, whose shape it has: take a "
@@ -159,7 +154,6 @@ tell(struct run *run, const char *where, const struct solution *s)
     char area[SHOWN_NUMBER];
     char yielded[SHOWN_NUMBER + 32] = "", took[96], error[32] = "";
     char over_nodes[SHOWN_NUMBER + 32] = "";
-    double mean;
 
     if (c->yielded_nodes > 0) {
         shown_area_to(area, c->yielded_area);
@@ -167,11 +161,12 @@ tell(struct run *run, const char *where, const struct solution *s)
     }
     if (!isnan(c->pressure_error))
         snprintf(error, sizeof error, " to %.2g", c->pressure_error);
-    mean = yield_peak(run, c->max_pressure, NULL);
-    if (mean != c->max_pressure)
+    if (s->peak != c->max_pressure)
         snprintf(over_nodes, sizeof over_nodes, " (%s over 2 x 2 nodes)",
-                 shown_in_unit(mean, "Pa"));
-    yield_tell(run, c, took, sizeof took);
+                 shown_in_unit(s->peak, "Pa"));
+    if (*s->took == '\0')
+        snprintf(took, sizeof took, "%zu iterations, %.3g convolutions", c->iterations,
+                 c->convolutions);
     tool_note(&run->d.t,
               "%s: force %s, contact area %s (%.3g %% of the map, %zu nodes in %zu %s), %slargest "
               "pressure %s%s, approach %s, mean gap %s; %s%s in %s, "
@@ -182,32 +177,29 @@ tell(struct run *run, const char *where, const struct solution *s)
               shown_in_unit(c->max_pressure, "Pa"), over_nodes,
               isnan(c->approach) ? "unknown" : shown_in_unit(c->approach, "m"),
               shown_in_unit(c->mean_gap, "m"), c->converged ? "converged" : "not converged", error,
-              took, tool_now() - run->d.began);
+              *s->took != '\0' ? s->took : took, tool_now() - run->d.began);
 }
 
 void
-solve_warn_of_limits(struct run *run, const char *where)
+solve_warn_of_limits(struct run *run, const char *where, const char *unstable)
 {
-    const struct rc_adhesion_state *f = run->adhering.figures;
-    const bool holds = f != NULL && f->stable && f->converged && !f->separated;
     const struct drive_advice advice[] = {
-        {"edge_load_fraction", NULL}, /* solve_judge has its own warning */
-        {"stability", holds ? "a list of approaches passes the jump" : NULL},
+        {"edge_load_fraction", NULL}, /* judge_pressure has its own warning */
+        {"stability", unstable},
         {NULL, NULL}};
 
     drive_judge(&run->d.course, run->model, advice, where);
 }
 
-void
-solve_judge(struct run *run, const struct rc_grid *g, const struct solution *s)
+/* Of bodies that only press. */
+static void
+judge_pressure(struct run *run, const char *where, const struct solution *s)
 {
-    char where[512];
-
-    solve_where(run, g, where, sizeof where);
     tell(run, where, s);
-    yield_judge(run, where, s);
-    solve_warn_of_limits(run, where);
-    if (!run->args->physics.periodic &&
+    SOLVE_EACH (run, e, judge)
+        e->judge(run, where, s);
+    solve_warn_of_limits(run, where, NULL);
+    if (!run->physics->periodic &&
         s->contact.edge_load_fraction > rc_figure_find("edge_load_fraction")->limit)
         course_warn(&run->d.course, "the contact reaches the edge of the map",
                     "%s: %.1f %% of the load is on the outer 2 %% of the map: the contact reaches "
@@ -215,10 +207,18 @@ solve_judge(struct run *run, const struct rc_grid *g, const struct solution *s)
                     "load, or --periodic if the surface repeats",
                     where, 100 * s->contact.edge_load_fraction);
     if (tool_interrupted() == 0 && s->contact.contact_nodes > 0) {
-        solve_warn_of_theory(run, g, where, s);
-        warn_of_grid(run, g, where, s);
-        slide_warn(run, where);
+        solve_warn_of_theory(run, where, s);
+        warn_of_grid(run, run->g, where, s);
     }
-    if (!yield_warn_of_end(run, where, s) && !relax_warn_of_end(run, where, &s->contact))
-        solve_warn_of_end(run, where, &s->contact);
+    solve_warn_of_end(run, where, s);
+}
+
+void
+solve_judge(struct run *run, const struct solution *s)
+{
+    const struct effect *alone = SOLVE_FIRST(run, judge_alone);
+    char where[512];
+
+    solve_where(run, run->g, where, sizeof where);
+    (alone != NULL ? alone->judge_alone : judge_pressure)(run, where, s);
 }

@@ -5,83 +5,48 @@
 #include <stdlib.h>
 #include <string.h>
 
-const char *const solve_frames[] = {
-    [SOLVE_CONTACT] = CONTACT_CHANNEL,
-    [SOLVE_PRESSURE] = "pressure",
-    [SOLVE_GAP] = "gap",
-    [SOLVE_DISPLACEMENT] = "displacement",
-    [SOLVE_HEIGHT] = "height",
-    [SOLVE_PLASTIC] = "plastic",
-    [SOLVE_RESIDUAL] = "residual",
-    [SOLVE_STRAIN] = "strain",
-    [SOLVE_ADHESION] = "adhesion",
-    [SOLVE_FRAMES] = NULL,
-};
-
 /* ---- effects ---- */
 
-static const char *
-layers_state(const struct run *run)
+static bool
+is_active(const struct run *run, const struct effect *row)
 {
-    static char text[64];
-    size_t n = run->args->physics.pair.one.layers;
+    const struct effect *const *e = run->active;
 
-    if (n == 0)
-        return "left out: one material";
-    snprintf(text, sizeof text, "on: %zu on a substrate", n);
-    return text;
+    while (*e != NULL && *e != row)
+        e++;
+    return *e != NULL;
 }
 
-static const char *
-hardness_state(const struct run *run, const bool *active)
+static bool
+is_effect(const char *name)
 {
-    if (isinf(run->hardness_min))
-        return run->hardness != NULL
-                   ? "left out: the map of hardness holds no number"
-                   : "left out: no --hardness, and no map of hardness in the case";
-    if (active == NULL)
-        return "on where the elastic pressure would exceed it; costs nothing elsewhere";
-    return *active ? "on" : "left out: the largest elastic pressure is below it";
+    size_t k = 0;
+
+    while (solve_effects[k] != NULL &&
+           (solve_effects[k]->name == NULL || strcmp(solve_effects[k]->name, name) != 0))
+        k++;
+    return solve_effects[k] != NULL;
 }
 
 /* Shows each effect and each frame of --output with its state: `on`, or why it is left out. engine: the
- * reason for the engine. active: whether the hardness was reached (NULL: unknown before the solution). */
+ * reason for the engine. */
 static void
-show_effects(struct run *run, const char *engine, const bool *active,
+show_effects(struct run *run, const char *engine,
              void (*show)(struct run *run, const char *name, const char *state))
 {
-    const struct solve_args *args = run->args;
-    const struct physics *a = &args->physics;
-    const char *const effects[][2] = {
-        {"kernel", engine},
-        {"layers", layers_state(run)},
-        {"hardness", hardness_state(run, active)},
-        {"sphere", isnan(a->radius) ? "left out: no --radius" : "on"},
-        {"padding", a->periodic ? "left out: the map is periodic" : "on"},
-        {"approach", a->approach.n > 0 ? "on" : "left out: the load is given"},
-        {"history", a->history ? "on: each load acts on the shape after the previous load"
-                               : "left out: no --history"},
-        {"yield", yield_state(run)},
-        {"adhesion", adhesion_state(run)}, /* also the state of its frame */
-        {"travel", travel_state(run)},
-        {"relaxation", relax_state(run)},
-        {"sliding", slide_state(run)},
-        {"tilt", run->tilt ? "on" : "left out: no --tilt free"},
-        {"stiffness", run->stiffness         ? "on"
-                      : run->adhering.wanted ? "left out: the bodies attract each other"
-                                             : "left out: one load and no --stiffness"},
-        {"conductivity", args->conductivity == NULL ? "left out: no --conductivity"
-                         : run->conductance         ? "on"
-                                            : "left out: layers, for which no analogy holds"},
-        {"discretization", !args->discretization   ? "left out: no --discretization"
-                           : run->d.course.resumed ? "left out: resumed, no coarser grid was solved"
-                                                   : "on"},
-    };
-
-    for (size_t k = 0; k < sizeof effects / sizeof *effects; k++)
-        show(run, effects[k][0], effects[k][1]);
-    for (int f = 0; f < SOLVE_ADHESION; f++)
-        show(run, solve_frames[f], solve_wanted(args, f) ? "on" : "left out: not in --output");
+    show(run, "kernel", engine);
+    for (size_t k = 0; solve_effects[k] != NULL; k++) {
+        const struct effect *e = solve_effects[k];
+        if (e->name != NULL)
+            show(run, e->name,
+                 !is_active(run, e) ? e->off
+                 : e->state != NULL ? e->state(run)
+                                    : "on");
+    }
+    for (size_t f = 0; solve_frames[f] != NULL; f++)
+        if (!is_effect(solve_frames[f])) /* otherwise its state is there already */
+            show(run, solve_frames[f],
+                 solve_wanted(run->args, f) ? "on" : "left out: not in --output");
 }
 
 static void
@@ -129,15 +94,14 @@ report_patches(struct report *r, const struct rc_patches *patches)
     report_end(r);
 }
 
-/* Reports the figures with these names. */
-static void
-report_of(struct report *r, const struct solution *s, const char *names)
+void
+solve_report_named(struct report *r, const struct run *run, const char *names)
 {
-    struct solution row = *s;
+    struct solution row = run->solution;
     const struct figures from[] = {
         {rc_figures("contact"), &row.contact}, {solution_figures, &row}, {NULL, NULL}};
 
-    row.nodes_per_patch = (double)s->contact.contact_nodes / (double)s->patches.count;
+    row.nodes_per_patch = (double)row.contact.contact_nodes / (double)row.patches.count;
     report_named(r, from, names);
 }
 
@@ -148,9 +112,6 @@ static const char of_contact[] =
     "iterations "
     "convolutions kkt_residual pressure_error_estimate discretization_error_estimate.contact_area "
     "discretization_error_estimate.max_pressure discretization_error_estimate.approach converged";
-static const char of_history[] =
-    "indentation residual_indentation contact_area_inside contact_fraction_inside";
-
 /* "1e-06,1e+11,0.3; ...": the layers in SI, top first. NULL: no layers. */
 static char *
 layers_text(const struct physics *a)
@@ -174,7 +135,7 @@ layers_text(const struct physics *a)
 static void
 report_asked(struct report *r, const struct run *run, const struct rc_solver *solver)
 {
-    const struct physics *a = &run->args->physics;
+    const struct physics *a = run->physics;
     const double step = run->steps->v[run->step];
     const struct rc_body *one = &a->pair.one;
     RC_OWNED char *layers = layers_text(a);
@@ -196,30 +157,43 @@ report_asked(struct report *r, const struct run *run, const struct rc_solver *so
     report_number(r, "asked_approach", a->approach.n > 0 ? step : NAN, "m");
 }
 
+/* The columns of effects at this place. */
+static void
+report_effects(struct report *r, const struct run *run, enum solve_place place)
+{
+    for (size_t k = 0; solve_effects[k] != NULL; k++) {
+        const struct effect *e = solve_effects[k];
+        if (e->report != NULL && e->place == place && (e->columns || is_active(run, e)))
+            e->report(r, run);
+    }
+}
+
 void
 solve_report(struct drive *d, const struct rc_model *m)
 {
     struct run *run = (struct run *)(void *)d;
     const struct rc_solver *solver = run->apart ? NULL : run->solver;
+    const struct effect *by = SOLVE_FIRST(run, method);
     const struct solution *s = &run->solution;
-    const char *engine = solver != NULL         ? rc_solver_engine_reason(solver)
-                         : run->adhering.wanted ? "the gap is found by transforms"
-                                                : "left out: no load";
     struct report *r = &d->report;
 
     (void)m;
     report_map(r, run->g, run->d.course.number);
-    report_text(r, "boundary", run->args->physics.periodic ? "periodic" : "free");
+    report_text(r, "boundary", run->physics->periodic ? "periodic" : "free");
     report_text(r, "kernel", solver == NULL ? NULL : rc_solver_engine(solver));
     report_text(r, "method",
-                solver != NULL         ? rc_solver_method(solver)
-                : run->adhering.wanted ? "gap"
-                                       : NULL);
+                solver != NULL ? rc_solver_method(solver)
+                : by != NULL   ? by->method
+                               : NULL);
     report_count(r, "threads", run->d.t.threads, NULL);
-    report_of(r, s, of_contact);
+    solve_report_named(r, run, of_contact);
     report_patches(r, &s->patches);
     report_object(r, "effects");
-    show_effects(run, engine, &s->contact.hardness_active, report_effect);
+    show_effects(run,
+                 solver != NULL ? rc_solver_engine_reason(solver)
+                 : by != NULL   ? by->engine
+                                : "left out: no load",
+                 report_effect);
     report_end(r);
     report_object(r, "seconds");
     report_number(r, "setup", run->d.setup, "s");
@@ -230,113 +204,108 @@ solve_report(struct drive *d, const struct rc_model *m)
     report_memory(r);
     report_ranks(r, &run->d.t);
     /* the columns stay the same for all cases */
-    report_number(r, "hardness_min", run->hardness_min, "Pa");
-    report_number(r, "hardness_max", run->hardness_max, "Pa");
-    report_number(r, "conductance", s->conductance.value, run->conductance_unit);
-    report_number(r, "conductance_lower", s->conductance.lower, run->conductance_unit);
+    report_effects(r, run, COLUMNS_OF_BOUNDS);
     report_asked(r, run, solver);
-    report_of(r, s, of_history);
-    report_number(r, "tilt_x", run->tilt ? atan(s->contact.tilt[0]) : NAN, "rad");
-    report_number(r, "tilt_y", run->tilt ? atan(s->contact.tilt[1]) : NAN, "rad");
-    yield_report(r, run);
+    report_effects(r, run, COLUMNS_OF_BODIES);
+    report_effects(r, run, COLUMNS_OF_VOLUME);
     errors_report(r, &s->errors);
-    adhesion_report(r, run);
+    report_effects(r, run, COLUMNS_OF_GAP);
     report_number(r, "rms_slope", run->rms_slope, NULL);
     report_number(r, "elastic_energy", s->contact.elastic_energy, "J");
-    travel_report(r, run);
-    relax_report(r, run);
+    report_effects(r, run, COLUMNS_OF_POINTS);
+    report_effects(r, run, COLUMNS_LAST);
 }
 
-/* ---- plan ---- */
+/* ---- cost ---- */
 
-/* The expected cost of a load, a time or a speed, of bodies that neither yield nor attract each other. */
+/* The expected cost of a point. */
 static enum rc_status
-expect(const struct run *run, const struct rc_grid *g, const struct rc_problem *problem,
-       struct rc_expected *expected, struct rc_err *err)
+expect(struct run *run, const struct rc_problem *problem, struct rc_expected *expected,
+       struct rc_err *err)
 {
-    const bool approach = problem->approach > 0;
-    struct rc_point to = {0};
+    const struct effect *by = SOLVE_FIRST(run, expect);
 
-    if (!run->relaxing.wanted && !run->sliding.wanted)
-        return rc_solver_expect(rc_shape_of(g), problem, expected, err);
-    rc_point_set(&to, approach ? RC_APPROACH : RC_LOAD,
-                 approach ? problem->approach : problem->load);
-    rc_point_set(&to, run->sliding.wanted ? RC_SPEED : RC_TIME,
-                 run->sliding.wanted ? slide_speed(run, 0) : 0);
-    return rc_model_plan(run->model, &to, expected, err);
+    return by != NULL ? by->expect(run, problem, expected, err)
+                      : rc_solver_expect(rc_shape_of(run->g), problem, expected, err);
 }
 
-size_t
-solve_memory(const struct run *run, const struct rc_grid *g, const struct rc_problem *problem)
+/* The bytes that a solution needs in addition to this map. */
+static size_t
+memory_of(struct run *run, const struct rc_problem *problem)
 {
-    const size_t dents = run->args->physics.history && !isinf(run->hardness_min) ? sizeof *g->v : 0;
     const size_t small = 2 << 20; /* blocks whose size does not grow with the map; measured */
-    const size_t later = run->conductance
-                             ? RC_CONDUCTANCE_BYTES /* the map of patches is freed before */
-                         : run->stiffness ? RC_STIFFNESS_BYTES
-                                          : sizeof *g->v;
+    const struct effect *by = SOLVE_FIRST(run, memory);
+    size_t maps = 0, later = sizeof *run->g->v;
     struct rc_expected expected = {0};
-    struct rc_point to = {0};
     struct rc_err err;
 
-    rc_point_set(&to, RC_LOAD, problem->load);
-    if (run->yielding.wanted)
-        (void)rc_model_plan(run->model, &to, &expected, &err);
-    else
-        (void)expect(run, g, problem, &expected, &err);
-    return expected.memory + small + (dents + later + travel_bytes(run)) * rc_grid_nodes(g);
+    if (by != NULL)
+        return by->memory(run, problem);
+    (void)expect(run, problem, &expected, &err);
+    SOLVE_EACH (run, e, bytes)
+        maps += e->bytes(run);
+    SOLVE_EACH (run, e, later)
+        later = e->later(run) > later ? e->later(run) : later;
+    return expected.memory + small + (maps + later) * rc_grid_nodes(run->g);
+}
+
+struct demand {
+    struct run *run;
+    const struct rc_problem *problem;
+};
+
+static size_t
+memory_by(const void *ctx, const char *engine)
+{
+    const struct demand *d = ctx;
+    struct rc_problem problem = *d->problem;
+
+    problem.engine = engine;
+    return memory_of(d->run, &problem);
 }
 
 void
-solve_plan(struct run *run, const struct rc_grid *g, const struct rc_problem *problem)
+solve_demand_memory(struct run *run, const struct rc_problem *problem)
 {
-    enum {
-        STIFFNESS = 6 /* convolutions for the stiffness */
-    };
+    const struct demand d = {run, problem};
+
+    if (SOLVE_FIRST(run, memory) ==
+        NULL) /* the message names another engine if the map would fit */
+        run->d.t.remedy =
+            tool_leaner_engine(&run->d.t, problem->boundary == RC_PERIODIC, memory_by, &d);
+    tool_demand_memory(&run->d.t, run->g, memory_of(run, problem));
+    run->d.t.remedy = NULL;
+}
+
+void
+solve_plan(struct run *run, const struct rc_problem *problem)
+{
+    const struct rc_grid *g = run->g;
     struct rc_shape shape = rc_grid_shape(g);
     const char *why = NULL, *engine = rc_solver_choice(&shape, problem, &why);
+    const struct effect *points = SOLVE_FIRST(run, noun), *loads_by = SOLVE_FIRST(run, loads),
+                        *plan_by = SOLVE_FIRST(run, plan);
     struct rc_expected e;
-    const bool travels = run->travelling.wanted;
-    const bool relaxes = run->relaxing.wanted;
-    const bool slides = run->sliding.wanted;
-    const size_t points = travels   ? travel_points(run)
-                          : relaxes ? run->args->time.n
-                          : slides  ? slide_points(run)
-                                    : run->steps->n;
-    /* work over that of the first point: of a position, of a later load with adhesion, of a retraction */
-    const double step = 0.8, next = 1.5, retraction = 60;
     const size_t before = course_peak(0); /* the forecast takes memory of its own */
-    double each, memory, loads = (double)points;
+    double each, memory, loads = loads_by != NULL ? loads_by->loads(run) : (double)run->cases;
 
-    if (travels)
-        loads = 1 + step * (loads - 1);
-    if (run->adhering.wanted) {
-        adhesion_expect(run, g, problem, &e);
-        loads = 1 + next * (loads - 1) + (run->args->pull_off ? retraction : 0);
-    } else if (run->yielding.wanted)
-        loads = yield_expect(run, problem->load, &e);
+    if (plan_by != NULL)
+        plan_by->plan(run, problem, &e);
     else
-        tool_must(&run->d.t, g, expect(run, g, problem, &e, &run->d.t.err));
-    each = e.convolutions + (run->conductance ? STIFFNESS + 1 : 0) +
-           (run->stiffness && !(run->conductance && isinf(run->hardness_min)) ? STIFFNESS : 0);
-    memory = ranks_most(&run->d.t, (double)before + (double)(run->adhering.wanted
-                                                                 ? adhesion_memory(run, g, problem)
-                                                                 : solve_memory(run, g, problem)));
+        tool_must(&run->d.t, g, expect(run, problem, &e, &run->d.t.err));
+    each = e.convolutions;
+    SOLVE_EACH (run, more, work)
+        each += more->work(run);
+    memory = ranks_most(&run->d.t, (double)before + (double)memory_of(run, problem));
     fprintf(run->d.t.out, "%s: %zu x %zu nodes, %zu %s%s, engine %s\n", tool_where(&run->d.t, g),
-            g->nx, g->ny, points,
-            travels   ? "position"
-            : relaxes ? "time"
-            : slides  ? "speed"
-                      : "load",
-            points == 1 ? "" : "s", engine);
-    show_effects(run, why, NULL, print_effect);
+            g->nx, g->ny, run->cases, points != NULL ? points->noun : "load",
+            run->cases == 1 ? "" : "s", engine);
+    show_effects(run, why, print_effect);
     fprintf(run->d.t.out, "  about %.0f convolutions%s, %zu MiB, %.2g s with %zu threads\n", each,
-            points == 1 ? ""
-            : relaxes   ? " for each time"
-            : slides    ? " for the first speed"
-            : travels   ? " for the first position, 5 for the next after a short step"
-                        : " for the first load, fewer for the next",
+            run->cases == 1  ? ""
+            : points != NULL ? points->after
+                             : " for the first load, fewer for the next",
             ((size_t)memory >> 20) + 1,
-            course_seconds(&run->d.t, g, e.seconds * each / e.convolutions * loads, points),
+            course_seconds(&run->d.t, g, e.seconds * each / e.convolutions * loads, run->cases),
             run->d.t.threads);
 }

@@ -11,7 +11,43 @@
 
 #include "formats/core/core.h"
 
+static struct {
+    struct numbers travel;        /* positions of the contact */
+    const char *counter, *window; /* words of the command line, or NULL */
+    double counter_travel;
+    size_t passes;
+} args = {.counter_travel = 1, .passes = 1};
+
+static struct {
+    struct numbers positions; /* of all passes */
+    size_t window[2];
+    struct rc_grid *counter, *track; /* heights of body 2 (NULL: none), and of body 1 */
+    const struct rc_travel_figures *found;
+    double *row; /* mean equivalent plastic strain of each row of each slab, after the last pass */
+    size_t rows; /* 0: nothing has yielded */
+    double gain, first_gain; /* largest growth of such a mean in a pass, and in the first one */
+} own;
+
 /* ---- the command line ---- */
+
+/* clang-format off */
+static const struct opt options[] = {
+    {.name = "travel", .type = OPT_NUMBERS, .unit = UNIT_M, .base = &args.travel, .min = -INFINITY,
+     .max = INFINITY, .result = true, .points = true, .arg = "LIST",
+     .help = "the contact travels over the map: x of its middle, from that of the map, each a case"},
+    {.name = "counter", .type = OPT_TEXT, .base = &args.counter, .result = true, .arg = "FILE",
+     .help = "heights of body 2, which travels (or a ball: --radius); mirrored as by rc-add"},
+    {.name = "counter-travel", .type = OPT_NUMBER, .base = &args.counter_travel, .min = -INFINITY,
+     .max = INFINITY, .result = true, .arg = "RATIO",
+     .help = "travel of its heights over that of the contact: 1 (default) slides, 0 rolls"},
+    {.name = "window", .type = OPT_TEXT, .base = &args.window, .result = true, .arg = "WxH",
+     .help = "with --travel, solve so many nodes around the contact (default: the whole map)"},
+    {.name = "passes", .type = OPT_COUNT, .base = &args.passes, .min = 1, .max = 1e6, .result = true,
+     .points = true, .arg = "N",
+     .help = "with --travel and --yield, go through the positions N times (default 1)"},
+    {.name = NULL},
+};
+/* clang-format on */
 
 static void
 refuse(struct run *run, bool given, const char *what, const char *why)
@@ -23,35 +59,45 @@ refuse(struct run *run, bool given, const char *what, const char *why)
 static void
 read_window(struct run *run, const char *text)
 {
-    struct travelling *w = &run->travelling;
     char *end;
 
-    w->window[0] = strtoul(text, &end, 10);
-    w->window[1] = *end == 'x' ? strtoul(end + 1, &end, 10) : 0;
-    if (*end != '\0' || strchr(text, '-') != NULL || w->window[0] == 0 || w->window[1] == 0)
+    own.window[0] = strtoul(text, &end, 10);
+    own.window[1] = *end == 'x' ? strtoul(end + 1, &end, 10) : 0;
+    if (*end != '\0' || strchr(text, '-') != NULL || own.window[0] == 0 || own.window[1] == 0)
         tool_usage(&run->d.t, "--window %s: it must be numbers of nodes, WxH, as in 256x256", text);
 }
 
-void
-travel_read(struct run *run)
+static bool
+ask(struct run *run)
 {
     static const char *const others[] = {"counter", "counter-travel", "window", "passes"};
-    const struct solve_args *args = run->args;
-    struct travelling *w = &run->travelling;
+    const bool on = args.travel.n > 0;
+
+    for (size_t k = 0; k < 4; k++)
+        if (!on && tool_given(&run->d.t, others[k]))
+            tool_usage(&run->d.t, "--%s has no effect without --travel", others[k]);
+    run->physics->travels = on;
+    return on;
+}
+
+static void
+read(struct run *run)
+{
+    const bool shaped = tool_given(&run->d.t, "yield"); /* body 1 changes from pass to pass */
+    const char *half =
+        run->args->increments != NULL ? strstr(run->args->increments, ",half") : NULL;
     struct tool *t = &run->d.t;
 
-    w->wanted = args->travel.n > 0;
-    for (size_t k = 0; k < 4; k++)
-        if (!w->wanted && tool_given(t, others[k]))
-            tool_usage(t, "--%s has no effect without --travel", others[k]);
-    if (!w->wanted)
-        return;
-    if (isnan(args->physics.radius) && args->counter == NULL)
+    if (half != NULL)
+        tool_usage(
+            t, "--increments %s: a contact that travels has no second run: give --increments %.*s",
+            run->args->increments, (int)(half - run->args->increments), run->args->increments);
+    if (isnan(run->physics->radius) && args.counter == NULL)
         tool_usage(t, "--travel: nothing travels: give a ball, --radius, or a surface, "
                       "--counter FILE");
-    if (args->counter == NULL && tool_given(t, "counter-travel"))
+    if (args.counter == NULL && tool_given(t, "counter-travel"))
         tool_usage(t, "--counter-travel has no effect without --counter");
-    if (args->yield == NULL && tool_given(t, "passes"))
+    if (!shaped && tool_given(t, "passes"))
         tool_usage(t, "--passes has no effect without --yield: an elastic body does not "
                       "change from pass to pass");
     if (run->steps->n > 1)
@@ -59,22 +105,25 @@ travel_read(struct run *run)
                    "--travel takes one load, and this list has %zu: run rc-solve once "
                    "for each load",
                    run->steps->n);
-    refuse(run, args->adhesion != NULL, "--adhesion", "it is not implemented");
-    refuse(run, run->tilt, "--tilt free", "the bodies move along their normal only");
-    refuse(run, args->discretization, "--discretization",
+    refuse(run, tool_given(t, "adhesion"), "--adhesion", "it is not implemented");
+    refuse(run, run->turns, "--tilt free", "the bodies move along their normal only");
+    refuse(run, tool_given(t, "discretization"), "--discretization",
            "solve one position with it in a second command");
-    refuse(run, args->physics.history && args->yield == NULL, "--history",
+    refuse(run, run->physics->history && !shaped, "--history",
            "the dents of a hardness are not carried from position to position");
-    refuse(run, args->window != NULL && args->yield != NULL, "--window and --yield",
+    refuse(run, args.window != NULL && shaped, "--window and --yield",
            "the plastic strain belongs to the whole map");
-    refuse(run, args->window != NULL && args->physics.periodic, "--window and --periodic",
+    refuse(run, args.window != NULL && run->physics->periodic, "--window and --periodic",
            "a window is not a period");
     refuse(run, ranks_of(t) != NULL, "several processes", "take one");
-    if (args->window != NULL)
-        read_window(run, args->window);
-    if (args->counter != NULL)
-        w->counter = physics_counter(t, args->counter);
-    w->passes = args->passes;
+    if (args.window != NULL)
+        read_window(run, args.window);
+    if (args.counter != NULL)
+        own.counter = physics_counter(t, args.counter);
+    own.positions.n = args.travel.n * args.passes;
+    own.positions.v = tool_room(t, own.positions.n, sizeof *own.positions.v, "the positions");
+    for (size_t k = 0; k < own.positions.n; k++)
+        own.positions.v[k] = args.travel.v[k % args.travel.n];
 }
 
 /* ---- a case ---- */
@@ -83,123 +132,108 @@ travel_read(struct run *run)
 static struct rc_grid *
 window_of(struct run *run, const struct rc_grid *g)
 {
-    const struct travelling *w = &run->travelling;
     struct rc_grid of = *g, *to;
 
-    if (w->window[0] > g->nx || w->window[1] > g->ny)
+    if (own.window[0] > g->nx || own.window[1] > g->ny)
         tool_refuse(&run->d.t, g, "--window %s is larger than the map of %zu x %zu nodes",
-                    run->args->window, g->nx, g->ny);
-    if (w->window[0] > 0) {
-        of.nx = w->window[0];
-        of.ny = w->window[1];
+                    args.window, g->nx, g->ny);
+    if (own.window[0] > 0) {
+        of.nx = own.window[0];
+        of.ny = own.window[1];
     }
     to = tool_frame_like(&run->d.t, &of, NULL, g->channel, g->unit);
     memset(to->v, 0, rc_grid_nodes(to) * sizeof *to->v);
-    if (w->window[0] > 0)
+    if (own.window[0] > 0)
         tool_set(&run->d.t, to, "periodic", NULL);
     return to;
 }
 
-void
-travel_begin(struct run *run)
+static void
+open(struct run *run)
 {
-    struct travelling *w = &run->travelling;
     struct rc_grid *g = run->g;
 
-    if (!w->wanted)
-        return;
-    if (run->hardness != NULL)
+    if (run->bound_varies)
         tool_refuse(&run->d.t, g, "--travel with a map of hardness is not implemented");
-    if (w->counter != NULL)
-        physics_counter_beside(&run->d.t, run->args->counter, w->counter, g,
-                               run->args->physics.periodic);
-    w->track = g;
+    if (own.counter != NULL)
+        physics_counter_beside(&run->d.t, args.counter, own.counter, g, run->physics->periodic);
+    own.track = g;
     run->g = window_of(run, g);
 }
 
-void
-travel_end(struct run *run)
+static void
+close(struct run *run)
 {
-    struct travelling *w = &run->travelling;
 
-    if (!w->wanted)
-        return;
     rc_grid_free(run->g);
-    run->g = w->track;
-    free(w->row);
-    w->row = NULL;
-    w->rows = 0;
+    run->g = own.track;
+    free(own.row);
+    own.row = NULL;
+    own.rows = 0;
 }
 
-struct rc_model *
-travel_model(struct run *run, struct rc_model *inner)
+static struct rc_model *
+put_around(struct run *run, struct rc_model *inner)
 {
-    const struct travelling *w = &run->travelling;
-    const struct rc_grid *g = w->track, *other = w->counter;
+    const struct rc_grid *g = own.track, *other = own.counter;
     struct rc_travel_problem problem = {.track = rc_grid_shape(g),
                                         .h1 = g->v,
-                                        .repeats = run->args->physics.periodic ||
+                                        .repeats = run->physics->periodic ||
                                                    map_says(g, "periodic", "yes"),
-                                        .ratio = run->args->counter_travel};
+                                        .ratio = args.counter_travel};
 
     if (other != NULL) {
         problem.counter = rc_grid_shape(other);
         problem.h2 = other->v;
-        problem.counter_repeats = run->args->physics.periodic || map_says(other, "periodic", "yes");
+        problem.counter_repeats = run->physics->periodic || map_says(other, "periodic", "yes");
     }
-    if (!isnan(run->args->physics.radius))
-        problem.radius = run->args->physics.radius;
+    if (!isnan(run->physics->radius))
+        problem.radius = run->physics->radius;
     return tool_made(&run->d.t, g, rc_travel_new(inner, &problem, &run->d.t.err));
 }
 
-size_t
-travel_points(const struct run *run)
+/* Over the work of the first position. */
+static double
+loads_cost(const struct run *run)
 {
-    return run->args->travel.n * run->travelling.passes;
+    const double step = 0.8;
+
+    return 1 + step * ((double)run->cases - 1);
 }
 
-size_t
-travel_bytes(const struct run *run)
+/* The maps of the model. */
+static size_t
+bytes(const struct run *run)
 {
-    const size_t maps = run->yielding.wanted ? 1 : 3;
+    const size_t maps = run->physics->history ? 1 : 3;
 
-    return run->travelling.wanted ? maps * sizeof(double) : 0;
-}
-
-double
-travel_position(const struct run *run, size_t point)
-{
-    return run->args->travel.v[point % run->args->travel.n];
+    return maps * sizeof(double);
 }
 
 /* The map of the case changes with the position: the heights of body 1 are those of the track. */
-void
-travel_mark(struct run *run)
+static void
+mark(struct run *run)
 {
-    const struct travelling *w = &run->travelling;
     struct course *c = &run->d.course;
 
-    if (!w->wanted)
-        return;
-    course_mark_map(c, w->track->channel, w->track);
-    course_mark_key(c, w->track, "periodic", "periodic");
-    if (w->counter != NULL)
-        course_mark_key(c, w->counter, "periodic", "counter.periodic");
+    course_mark_map(c, own.track->channel, own.track);
+    course_mark_key(c, own.track, "periodic", "periodic");
+    if (own.counter != NULL)
+        course_mark_key(c, own.counter, "periodic", "counter.periodic");
 }
 
 /* ---- passes ---- */
 
 /* The gain of a pass: the largest growth of the mean equivalent plastic strain of a row along x. */
 static void
-find_gain(struct run *run, const struct rc_model *m)
+find_gain(struct run *run, const struct rc_model *m, size_t slabs)
 {
-    struct travelling *w = &run->travelling;
     const struct rc_grid *g = run->g;
-    const size_t rows = run->yielding.found->slabs * g->ny;
+    const size_t rows = slabs * g->ny;
     double *to[RC_YIELD_STRAINS] = {NULL}, *peeq, *row;
 
-    w->gain = 0;
-    if (!run->yielding.on)
+    own.gain = 0;
+    if (slabs == 0)
         return;
     peeq = tool_room(&run->d.t, g->nx * g->ny, sizeof *peeq, "plastic strain");
     row = tool_room(&run->d.t, rows, sizeof *row, "plastic strain");
@@ -209,46 +243,39 @@ find_gain(struct run *run, const struct rc_model *m)
             (void)rc_yield_strain(m, q / g->ny, to);
         for (size_t i = 0; i < g->nx; i++)
             row[q] += peeq[q % g->ny * g->nx + i] / (double)g->nx;
-        w->gain = fmax(w->gain, row[q] - (w->rows > 0 ? w->row[q] : 0));
+        own.gain = fmax(own.gain, row[q] - (own.rows > 0 ? own.row[q] : 0));
     }
     free(peeq);
-    free(w->row);
-    w->row = row;
-    w->rows = rows;
+    free(own.row);
+    own.row = row;
+    own.rows = rows;
 }
 
 static size_t
 pass_of(const struct run *run)
 {
-    return run->d.at / run->args->travel.n + 1;
+    return run->d.at / args.travel.n + 1;
 }
 
-/* Takes the heights of a position, before its figures are found. Frames are written in the last pass only. */
-void
-travel_look(struct run *run, struct rc_model *m)
+/* Takes the heights of a position and, at the last one of a pass, the figures of the pass. Frames are written in
+ * the last pass only. */
+static bool
+look(struct run *run, struct rc_model *m, struct solution *s)
 {
     static const size_t none = 0;
-    struct travelling *w = &run->travelling;
+    const struct rc_yield_figures *shaped = rc_yield_result(m);
 
-    if (!w->wanted)
-        return;
+    (void)s;
     tool_must(&run->d.t, run->g, rc_model_frame(m, "height", run->g->v, &run->d.t.err));
-    w->found = rc_travel_result(m);
-    run->d.output = pass_of(run) < w->passes ? &none : &run->args->output;
-}
-
-/* Finds the figures of a pass at its last position. */
-void
-travel_end_pass(struct run *run, const struct rc_model *m)
-{
-    struct travelling *w = &run->travelling;
-
-    w->gain = NAN;
-    if (!w->wanted || !run->yielding.wanted || (run->d.at + 1) % run->args->travel.n != 0)
-        return;
-    find_gain(run, m);
+    own.found = rc_travel_result(m);
+    run->d.output = pass_of(run) < args.passes ? &none : &run->args->output;
+    own.gain = NAN;
+    if (shaped == NULL || (run->d.at + 1) % args.travel.n != 0)
+        return true;
+    find_gain(run, m, shaped->yielded ? shaped->slabs : 0);
     if (pass_of(run) == 1)
-        w->first_gain = w->gain;
+        own.first_gain = own.gain;
+    return true;
 }
 
 /* An elastic contact at a tolerance of 1e-4 still adds up to 3e-3 of the yield strain now and then. */
@@ -256,48 +283,65 @@ static const char *
 shakedown(const struct run *run)
 {
     static const double enough = 1e-2; /* of the first gain */
-    const struct travelling *w = &run->travelling;
 
-    return pass_of(run) == 1 || isnan(w->gain) ? NULL
-           : w->gain <= enough * w->first_gain ? "yes"
-                                               : "no";
+    return pass_of(run) == 1 || isnan(own.gain)  ? NULL
+           : own.gain <= enough * own.first_gain ? "yes"
+                                                 : "no";
 }
 
-void
-travel_set_keys(struct run *run, struct rc_grid *as)
+static void
+set_keys(struct run *run, struct rc_grid *as)
 {
-    const struct travelling *w = &run->travelling;
 
-    if (!w->wanted)
-        return;
-    tool_set_number(&run->d.t, as, "position", w->found->position);
-    tool_set_number(&run->d.t, as, "height", w->found->height);
-    tool_set_number(&run->d.t, as, "window_x", w->found->window_x);
+    tool_set_number(&run->d.t, as, "position", own.found->position);
+    tool_set_number(&run->d.t, as, "height", own.found->height);
+    tool_set_number(&run->d.t, as, "window_x", own.found->window_x);
 }
 
-void
-travel_report(struct report *r, const struct run *run)
+static void
+report(struct report *r, const struct run *run)
 {
-    const struct figures from[] = {{rc_figures("travel"), run->travelling.found}, {NULL, NULL}};
+    const struct figures from[] = {{rc_figures("travel"), own.found}, {NULL, NULL}};
 
-    if (!run->travelling.wanted)
-        return;
     report_named(r, from, "position height");
     report_count(r, "pass", pass_of(run), NULL);
-    report_value(r, "strain_gain", run->travelling.gain);
+    report_value(r, "strain_gain", own.gain);
     report_text(r, "shakedown", shakedown(run));
 }
 
-const char *
-travel_state(const struct run *run)
+static const char *
+state(const struct run *run)
 {
     static char text[128];
-    const struct travelling *w = &run->travelling;
 
-    if (!w->wanted)
-        return "left out: no --travel";
-    snprintf(text, sizeof text, "on: %zu %s%s", run->args->travel.n,
-             run->args->travel.n == 1 ? "position" : "positions",
-             w->window[0] > 0 ? ", in a window" : ", on the whole map");
+    (void)run;
+    snprintf(text, sizeof text, "on: %zu %s%s", args.travel.n,
+             args.travel.n == 1 ? "position" : "positions",
+             own.window[0] > 0 ? ", in a window" : ", on the whole map");
     return text;
 }
+
+const struct effect solve_effect_travel = {
+    .name = "travel",
+    .title = "travel",
+    .options = options,
+    .ask = ask,
+    .read = read,
+    .follows = true,
+    .map = {"counter", &own.counter},
+    .open = open,
+    .close = close,
+    .mark = mark,
+    .axis = RC_POSITION,
+    .list = &own.positions,
+    .noun = "position",
+    .after = " for the first position, 5 for the next after a short step",
+    .outer = put_around,
+    .loads = loads_cost,
+    .bytes = bytes,
+    .look = look,
+    .keys = set_keys,
+    .off = "left out: no --travel",
+    .state = state,
+    .report = report,
+};

@@ -12,6 +12,34 @@
 
 #include "formats/core/core.h"
 
+static struct {
+    const char *law, *slabs; /* words of the command line, or NULL */
+} args;
+
+static struct {
+    struct yield_law read;
+    struct rc_yield_law law;
+    size_t asked;        /* increments of a load on the command line; 0: auto */
+    bool companion;      /* a second run with half of them estimates their error */
+    size_t slab_count;   /* slabs on the command line; 0: auto */
+    struct numbers list; /* or thicknesses                                                */
+    bool on;             /* something has yielded                                       */
+    const struct rc_yield_figures *found; /* NULL: no load was solved yet */
+    size_t worst; /* the case with the largest error of increments, and its number of increments */
+    size_t worst_increments;
+    double worst_error;
+} own;
+
+/* clang-format off */
+static const struct opt options[] = {
+    {.group = yield_option, .base = &args.law},
+    {.group = solve_increments},
+    {.name = "slabs", .type = OPT_TEXT, .base = &args.slabs, .result = true, .arg = "N|LIST|auto",
+     .help = "layers that may yield: number or thicknesses, from the surface down (default auto)"},
+    {.name = NULL},
+};
+/* clang-format on */
+
 static const double deserved = 1e-2;       /* allowed error without --tol */
 static const double order = 1.1;           /* the error falls with this power of the increments */
 static const double image_order = 1 / 2.7; /* and with this power of the side of a free map */
@@ -51,61 +79,53 @@ read_increments(struct run *run, const char *text)
     enum {
         LEAST = 16 /* so that half the increments have an estimate too */
     };
-    struct yielding *y = &run->yielding;
     char count[32];
     const size_t length = text != NULL ? strcspn(text, ",") : 0;
 
-    y->companion = length > 0 && length < sizeof count && strcmp(text + length, ",half") == 0;
-    if (!y->companion) {
-        read_count(run, "increments", text, &y->asked, NULL);
+    own.companion = length > 0 && length < sizeof count && strcmp(text + length, ",half") == 0;
+    if (!own.companion) {
+        read_count(run, "increments", text, &own.asked, NULL);
         return;
     }
     memcpy(count, text, length);
     count[length] = '\0';
-    read_count(run, "increments", count, &y->asked, NULL);
-    if (y->asked < LEAST || y->asked % 2 != 0)
+    read_count(run, "increments", count, &own.asked, NULL);
+    if (own.asked < LEAST || own.asked % 2 != 0)
         tool_usage(&run->d.t, "--increments %s: N,half needs an even number from %d", text, LEAST);
-    if (run->args->travel.n > 0)
-        tool_usage(
-            &run->d.t,
-            "--increments %s: a contact that travels has no second run: give --increments %zu",
-            text, y->asked);
 }
 
-void
-yield_read(struct run *run)
+static bool
+ask(struct run *run)
 {
-    const struct solve_args *args = run->args;
-    const struct physics *a = &args->physics;
-    struct yielding *y = &run->yielding;
-
-    y->wanted = args->yield != NULL;
-    if (!y->wanted && (args->slabs != NULL || (args->increments != NULL && !run->relaxing.wanted)))
+    if (args.law == NULL && args.slabs != NULL)
         tool_usage(&run->d.t, "--increments and --slabs have no effect without --yield");
-    for (int f = SOLVE_RESIDUAL; !y->wanted && f <= SOLVE_STRAIN; f++)
-        if (solve_wanted(args, f))
-            tool_usage(&run->d.t, "--output %s has no effect without --yield", solve_frames[f]);
-    if (!y->wanted)
-        return;
-    if (yield_law_read(&y->read, args->yield, &run->d.t.err) != RC_OK)
-        tool_usage(&run->d.t, "--yield %s: %s", args->yield, run->d.t.err.text);
-    y->law = y->read.law;
-    read_increments(run, args->increments);
-    read_count(run, "slabs", args->slabs, &y->slab_count, &y->list);
-    yield_law_check(&run->d.t, &y->read, a);
-    yield_law_refuse(&run->d.t, args->discretization, "--discretization",
-                     "solve a coarser map in a second command instead");
-    yield_law_refuse(&run->d.t, run->tilt, "--tilt free",
-                     "with --yield the bodies move along their normal only");
+    return args.law != NULL;
 }
 
-void
-yield_free(struct run *run)
+static void
+read(struct run *run)
 {
-    struct yielding *y = &run->yielding;
+    if (yield_law_read(&own.read, args.law, &run->d.t.err) != RC_OK)
+        tool_usage(&run->d.t, "--yield %s: %s", args.law, run->d.t.err.text);
+    own.law = own.read.law;
+    read_increments(run, run->args->increments);
+    read_count(run, "slabs", args.slabs, &own.slab_count, &own.list);
+    yield_law_check(&run->d.t, &own.read, run->physics);
+    yield_law_refuse(&run->d.t, tool_given(&run->d.t, "discretization"), "--discretization",
+                     "solve a coarser map in a second command instead");
+    yield_law_refuse(&run->d.t, run->turns, "--tilt free",
+                     "with --yield the bodies move along their normal only");
+    run->relief = "";
+    if (!tool_given(&run->d.t, "output"))
+        solve_add_frame("residual");
+}
 
-    y->on = false;
-    y->found = NULL;
+static void
+close(struct run *run)
+{
+    (void)run;
+    own.on = false;
+    own.found = NULL;
 }
 
 static double
@@ -114,82 +134,117 @@ goal(const struct run *run)
     return run->args->tol > 0 ? run->args->tol : deserved;
 }
 
-void
-yield_mark(struct run *run)
+static void
+mark(struct run *run)
 {
-    const struct yielding *y = &run->yielding;
-    const size_t bytes = y->law.points * sizeof(double);
+    const size_t bytes = own.law.points * sizeof(double);
 
-    if (y->law.points > 0)
+    if (own.law.points > 0)
         course_mark_crc(
             &run->d.course, MARK_FILE, "yield",
-            rc_crc32_add(rc_crc32_add(0, y->read.table.v[0], bytes), y->read.table.v[1], bytes));
+            rc_crc32_add(rc_crc32_add(0, own.read.table.v[0], bytes), own.read.table.v[1], bytes));
 }
 
 /* ---- the loads ---- */
 
-struct rc_model *
-yield_model(struct run *run, const struct rc_grid *g, const struct rc_problem *contact)
+/* The error of the increments is that of the history. */
+static void
+set_problem(struct run *run, struct rc_problem *problem)
 {
-    struct yielding *y = &run->yielding;
+    (void)run;
+    problem->history_part = 0;
+}
+
+static struct rc_model *
+make(struct run *run, const struct rc_problem *contact)
+{
+    const struct rc_grid *g = run->g;
     const struct rc_yield_problem problem = {.contact = *contact,
-                                             .law = y->law,
-                                             .slabs = y->list.n > 0 ? y->list.n : y->slab_count,
-                                             .thickness = y->list.n > 0 ? y->list.v : NULL,
-                                             .increments = y->asked,
-                                             .companion = y->companion};
+                                             .law = own.law,
+                                             .slabs = own.list.n > 0 ? own.list.n : own.slab_count,
+                                             .thickness = own.list.n > 0 ? own.list.v : NULL,
+                                             .increments = own.asked,
+                                             .companion = own.companion};
 
     return tool_made(&run->d.t, g, rc_yield_new(rc_shape_of(g), g->v, &problem, &run->d.t.err));
 }
 
-void
-yield_plan(struct run *run, struct rc_model *m, double load)
+/* Plans the remaining loads, before a load in N. */
+static void
+plan(struct run *run, struct rc_model *m, double load)
 {
     const double *v = run->steps->v; /* in units of `unit` */
     /* the slabs of a contact that travels must be deep enough for higher spots, and for later passes */
-    const double deeper = run->travelling.wanted ? 2 : 1;
+    const double deeper = solve_moves(run) ? 2 : 1;
     double most = 0;
 
     for (size_t k = run->step; k < run->steps->n; k++)
         most = fmax(most, v[k]);
-    if (!run->yielding.on && load > 0)
+    if (!own.on && load > 0)
         rc_yield_plan(m, run->steps->n - run->step, deeper * most * load / v[run->step]);
 }
 
-double
-yield_expect(struct run *run, double load, struct rc_expected *expected)
+static void
+begin(struct run *run, struct rc_model *m, const struct rc_problem *problem)
 {
-    const double other = 0.2; /* of a load that is not the largest so far, in a first load */
+    plan(run, m, problem->load);
+    if (run->apart && own.on)
+        run->d.course.checkpoint = run->d.checkpoint;
+}
+
+static enum rc_status
+expect(struct run *run, const struct rc_problem *problem, struct rc_expected *expected,
+       struct rc_err *err)
+{
+    struct rc_point to = {0};
+
+    rc_point_set(&to, RC_LOAD, problem->load);
+    return rc_model_plan(run->model, &to, expected, err);
+}
+
+/* Solves the elastic contact, which shows how deep the body yields. */
+static void
+plan_cost(struct run *run, const struct rc_problem *problem, struct rc_expected *expected)
+{
     struct rc_point to = {0};
     enum rc_status status;
     struct rc_loops loops;
-    double most = 0, loads = 0;
 
-    yield_plan(run, run->model, load);
-    rc_point_set(&to, RC_LOAD, load);
+    plan(run, run->model, problem->load);
+    rc_point_set(&to, RC_LOAD, problem->load);
     status = rc_model_go(run->model, &to, &run->d.t.err);
     do
         rc_model_progress(run->model, &loops);
     while (tool_interrupted() == 0 && status == RC_MORE && loops.coming == 0 &&
            (status = rc_model_step(run->model, &run->d.t.err)) == RC_MORE);
-    if (status == RC_FAIL || rc_model_plan(run->model, &to, expected, &run->d.t.err) != RC_OK)
+    if (status == RC_FAIL || expect(run, problem, expected, &run->d.t.err) != RC_OK)
         tool_refuse(&run->d.t, run->g, "%s", run->d.t.err.text);
+}
+
+static double
+loads_cost(const struct run *run)
+{
+    const double other = 0.2; /* of a load that is not the largest so far, in a first load */
+    double most = 0, loads = 0;
+
+    if (solve_moves(run))
+        return 1 + other * (double)run->cases;
     for (size_t k = 0; k < run->steps->n; k++) {
         loads += run->steps->v[k] > most ? 1 : other;
         most = fmax(most, run->steps->v[k]);
     }
-    if (run->travelling.wanted)
-        loads = 1 + other * (double)travel_points(run);
     return loads;
 }
 
-void
-yield_found(struct run *run, const struct rc_model *m)
+static bool
+look(struct run *run, struct rc_model *m, struct solution *s)
 {
-    struct yielding *y = &run->yielding;
-
-    y->found = rc_yield_result(m);
-    y->on = y->found != NULL && y->found->yielded;
+    (void)run;
+    own.found = rc_yield_result(m);
+    own.on = own.found->yielded;
+    s->contact = own.found->contact;
+    s->increments = own.on ? (double)own.found->last.increments : NAN;
+    return true;
 }
 
 /* ---- results ---- */
@@ -198,16 +253,27 @@ yield_found(struct run *run, const struct rc_model *m)
 static bool
 is_unknown(const struct run *run)
 {
-    const struct yielding *y = &run->yielding;
-
-    return y->wanted && !y->on && tool_interrupted() != 0 &&
-           !(y->found->max_mises_over_yield > 0 && y->found->max_mises_over_yield <= 1);
+    (void)run;
+    return !own.on && tool_interrupted() != 0 &&
+           !(own.found->max_mises_over_yield > 0 && own.found->max_mises_over_yield <= 1);
 }
 
-void
-yield_look(struct run *run, struct solution *s)
+/* If the pressures of single nodes alternate, the largest mean over 2 x 2 nodes is judged. */
+static void
+find_peak(struct solution *s)
 {
-    struct yielding *y = &run->yielding;
+    const double soft =
+        10; /* with hardening below so many times the yield stress, nodes alternate */
+
+    if (yield_law_hardening(&own.law) >= soft * rc_yield_law_stress(&own.law, 0))
+        return;
+    s->peak_name = "largest pressure over 2 x 2 nodes";
+    s->peak = own.found->last.max_pressure_mean4;
+}
+
+static void
+set_errors(struct run *run, struct solution *s)
+{
     const struct rc_yield_load *f;
     struct rc_contact *c = &s->contact;
 
@@ -215,9 +281,12 @@ yield_look(struct run *run, struct solution *s)
         c->pressure_error = NAN;
         c->converged = false;
     }
-    if (!y->on)
+    if (!own.on)
         return;
-    f = &y->found->last;
+    f = &own.found->last;
+    find_peak(s);
+    snprintf(s->took, sizeof s->took, "%zu increments, %zu applications", f->increments,
+             f->applications);
     c->convolutions = NAN; /* nearly all of the work is in the volume */
     s->errors = (struct error_parts){
         true,          f->increment_error, f->inherited_error, f->iteration_error, f->contact_error,
@@ -226,28 +295,14 @@ yield_look(struct run *run, struct solution *s)
         s->errors.increment = NAN;
     c->pressure_error = errors_sum(&s->errors);
     /* --increments asked for too few to estimate it */
-    c->converged =
-        run->d.status == RC_OK && c->converged &&
-        (errors_within(c->pressure_error, goal(run)) || (y->asked > 0 && isnan(c->pressure_error)));
-    if (f->increment_error > y->worst_error) {
-        y->worst_error = f->increment_error;
-        y->worst = run->d.course.number;
-        y->worst_increments = f->increments;
+    c->converged = run->d.status == RC_OK && c->converged &&
+                   (errors_within(c->pressure_error, goal(run)) ||
+                    (own.asked > 0 && isnan(c->pressure_error)));
+    if (f->increment_error > own.worst_error) {
+        own.worst_error = f->increment_error;
+        own.worst = run->d.course.number;
+        own.worst_increments = f->increments;
     }
-}
-
-double
-yield_peak(const struct run *run, double max_pressure, const char **name)
-{
-    const double soft =
-        10; /* with hardening below so many times the yield stress, nodes alternate */
-    const struct yielding *y = &run->yielding;
-    const bool alternates =
-        y->on && yield_law_hardening(&y->law) < soft * rc_yield_law_stress(&y->law, 0);
-
-    if (name != NULL)
-        *name = alternates ? "largest pressure over 2 x 2 nodes" : "largest pressure";
-    return alternates ? y->found->last.max_pressure_mean4 : max_pressure;
 }
 
 /* ---- strain ---- */
@@ -257,10 +312,9 @@ put_slab(struct run *run, const struct rc_model *m, struct rc_grid *frame, size_
          double depth, double *buffer)
 {
     static const char *const names[RC_YIELD_STRAINS] = {"exx", "eyy", "exy", "exz", "eyz", "peeq"};
-    const struct yielding *y = &run->yielding;
 
     tool_set_number(&run->d.t, frame, "depth", depth);
-    tool_set_number(&run->d.t, frame, "thickness", y->found->thickness[slab]);
+    tool_set_number(&run->d.t, frame, "thickness", own.found->thickness[slab]);
     for (size_t c = 0; c < RC_YIELD_STRAINS; c++) {
         double *to[RC_YIELD_STRAINS] = {NULL};
         struct rc_grid as = *frame; /* the frame in the output stream */
@@ -273,32 +327,54 @@ put_slab(struct run *run, const struct rc_model *m, struct rc_grid *frame, size_
     }
 }
 
-void
-yield_put_strain(struct run *run, const struct rc_model *m, const struct rc_grid *like)
+/* Writes the plastic strain slab by slab, in frames like this one. */
+static void
+put_strain(struct run *run, const struct rc_model *m, struct rc_grid *like)
 {
-    const struct yielding *y = &run->yielding;
     RC_OWN(rc_grid, frame) = NULL;
     double z = 0;
 
-    if (!y->on)
+    if (!own.on)
         return;
     frame = tool_frame_like(&run->d.t, like, NULL, like->channel, like->unit);
-    for (size_t k = 0; k < y->found->slabs; k++) {
-        put_slab(run, m, frame, k, z + y->found->thickness[k] / 2, like->v);
-        z += y->found->thickness[k];
+    for (size_t k = 0; k < own.found->slabs; k++) {
+        put_slab(run, m, frame, k, z + own.found->thickness[k] / 2, like->v);
+        z += own.found->thickness[k];
     }
+}
+
+/* Separated bodies have a shape too. */
+static const double *
+frame(struct run *run, struct rc_model *m, struct rc_grid *as, const char *word)
+{
+    if (strcmp(word, "strain") == 0)
+        put_strain(run, m, as);
+    if (strcmp(word, "plastic") != 0 || !run->apart)
+        return NULL;
+    tool_must(&run->d.t, run->g, rc_model_frame(m, word, as->v, &run->d.t.err));
+    return as->v;
+}
+
+static void
+set_keys(struct run *run, struct rc_grid *g)
+{
+    if (!own.on)
+        return;
+    /* slabs: a reader of the stream then expects the frames of plastic strain */
+    tool_set_number(&run->d.t, g, "slabs", (double)own.found->slabs);
+    tool_set_number(&run->d.t, g, "yield", rc_yield_law_stress(&own.law, 0));
+    tool_set_number(&run->d.t, g, "hardening", yield_law_hardening(&own.law));
 }
 
 static void
 warn_of_slabs(struct run *run, const char *where, const struct rc_yield_load *f)
 {
-    const struct yielding *y = &run->yielding;
     double bottom = 0, above = 0;
     size_t within = 0;
 
-    for (size_t k = 0; k < y->found->slabs; k++) {
+    for (size_t k = 0; k < own.found->slabs; k++) {
         above = bottom;
-        bottom += y->found->thickness[k];
+        bottom += own.found->thickness[k];
         within += above < f->depth;
     }
     if (f->depth > above)
@@ -317,20 +393,19 @@ warn_of_slabs(struct run *run, const char *where, const struct rc_yield_load *f)
 static void
 warn_of_part(struct run *run, const char *where, const struct solution *s)
 {
-    const struct yielding *y = &run->yielding;
-    const struct rc_yield_load *f = &y->found->last;
+    const struct rc_yield_load *f = &own.found->last;
     const struct error_parts *e = &s->errors;
     const double asked = goal(run), off = s->contact.pressure_error / asked;
     const char limit = errors_limited_by(e)[0]; /* first letter of increments, history,
                                                    tolerance, map */
-    const size_t made = limit == 'h' ? y->worst_increments : f->increments;
+    const size_t made = limit == 'h' ? own.worst_increments : f->increments;
     const double more = 2 * ceil((double)made * pow(off, order) / 2);
-    const char *half = y->companion ? ",half" : "";
+    const char *half = own.companion ? ",half" : "";
     char what[256], first[96];
 
     snprintf(first, sizeof first, "its estimated error is %.2g %%, above %.2g %%",
              100 * s->contact.pressure_error, 100 * asked);
-    if (limit == 'i' && run->travelling.wanted)
+    if (limit == 'i' && solve_moves(run))
         snprintf(what, sizeof what,
                  "%.2g %% come from the steps from position to position: take shorter ones",
                  100 * e->increment);
@@ -341,7 +416,7 @@ warn_of_part(struct run *run, const char *where, const struct solution *s)
         snprintf(what, sizeof what,
                  "%.2g %% come from case %zu, which was reached in %zu increments: give "
                  "--increments %.0f%s",
-                 100 * e->inherited, y->worst, made, more, half);
+                 100 * e->inherited, own.worst, made, more, half);
     else if (limit == 'm')
         snprintf(what, sizeof what,
                  "%.2g %% come from the edge of the map: give a map %.1f times as large with the "
@@ -354,11 +429,9 @@ warn_of_part(struct run *run, const char *where, const struct solution *s)
     course_warn(&run->d.course, "errors above the goal", "%s: %s: %s", where, first, what);
 }
 
-bool
-yield_warn_of_end(struct run *run, const char *where, const struct solution *s)
+static bool
+end(struct run *run, const char *where, const struct solution *s)
 {
-    const struct yielding *y = &run->yielding;
-
     if (is_unknown(run)) {
         tool_warn(&run->d.t,
                   "%s: interrupted before it was known whether body 1 yields: the frames hold an "
@@ -366,14 +439,14 @@ yield_warn_of_end(struct run *run, const char *where, const struct solution *s)
                   where);
         return true;
     }
-    if (!y->on)
+    if (!own.on)
         return false;
     if (run->d.status == RC_MORE)
         tool_warn(
             &run->d.t,
             "%s: interrupted in increment %zu of %zu: the frames hold an intermediate state, not "
             "a solution, and its error is unknown",
-            where, y->found->increment, y->found->increments);
+            where, own.found->increment, own.found->increments);
     else if (isnan(s->contact.pressure_error))
         course_warn(&run->d.course, "an unknown error",
                     "%s: its error is unknown, because a load was reached in fewer than 8 "
@@ -387,17 +460,17 @@ yield_warn_of_end(struct run *run, const char *where, const struct solution *s)
     return true;
 }
 
-void
-yield_judge(struct run *run, const char *where, const struct solution *s)
+static void
+judge(struct run *run, const char *where, const struct solution *s)
 {
     enum {
         SPOT = 113 /* nodes: 6 in the radius */
     };
     const struct rc_yield_load *f;
 
-    if (!run->yielding.on)
+    if (!own.on)
         return;
-    f = &run->yielding.found->last;
+    f = &own.found->last;
     warn_of_slabs(run, where, f);
     if (s->patches.count > 0 && s->contact.contact_nodes < SPOT * s->patches.count)
         course_warn(&run->d.course, "the plastic zone of a contact spot is not resolved",
@@ -406,55 +479,67 @@ yield_judge(struct run *run, const char *where, const struct solution *s)
                     where, (double)s->contact.contact_nodes / (double)s->patches.count);
 }
 
-void
-yield_tell(const struct run *run, const struct rc_contact *c, char *text, size_t size)
-{
-    const struct rc_yield_load *f;
-
-    if (!run->yielding.on) {
-        snprintf(text, size, "%zu iterations, %.3g convolutions", c->iterations, c->convolutions);
-        return;
-    }
-    f = &run->yielding.found->last;
-    snprintf(text, size, "%zu increments, %zu applications", f->increments, f->applications);
-}
-
-const char *
-yield_state(const struct run *run)
+static const char *
+state(const struct run *run)
 {
     static char text[128];
-    const struct yielding *y = &run->yielding;
 
-    if (!y->wanted)
-        return "left out: no --yield";
-    if (y->on)
+    (void)run;
+    if (own.on)
         return "on";
-    if (y->found == NULL || !(y->found->max_mises_over_yield > 0))
+    if (own.found == NULL || !(own.found->max_mises_over_yield > 0))
         return "on where the elastic stress exceeds it; costs nothing elsewhere";
     snprintf(text, sizeof text,
              "left out: the largest Mises stress is %.3g of the yield stress, %s deep",
-             y->found->max_mises_over_yield, shown_in_unit(y->found->max_mises_depth, "m"));
+             own.found->max_mises_over_yield, shown_in_unit(own.found->max_mises_depth, "m"));
     return text;
 }
 
-void
-yield_report(struct report *r, const struct run *run)
+static void
+report(struct report *r, const struct run *run)
 {
-    const struct yielding *y = &run->yielding;
-    const bool relaxes = run->relaxing.wanted;
-    const struct figures of_steps[] = {{rc_figures(relaxes ? "viscoelastic" : "yield"),
-                                        relaxes ? (const void *)run->relaxing.found
-                                        : y->on ? y->found
-                                                : NULL},
-                                       {0}},
-                         of_volume[] = {{rc_figures("yield"), y->on ? y->found : NULL}, {0}},
-                         of_stress[] = {{rc_figures("yield"), y->wanted ? y->found : NULL}, {0}};
+    const bool wanted = args.law != NULL;
+    const struct figures of_volume[] = {{rc_figures("yield"), own.on ? own.found : NULL}, {0}},
+                         of_stress[] = {{rc_figures("yield"), own.found}, {0}};
 
-    report_number(r, "yield", y->wanted ? rc_yield_law_stress(&y->law, 0) : NAN, "Pa");
-    report_number(r, "hardening", y->wanted && y->law.points == 0 ? y->law.modulus : NAN, "Pa");
-    report_named(r, of_steps, "increments");
+    report_number(r, "yield", wanted ? rc_yield_law_stress(&own.law, 0) : NAN, "Pa");
+    report_number(r, "hardening", wanted && own.law.points == 0 ? own.law.modulus : NAN, "Pa");
+    report_number(r, "increments", run->solution.increments, NULL);
     report_named(r, of_volume,
                  "applications slabs plastic_depth plastic_volume max_plastic_strain "
                  "plastic_work max_pressure_mean4");
     report_named(r, of_stress, "max_mises_over_yield max_mises_depth");
 }
+
+const struct effect solve_effect_yield = {
+    .name = "yield",
+    .title = "yield",
+    .options = options,
+    .ask = ask,
+    .read = read,
+    .sequence = true,
+    .increments = true,
+    .tol = TOL_FIXED,
+    .close = close,
+    .mark = mark,
+    .problem = set_problem,
+    .base = make,
+    .expect = expect,
+    .plan = plan_cost,
+    .loads = loads_cost,
+    .begin = begin,
+    .look = look,
+    .errors = set_errors,
+    .judge = judge,
+    .end = end,
+    .foreign = (const char *const[]){"slabs", "yield", "hardening", NULL},
+    .keys = set_keys,
+    .frames = (const char *const[]){"residual", "strain", NULL},
+    .frames_alone = "has no effect without --yield",
+    .frame = frame,
+    .off = "left out: no --yield",
+    .state = state,
+    .place = COLUMNS_OF_VOLUME,
+    .columns = true,
+    .report = report,
+};

@@ -1,0 +1,47 @@
+/* Rows of every contact: layers, the sphere, the boundary, the approach, the tilt, the estimated discretization error. */
+#include "solve.h"
+
+#include <math.h>
+#include <string.h>
+
+static const char *
+layers_state(const struct run *run)
+{
+    static char text[64];
+    size_t n = run->physics->pair.one.layers;
+
+    if (n == 0)
+        return "left out: one material";
+    snprintf(text, sizeof text, "on: %zu on a substrate", n);
+    return text;
+}
+
+static const char *
+sphere_state(const struct run *run)
+{
+    return isnan(run->physics->radius) ? "left out: no --radius" : "on";
+}
+
+static const char *
+padding_state(const struct run *run)
+{
+    return run->physics->periodic ? "left out: the map is periodic" : "on";
+}
+
+static const char *
+approach_state(const struct run *run)
+{
+    return run->physics->approach.n > 0 ? "on" : "left out: the load is given";
+}
+
+static void
+approach_keys(struct run *run, struct rc_grid *g)
+{
+    tool_set_number(&run->d.t, g, "approach", run->solution.contact.approach);
+}
+
+const struct effect solve_effect_layers = {.name = "layers", .state = layers_state};
+const struct effect solve_effect_sphere = {.name = "sphere", .state = sphere_state};
+const struct effect solve_effect_padding = {.name = "padding", .state = padding_state};
+const struct effect solve_effect_approach = {
+    .name = "approach", .state = approach_state, .keys = approach_keys};

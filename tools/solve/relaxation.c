@@ -1,0 +1,399 @@
+/*
+ * --relaxation: body 1 is viscoelastic. With --time each case is a time: one load that acts from 0 s on has a list
+ * of times, and a list of loads has the time of each.
+ */
+#include "solve.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "formats/core/core.h"
+
+/* ---- the material ---- */
+
+static struct {
+    const char *law; /* words of the command line, or NULL */
+    double shift;    /* factor of all times of the material */
+    struct numbers time;
+} args = {.shift = 1};
+
+static struct relaxation_law law;
+static double shortest; /* s, between two times; 0: there are no times */
+
+/* clang-format off */
+static const struct opt options[] = {
+    {.name = "relaxation", .type = OPT_TEXT, .base = &args.law, .result = true,
+     .arg = "EINF,E1:TAU1,...|FILE",
+     .help = "body 1 is viscoelastic: relaxed modulus and terms of E(t), or a file (instead of --E1)"},
+    {.name = "shift", .type = OPT_NUMBER, .base = &args.shift, .min = 0, .max = INFINITY, .above = true,
+     .result = true, .arg = "FACTOR",
+     .help = "multiply all times of --relaxation, as the shift factor of a temperature (default 1)"},
+    {.name = NULL},
+};
+static const struct opt time_options[] = {
+    {.name = "time", .type = OPT_NUMBERS, .unit = UNIT_S, .base = &args.time, .min = 0, .max = INFINITY,
+     .result = true, .points = true, .arg = "LIST",
+     .help = "with --relaxation, times of the loads or of the results of one load, each a case"},
+    {.name = NULL},
+};
+/* clang-format on */
+
+static void
+refuse(struct run *run, bool given, const char *what, const char *why)
+{
+    if (given)
+        tool_usage(&run->d.t, "--relaxation does not work with %s: %s", what, why);
+}
+
+static void
+forget_relief(struct run *run)
+{
+    run->relief = "";
+}
+
+static bool
+ask(struct run *run)
+{
+    struct physics *a = run->physics;
+    struct tool *t = &run->d.t;
+
+    if (args.law == NULL && (args.time.n > 0 || tool_given(t, "shift")))
+        tool_usage(t, "--time and --shift have no effect without --relaxation");
+    if (args.law == NULL)
+        return false;
+    refuse(run, tool_given(t, "E1") && !isinf(a->e1), "--E1",
+           "the moduli of body 1 are those of --relaxation (or --E1 rigid below a layer of it)");
+    refuse(run, tool_given(t, "estar"), "--estar",
+           "body 1 needs its Poisson's ratio: give --nu1, and --E2 --nu2 or --E2 rigid");
+    if (relaxation_law_read(&law, args.law, args.shift, &t->err) != RC_OK)
+        tool_usage(t, "--relaxation %s: %s", args.law, t->err.text);
+    a->relaxes = 1 / law.material->instant;
+    run->material = &law;
+    return true;
+}
+
+static void
+warn_of_material(struct run *run)
+{
+    const struct rc_relaxation *m = law.material;
+    const struct physics *a = run->physics;
+    const double contradicts = 0.05, rubber = 0.45, nu = isinf(a->e1) ? a->layers[0].nu : a->nu1;
+
+    if (law.misfit > contradicts)
+        tool_warn(&run->d.t,
+                  "--relaxation: the RMS misfit of the master curve is %.2g: its storage and loss "
+                  "moduli contradict each other, or are scattered",
+                  law.misfit);
+    if (m->relaxed == 0)
+        tool_warn(&run->d.t, "--relaxation: the relaxed modulus is 0, so that body 1 flows without "
+                             "end under a load: for a solid give the modulus that stays, first as "
+                             "in 1MPa,9MPa:1ms, or in a line `inf E` of a table");
+    if (m->terms > 0 && shortest > 0 && shortest < m->time[0])
+        tool_warn(&run->d.t,
+                  "--time: %s passes between two times, and the shortest relaxation time is %s: "
+                  "there the "
+                  "answer rests on the instantaneous modulus alone",
+                  shown_in_unit(shortest, "s"), shown_in_unit(m->time[0], "s"));
+    if (nu < rubber)
+        tool_warn(&run->d.t,
+                  "Poisson's ratio %g is constant in time, which holds for rubber (0.5): a "
+                  "compressible polymer relaxes less in its volume than in shear",
+                  nu);
+}
+
+/* The material may come from a file. */
+static void
+mark(struct run *run)
+{
+    const struct rc_relaxation *m = law.material;
+    uint32_t crc = rc_crc32_add(0, &m->relaxed, sizeof m->relaxed);
+
+    crc = rc_crc32_add(crc, m->modulus, m->terms * sizeof *m->modulus);
+    crc = rc_crc32_add(crc, m->time, m->terms * sizeof *m->time);
+    course_mark_crc(&run->d.course, MARK_FILE, "relaxation", crc);
+}
+
+static void
+refuse_map(struct run *run)
+{
+    if (run->bound_varies)
+        tool_refuse(&run->d.t, run->g, "--relaxation with a map of hardness is not implemented");
+}
+
+static const char *
+state(const struct run *run)
+{
+    static char text[128];
+
+    snprintf(text, sizeof text, "on: %zu terms, E from %s to %s", law.material->terms,
+             shown_in_unit(run->physics->relaxes, "Pa"),
+             shown_in_unit(law.material->relaxed, "Pa"));
+    return text;
+}
+
+static void
+report(struct report *r, const struct run *run)
+{
+    report_count(r, "relaxation_terms", law.material->terms, NULL);
+    report_number(r, "relaxation_misfit", law.misfit, NULL);
+    report_number(r, "modulus_instant", run->physics->relaxes, "Pa");
+    report_number(r, "modulus_relaxed", law.material->relaxed, "Pa");
+}
+
+const struct effect solve_effect_relaxation = {
+    .name = "relaxation",
+    .title = "time",
+    .options = options,
+    .ask = ask,
+    .read = forget_relief,
+    .warn = warn_of_material,
+    .take = refuse_map,
+    .mark = mark,
+    .off = "left out: no --relaxation",
+    .state = state,
+    .place = COLUMNS_LAST,
+    .report = report,
+};
+
+/* ---- times ---- */
+
+static struct {
+    struct numbers times; /* of the points */
+    bool before;          /* the load acts before the first asked time */
+    size_t increments;    /* on the command line; 0: auto */
+    const struct rc_viscoelastic_figures *found;
+} own;
+
+static bool
+ask_time(struct run *run)
+{
+    return args.law != NULL && !tool_given(&run->d.t, "speed");
+}
+
+/* The time of the first load is 0. One load acts from 0 on, also if the first asked time is later. */
+static void
+check_times(struct run *run)
+{
+    const struct numbers *time = &args.time;
+    struct tool *t = &run->d.t;
+
+    if (time->n == 0)
+        tool_usage(t, "--relaxation needs the times of the cases: give --time LIST");
+    if (run->steps->n > 1 && run->steps->n != time->n)
+        tool_usage(t,
+                   "--time has %zu values, and the list of loads or approaches %zu: give lists of "
+                   "equal length, or one load",
+                   time->n, run->steps->n);
+    if (time->v[0] < 0 || (time->v[0] > 0 && run->steps->n > 1))
+        tool_usage(t, "--time: the first time is %g s: it must be 0", time->v[0]);
+    own.before = time->v[0] > 0;
+    shortest = INFINITY;
+    for (size_t k = 0; k < time->n; k++) {
+        const double leg = time->v[k] - (k > 0 ? time->v[k - 1] : 0);
+        if (!(leg >= 0) || isinf(leg) || (leg == 0 && k > 0 && run->steps->n == 1))
+            tool_usage(t, "--time: %g s after %g s: the times must rise%s", time->v[k],
+                       k > 0 ? time->v[k - 1] : 0,
+                       run->steps->n > 1 ? ", or be equal at a jump" : "");
+        if (leg > 0)
+            shortest = fmin(shortest, leg);
+    }
+    if (isinf(shortest))
+        shortest = 0;
+}
+
+/* The times of the points. */
+static void
+set_times(struct run *run)
+{
+    const size_t before = own.before;
+
+    own.times.n = args.time.n + before;
+    own.times.v = tool_room(&run->d.t, own.times.n, sizeof *own.times.v, "the times");
+    memcpy(own.times.v + before, args.time.v, args.time.n * sizeof *own.times.v);
+}
+
+static void
+read_time(struct run *run)
+{
+    const struct physics *a = run->physics;
+    const char *text = run->args->increments;
+    struct tool *t = &run->d.t;
+    char *end;
+
+    refuse(run, !isinf(a->hardness), "--hardness", "it is not implemented");
+    refuse(run, a->layer.n > 0 && !(isinf(a->e1) && isinf(a->e2)), "--layer",
+           "a layer must relax alone: give --E1 rigid and --E2 rigid");
+    refuse(run, a->layer.n != a->relaxing_layers, "--layer",
+           "all layers must relax alike: give " LAYER_RELAXES
+           " for the modulus of each, as in 1mm," LAYER_RELAXES ",0.49");
+    refuse(run, tool_given(t, "yield"), "--yield", "it is not implemented");
+    refuse(run, tool_given(t, "adhesion"), "--adhesion", "it is not implemented");
+    refuse(run, a->travels, "--travel", "it is not implemented");
+    refuse(run, run->turns, "--tilt free", "the bodies move along their normal only");
+    refuse(run, tool_given(t, "discretization"), "--discretization",
+           "solve a coarser map in a second command instead");
+    refuse(run, ranks_of(t) != NULL, "several processes", "take one");
+    check_times(run);
+    set_times(run);
+    if (text == NULL || strcmp(text, "auto") == 0)
+        return;
+    own.increments = strtoul(text, &end, 10);
+    if (*end != '\0' || text[0] == '-' || own.increments < 2 ||
+        own.increments > RC_YIELD_INCREMENTS)
+        tool_usage(t, "--increments %s: it must be auto or a number from 2 to %d", text,
+                   RC_YIELD_INCREMENTS);
+}
+
+static void
+mark_times(struct run *run)
+{
+    struct course *c = &run->d.course;
+
+    course_mark(c, MARK_POINT, "shortest time", rc_number(shortest));
+    course_mark(c, MARK_POINT, "last time", rc_number(own.times.v[own.times.n - 1]));
+}
+
+/* ---- the model ---- */
+
+/* The start of the load is not a case. */
+static void
+leave_start_out(struct run *run)
+{
+    run->cases -= own.before;
+}
+
+/* Most of the tolerance is for the steps in time. */
+static void
+set_problem(struct run *run, struct rc_problem *problem)
+{
+    (void)run;
+    problem->tol *= 0.1;
+}
+
+static struct rc_model *
+put_around(struct run *run, struct rc_model *inner)
+{
+    const struct physics *a = run->physics;
+    const struct rc_viscoelastic_problem problem = {
+        .tol = run->args->tol * 0.8,
+        .material = law.material,
+        .share = isinf(a->e1) ? 1 : fmin(1, (1 - a->nu1 * a->nu1) / a->e1 * a->surface_estar),
+        .shortest = shortest,
+        .longest = args.time.v[args.time.n - 1],
+        .points = own.times.n,
+        .increments = own.increments};
+
+    return tool_made(&run->d.t, run->g,
+                     rc_viscoelastic_new(inner, run->g->v, &problem, &run->d.t.err));
+}
+
+/* The cost of the largest load of the history. */
+static enum rc_status
+expect(struct run *run, const struct rc_problem *problem, struct rc_expected *expected,
+       struct rc_err *err)
+{
+    struct rc_point to = {0};
+    size_t most = 0;
+
+    (void)problem;
+    for (size_t k = 0; k < run->steps->n; k++)
+        if (run->steps->v[k] > run->steps->v[most])
+            most = k;
+    to = run->d.point[most < run->d.points ? most : 0];
+    rc_point_set(&to, RC_TIME, 0);
+    return rc_model_plan(run->model, &to, expected, err);
+}
+
+static void
+begin(struct run *run, struct rc_model *m, const struct rc_problem *problem)
+{
+    (void)m, (void)problem;
+    run->d.course.checkpoint = own.before && run->d.at == 0 ? NULL : run->d.checkpoint;
+}
+
+/* ---- results ---- */
+
+/* Takes the figures of a time. False: the start of a load, which is not a case. */
+static bool
+look(struct run *run, struct rc_model *m, struct solution *s)
+{
+    own.found = rc_viscoelastic_result(m);
+    s->contact = own.found->contact;
+    s->increments = (double)own.found->increments;
+    run->apart = s->contact.contact_nodes == 0;
+    if (run->d.at == 0 && own.before && tool_interrupted() == 0) {
+        run->d.silent = true;
+        run->d.course.number--;
+        return false;
+    }
+    return true;
+}
+
+static void
+set_errors(struct run *run, struct solution *s)
+{
+    s->contact.convolutions = own.found->contact.convolutions;
+    if (!run->apart)
+        s->errors =
+            (struct error_parts){.told = true,
+                                 .increment = own.found->increment_error,
+                                 .contact = s->contact.pressure_error - own.found->increment_error};
+}
+
+/* Warns of a time at which the steps are too long. */
+static bool
+end(struct run *run, const char *where, const struct solution *s)
+{
+    const struct rc_contact *c = &s->contact;
+
+    if (c->converged || tool_interrupted() != 0 ||
+        own.found->increment_error < c->pressure_error / 2)
+        return false;
+    course_warn(
+        &run->d.course, "stopped short",
+        "%s: the error of the steps in time is %.2g of the pressure: take more --increments "
+        "than %zu",
+        where, own.found->increment_error, own.increments > 0 ? own.increments : 320);
+    return true;
+}
+
+static void
+set_keys(struct run *run, struct rc_grid *g)
+{
+    tool_set_number(&run->d.t, g, "time", own.found->time);
+}
+
+static void
+report_time(struct report *r, const struct run *run)
+{
+    const struct figures from[] = {{rc_figures("viscoelastic"), own.found}, {NULL, NULL}};
+
+    (void)run;
+    report_named(r, from, "time equivalent_load");
+}
+
+const struct effect solve_effect_time = {
+    .title = "time",
+    .options = time_options,
+    .ask = ask_time,
+    .read = read_time,
+    .increments = true,
+    .sequence = true,
+    .mark = mark_times,
+    .axis = RC_TIME,
+    .list = &own.times,
+    .points = leave_start_out,
+    .noun = "time",
+    .after = " for each time",
+    .problem = set_problem,
+    .outer = put_around,
+    .at_once = true,
+    .expect = expect,
+    .begin = begin,
+    .look = look,
+    .errors = set_errors,
+    .end = end,
+    .keys = set_keys,
+    .report = report_time,
+};

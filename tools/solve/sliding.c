@@ -1,0 +1,257 @@
+/*
+ * --relaxation with --speed: body 2 slides steadily over the viscoelastic body 1, a case a speed. One load
+ * has a list of speeds, one speed a list of loads, and lists of equal length belong together.
+ */
+#include "solve.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "formats/core/core.h"
+
+static const double beyond = 10; /* times the inverse of the shortest relaxation time */
+
+static struct {
+    struct numbers speed;
+    const char *along, *track; /* x or y; fresh or repeated  */
+} args = {.along = "x", .track = "fresh"};
+
+static struct {
+    struct rc_relaxation *material; /* of E/(1 - nu^2) */
+    const struct rc_sliding_figures *found;
+} own;
+
+/* clang-format off */
+static const struct opt options[] = {
+    {.name = "speed", .type = OPT_NUMBERS, .unit = UNIT_SPEED, .base = &args.speed, .min = -INFINITY,
+     .max = INFINITY, .result = true, .points = true, .arg = "LIST",
+     .help = "with --relaxation, body 2 slides steadily over body 1: m/s along +x, each a case"},
+    {.name = "along", .type = OPT_CHOICE, .base = &args.along, .result = true, .arg = "x|y",
+     .help = "direction in which it slides (default x)"},
+    {.name = "track", .type = OPT_CHOICE, .base = &args.track, .result = true, .arg = "fresh|repeated",
+     .help = "whether it meets its own grooves again after a period (default fresh)"},
+    {.name = NULL},
+};
+/* clang-format on */
+
+static bool
+slides_along_y(void)
+{
+    return strcmp(args.along, "y") == 0;
+}
+
+static bool
+repeats(void)
+{
+    return strcmp(args.track, "repeated") == 0;
+}
+
+/* ---- the command line ---- */
+
+static void
+refuse(struct run *run, bool given, const char *what, const char *why)
+{
+    if (given)
+        tool_usage(&run->d.t, "--speed does not work with %s: %s", what, why);
+}
+
+/* The relaxation of E/(1 - nu^2) of body 1. */
+static void
+make_material(struct run *run)
+{
+    const struct rc_relaxation *m = run->material->material;
+    const double nu = run->physics->nu1, plane = 1 - nu * nu;
+    double *modulus = malloc((m->terms + 1) * sizeof *modulus);
+    struct rc_err err = {"out of memory for the material"};
+
+    for (size_t k = 0; k < m->terms && modulus != NULL; k++)
+        modulus[k] = m->modulus[k] / plane;
+    if (modulus != NULL)
+        own.material = rc_relaxation_new(m->relaxed / plane, m->terms, modulus, m->time, &err);
+    free(modulus);
+    if (own.material == NULL)
+        tool_usage(&run->d.t, "--relaxation: %s", err.text);
+}
+
+static bool
+ask(struct run *run)
+{
+    struct tool *t = &run->d.t;
+
+    if (args.speed.n == 0 && (tool_given(t, "along") || tool_given(t, "track")))
+        tool_usage(t, "--along and --track have no effect without --speed");
+    return args.speed.n > 0;
+}
+
+static void
+read(struct run *run)
+{
+    const struct physics *a = run->physics;
+    struct tool *t = &run->d.t;
+
+    if (run->material == NULL)
+        tool_usage(t, "--speed needs the material of body 1: give --relaxation");
+    refuse(run, !a->periodic && repeats(), "--track repeated",
+           "only a map that repeats has one: give --periodic");
+    refuse(run, tool_given(t, "time"), "--time", "a steady state has no time");
+    refuse(run, !isinf(a->hardness), "--hardness", "it is not implemented");
+    refuse(run, a->layer.n > 0, "--layer", "it is not implemented");
+    refuse(run, tool_given(t, "yield"), "--yield", "it is not implemented");
+    refuse(run, tool_given(t, "adhesion"), "--adhesion", "it is not implemented");
+    refuse(run, a->travels, "--travel", "the steady state is that of all positions");
+    refuse(run, tool_given(t, "history"), "--history", "each case is a steady state of its own");
+    refuse(run, tool_given(t, "stiffness"), "--stiffness", "it is not implemented");
+    refuse(run, tool_given(t, "conductivity"), "--conductivity", "it is not implemented");
+    refuse(run, tool_given(t, "discretization"), "--discretization",
+           "solve a coarser map in a second command instead");
+    refuse(run, ranks_of(t) != NULL, "several processes", "take one");
+    if (!(run->material->material->relaxed > 0))
+        tool_usage(
+            t, "--relaxation: the relaxed modulus is 0: body 2 would sink without end, and there "
+               "is no steady state for --speed");
+    if (run->steps->n > 1 && args.speed.n > 1 && run->steps->n != args.speed.n)
+        tool_usage(t,
+                   "--speed has %zu values, and the list of loads or approaches %zu: give lists of "
+                   "equal length, or one load or one speed",
+                   args.speed.n, run->steps->n);
+    make_material(run);
+}
+
+/* ---- the model ---- */
+
+static struct rc_model *
+make(struct run *run, const struct rc_problem *problem)
+{
+    const struct physics *a = run->physics;
+    const struct rc_sliding_problem law = {
+        .material = own.material,
+        .compliance = fmax(1 / a->surface_estar - (1 - a->nu1 * a->nu1) / a->e1, 0),
+        .along_y = slides_along_y(),
+        .repeats = repeats()};
+
+    return tool_made(&run->d.t, run->g,
+                     rc_sliding_new(rc_shape_of(run->g), run->g->v, problem, &law, &run->d.t.err));
+}
+
+static enum rc_status
+expect(struct run *run, const struct rc_problem *problem, struct rc_expected *expected,
+       struct rc_err *err)
+{
+    (void)problem;
+    return rc_model_plan(run->model, &run->d.point[run->step], expected, err);
+}
+
+/* ---- results ---- */
+
+static bool
+look(struct run *run, struct rc_model *m, struct solution *s)
+{
+    const struct rc_sliding_figures *f = own.found = rc_sliding_result(m);
+    struct rc_contact *c = &s->contact;
+
+    (void)run;
+    c->approach = f->approach;
+    c->iterations = f->iterations;
+    c->convolutions = f->convolutions;
+    c->pressure_error = f->pressure_error;
+    c->elastic_energy = f->elastic_energy;
+    c->converged = f->converged;
+    return true;
+}
+
+/* Those of the contacts are not all. */
+static void
+set_errors(struct run *run, struct solution *s)
+{
+    (void)run;
+    s->contact.convolutions = own.found->convolutions;
+}
+
+static void
+warn(struct run *run, const char *where)
+{
+    const struct rc_relaxation *m = own.material;
+    const double traction = 0.3, pi = 3.141592653589793;
+    const struct rc_grid *g = run->g;
+    double speed, length;
+
+    speed = fabs(own.found->speed);
+    length = slides_along_y() ? (double)g->ny * g->dy : (double)g->nx * g->dx;
+    if (own.found->friction > traction)
+        tool_warn(&run->d.t,
+                  "%s: the coefficient of friction is %.3g, and the contact is that of smooth "
+                  "bodies without friction: above %g the tractions along the surface change it",
+                  where, own.found->friction, traction);
+    if (isnan(run->material->misfit) || m->terms == 0 || speed == 0)
+        return;
+    if (2 * pi * speed / (8 * g->dx) * m->time[0] > beyond)
+        tool_warn(&run->d.t,
+                  "%s: waves of 8 nodes excite the material beyond the frequencies of the master "
+                  "curve: there it has its instantaneous modulus by extrapolation",
+                  where);
+    if (2 * pi * speed / length * m->time[m->terms - 1] < 1 / beyond)
+        tool_warn(&run->d.t,
+                  "%s: waves as long as the map, %s, excite the material below the frequencies of "
+                  "the master curve: there it has its relaxed modulus by extrapolation",
+                  where, shown_in_unit(length, "m"));
+}
+
+static bool
+end(struct run *run, const char *where, const struct solution *s)
+{
+    if (tool_interrupted() == 0 && s->contact.contact_nodes > 0)
+        warn(run, where);
+    return false;
+}
+
+static void
+set_keys(struct run *run, struct rc_grid *g)
+{
+    tool_set_number(&run->d.t, g, "speed", run->d.point[run->d.at].at[RC_SPEED]);
+}
+
+static void
+report(struct report *r, const struct run *run)
+{
+    const struct figures from[] = {{rc_figures("sliding"), own.found}, {NULL, NULL}};
+
+    (void)run;
+    report_named(r, from,
+                 "speed friction friction_force friction_error_estimate dissipated_power track "
+                 "tan_delta_max contacts");
+}
+
+static const char *
+state(const struct run *run)
+{
+    static char text[128];
+
+    (void)run;
+    snprintf(text, sizeof text, "on: along %s, %s track", args.along, args.track);
+    return text;
+}
+
+const struct effect solve_effect_sliding = {
+    .name = "sliding",
+    .title = "sliding",
+    .options = options,
+    .ask = ask,
+    .read = read,
+    .no_stiffness = "one load and no --stiffness",
+    .axis = RC_SPEED,
+    .list = &args.speed,
+    .noun = "speed",
+    .after = " for the first speed",
+    .base = make,
+    .at_once = true,
+    .by_gap = true,
+    .expect = expect,
+    .look = look,
+    .errors = set_errors,
+    .end = end,
+    .keys = set_keys,
+    .off = "left out: no --speed",
+    .state = state,
+    .report = report,
+};
