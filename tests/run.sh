@@ -77,7 +77,8 @@ try mpi -R '^(same|law).*_ranks$' || failed=1
 phase "mpi, tests of two processes that solve together"
 try mpi -R '^pipe_ranks$|law_folders|pipe_(installed|library(_page)?|solve)$' >build-mpi/tests.log 2>&1 &
 shared=$!
-try ci --parallel "$(cores)" || failed=1
+# One test more than cores: some wait for a limit of time, a signal or another process.
+try ci --parallel "$(($(cores) + 1))" || failed=1
 phase "ci, tests"
 wait "$shared" || failed=1
 cat build-mpi/tests.log
