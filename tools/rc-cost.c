@@ -37,14 +37,25 @@ static const struct opt opts[] = {
     {.group = history_option, AT(physics.history)},
     {.group = tilt_options, AT(tilt)},
     {.name = "kernel", .alias = "engine", .type = OPT_WORDS, AT(kernels), .words = words_engine,
-     .arg = "LIST", .help = "try only these, of %s (default: all)"},
+     .arg = "LIST",
+     .against = RULES({.with = "yield", .because = "the trials vary increments and slabs, with pcg and fft"},
+                      {.with = "adhesion", .because = "there is only one method"}),
+     .help = "try only these, of %s (default: all)"},
     {.name = "method", .type = OPT_WORDS, AT(methods), .words = words_method, .arg = "LIST",
+     .against = RULES({.with = "yield", .because = "the trials vary increments and slabs, with pcg and fft"},
+                      {.with = "adhesion", .because = "there is only one method"}),
      .help = "try only these, of %s (default: all)"},
     {.name = "depths", .type = OPT_TEXT, AT(depths), .arg = "LIST",
+     .needs = RULES({.with = "nu|nu1", .because = "stresses depend on Poisson's ratio"}),
+     .against = RULES({.with = "yield", .remedy = "compute these stresses with rc-stress from the frames of "
+                                                  "rc-solve"}),
      .help = "stresses too, at these depths: a,b,c, a:b:n, a:b:log:n or auto"},
     {.name = "nu", .type = OPT_NUMBER, AT(nu), .min = -1, .max = 0.5, .above = true, .arg = "RATIO",
+     .needs = RULES({.with = "depths"}),
+     .against = RULES({.with = "layer", .because = "each layer has its own Poisson's ratio"}),
      .help = "Poisson's ratio for the stresses (default: --nu1)"},
     {.name = "mu", .type = OPT_NUMBER, AT(mu), .min = -10, .max = 10, .arg = "COEFFICIENT",
+     .needs = RULES({.with = "depths"}),
      .help = "for the stresses: the surface also carries mu times the pressure along +x"},
     {.name = "leak", .type = OPT_CHOICE, AT(leak), .arg = "x|y",
      .help = "leakage through the gap too, in this direction, with its discretization error"},
@@ -52,6 +63,8 @@ static const struct opt opts[] = {
      .help = "print the most accurate rc-solve command within this time instead of the table"},
     {.name = "error", .type = OPT_NUMBER, AT(error), .min = 0, .max = 1, .above = true,
      .arg = "ERROR",
+     .against = RULES({.with = "budget", .because = "one selects the fastest trial, the other the most "
+                                                 "accurate one"}),
      .help = "print the fastest rc-solve command with at most this error instead of the table"},
     {.name = "limit", .type = OPT_NUMBER, .unit = UNIT_S, AT(limit), ABOVE_0, .arg = "TIME",
      .help = "time limit after the reference; trials that do not fit are left out (default 60s)"},
@@ -92,24 +105,6 @@ choosing(void)
     return !isnan(args.budget) || !isnan(args.error);
 }
 
-/* Checks the options for bodies that yield or attract each other. */
-static void
-check_effects(struct tool *t)
-{
-    const char *effect = args.yield != NULL ? "--yield" : "--adhesion";
-
-    if (args.yield == NULL && args.adhesion == NULL)
-        return;
-    if (tool_given(t, "kernel") || tool_given(t, "method"))
-        tool_usage(t, "%s does not work with --kernel and --method: %s", effect,
-                   args.yield != NULL ? "the trials vary increments and slabs, with pcg and fft"
-                                      : "there is only one method");
-    if (args.yield != NULL && tool_given(t, "depths"))
-        tool_usage(
-            t, "--yield does not work with --depths: compute these stresses with rc-stress from "
-               "the frames of rc-solve");
-}
-
 static void
 check_arguments(struct costs *run)
 {
@@ -120,17 +115,6 @@ check_arguments(struct costs *run)
     physics_check(t, physics);
     if (physics_steps(physics)->n > 1 && !physics->history)
         tool_usage(t, "one load at a time: %zu were given", physics_steps(physics)->n);
-    if (tool_given(t, "budget") && tool_given(t, "error"))
-        tool_usage(
-            t, "--budget selects the most accurate trial within a time, --error the fastest with "
-               "an accuracy: give one of them");
-    if (physics->pair.one.layers > 0 && tool_given(t, "nu"))
-        tool_usage(t, "--nu: each layer has its own Poisson's ratio: leave it out");
-    if (tool_given(t, "depths") && isnan(args.nu) && isnan(physics->nu1))
-        tool_usage(t, "--depths: stresses need Poisson's ratio: give --nu");
-    if (!tool_given(t, "depths") && (tool_given(t, "nu") || tool_given(t, "mu")))
-        tool_usage(t, "--nu and --mu are for stresses: give --depths as well");
-    check_effects(t);
     ending_demand_picture(t, "--plot", args.plot);
     tool_demand_writable(t, "--plot", args.plot);
     report_open(&run->report, t, args.report);

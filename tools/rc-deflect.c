@@ -25,9 +25,13 @@ static const struct opt opts[] = {
      .result = true, .arg = "ERROR",
      .help = "permitted error, relative to the sum of |K| |p| (default: rounding)"},
     {.name = "order", .type = OPT_COUNT, AT(order), .min = 1, .max = 50, .result = true,
-     .arg = "T", .help = "multi-level sums: transfers of order 2T, together with --correction"},
+     .arg = "T",
+     .needs = RULES({.with = "correction"}),
+     .help = "multi-level sums: transfers of order 2T"},
     {.name = "correction", .type = OPT_COUNT, AT(correction), .min = 1, .max = 1000,
-     .result = true, .arg = "M", .help = "multi-level sums: corrections over 2M+1 by 2M+1 nodes"},
+     .result = true, .arg = "M",
+     .needs = RULES({.with = "order"}),
+     .help = "multi-level sums: corrections over 2M+1 by 2M+1 nodes"},
     {.name = NULL},
 };
 /* clang-format on */
@@ -147,8 +151,6 @@ main(int argc, char **argv)
     struct rc_grid *p;
 
     tool_start(&t, &info, argc, argv, &args);
-    if (tool_given(&t, "order") != tool_given(&t, "correction"))
-        tool_usage(&t, "--order and --correction are given together or not at all");
     while ((p = tool_channel(&t, "pressure", false)) != NULL) {
         do_case(&t, p);
         rc_grid_free(p);

@@ -16,7 +16,6 @@ struct work {
                           struct rc_err *err);
     struct rc_form form; /* of remove_form; the value of the step is added to its degree */
     bool high;           /* of filter: short waves are kept                              */
-    bool fits;           /* a fit: --robust applies to it                                */
 };
 
 /* fraction of filled points above which a warning is given */
@@ -266,16 +265,8 @@ passing(struct tool *t, struct rc_grid *g)
 static void
 check_steps(struct tool *t)
 {
-    bool fitted = false;
-
     if (args.steps.n == 0)
         tool_usage(t, "nothing to do: give --plane, --poly N or --fill, or another step of --help");
-    for (size_t k = 0; k < args.steps.n; k++) {
-        const struct work *work = args.steps.step[k].opt->of;
-        fitted = fitted || work->fits;
-    }
-    if (args.robust && !fitted)
-        tool_usage(t, "--robust concerns forms and filters: give one of them");
 }
 
 /* ---- options ---- */
@@ -289,19 +280,19 @@ check_steps(struct tool *t)
 #define ABOVE_0 .max = INFINITY, .above = true
 /* clang-format off */
 static const struct opt opts[] = {
-    {STEP("plane", .run = remove_form, .form.degree = 1, .fits = true),
+    {STEP("plane", .run = remove_form, .form.degree = 1),
      .help = "subtract the least-squares plane"},
-    {STEP("poly", .run = remove_form, .fits = true), .max = RC_DEGREE_MAX, .arg = "N",
+    {STEP("poly", .run = remove_form), .max = RC_DEGREE_MAX, .arg = "N",
      .help = "subtract the polynomial of degree N (0: the mean)"},
-    {STEP("rows", .run = rows, .fits = true), .arg = "offset|tilt|bow",
+    {STEP("rows", .run = rows), .arg = "offset|tilt|bow",
      .help = "subtract the median, straight line or parabola of each row"},
-    {STEP("sphere", .run = remove_form, .form.kind = RC_SPHERE, .fits = true),
+    {STEP("sphere", .run = remove_form, .form.kind = RC_SPHERE),
      .help = "subtract the best sphere, and print its radius"},
-    {STEP("cylinder", .run = remove_form, .form.kind = RC_CYLINDER, .fits = true),
+    {STEP("cylinder", .run = remove_form, .form.kind = RC_CYLINDER),
      .help = "subtract the best cylinder, of any direction and tilt"},
-    {STEP("lowpass", .run = filter, .fits = true), .unit = UNIT_M, ABOVE_0, .arg = "L",
+    {STEP("lowpass", .run = filter), .unit = UNIT_M, ABOVE_0, .arg = "L",
      .help = "keep waves longer than L (Gaussian filter, 50 % at L)"},
-    {STEP("highpass", .run = filter, .high = true, .fits = true), .unit = UNIT_M, ABOVE_0, .arg = "L",
+    {STEP("highpass", .run = filter, .high = true), .unit = UNIT_M, ABOVE_0, .arg = "L",
      .help = "keep waves shorter than L: the input minus its low-pass"},
     {STEP("outliers", .run = outliers), .real = true, ABOVE_0, .arg = "T",
      .help = "drop points that differ by T deviations from the median of their neighbours"},
@@ -311,6 +302,8 @@ static const struct opt opts[] = {
     {STEP("mirror", .run = mirror),
      .help = "add the mirror images about two edges, so that the map repeats"},
     {.name = "robust", .type = OPT_FLAG, .at = offsetof(struct args, robust), .result = true,
+     .needs = RULES({.with = "plane|poly|rows|sphere|cylinder|lowpass|highpass",
+                    .because = "it changes forms and filters"}),
      .help = "robust forms and filters, insensitive to outliers"},
     {.name = NULL},
 };

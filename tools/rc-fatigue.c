@@ -36,15 +36,22 @@ static const struct opt opts[] = {
      .above = true, .result = true, .arg = "LIST",
      .help = "yield stress in tension, likewise, for the criterion shakedown"},
     {.name = "limits", .type = OPT_TEXT, AT(limits.table), .result = true, .arg = "FILE",
+     .against = RULES({.with = "bending-limit|torsion-limit|yield", .because = "the table has all limits"}),
      .help = "instead: a table of depth, bending limit, torsion limit and, if needed, yield stress"},
     {.name = "criteria", .type = OPT_WORDS, AT(criteria), .result = true, .words = criterion_word,
-     .arg = "LIST", .help = "of %s (default: crossland, dangvan, amplitude)"},
+     .arg = "LIST",
+     .needs = RULES({.with = "pass", .word = "shakedown",
+                    .because = "only then the residual stresses do not vary along the travel"}),
+     .help = "of %s (default: crossland, dangvan, amplitude)"},
     {.name = "dangvan", .type = OPT_CHOICE, AT(dangvan), .result = true, .arg = "cut|full",
+     .needs = RULES({.with = "criteria dangvan"}),
      .help = "hydrostatic pressure has no effect in Dang Van's criterion, or lowers it (default cut)"},
     {.name = "pass", .type = OPT_CHOICE, AT(pass), .result = true, .arg = "x|y",
      .help = "the pressure travels with the contact along this axis: every point of a line sees the line"},
     {.name = "depths", .type = OPT_NUMBERS, .unit = UNIT_M, AT(depths), .min = 0,
      .max = INFINITY, .result = true, .word = "auto", .arg = "LIST",
+     .one_of = RULES({.with = "depths", .remedy = "as in --depths 1um,5um or --depths 1um:50um:log:20, or leave "
+                                                "their choice to --depths auto"}),
      .help = "depths: a,b,c, a:b:n or a:b:log:n, or auto: dense near the surface"},
     {.name = "residual", .type = OPT_TEXT, AT(residual), .result = true, .arg = "FILE",
      .help = "stresses that are always there, as rc-stress --residual writes them at these depths"},
@@ -116,20 +123,11 @@ check_arguments(struct run *run)
 {
     struct tool *t = &run->t;
 
-    if (!tool_given(t, "depths"))
-        tool_usage(t, "give the depths with --depths, as in --depths 1um,5um or --depths "
-                      "1um:50um:log:20, or leave their choice to --depths auto");
     for (size_t k = 1; k < args.depths.n; k++)
         if (!(args.depths.v[k] > args.depths.v[k - 1]))
             tool_usage(t, "--depths: the depths must increase");
     if (args.planes)
         args.criteria |= 1U << RC_FINDLEY | 1U << RC_PLANE_TILT | 1U << RC_PLANE_TURN;
-    if (tool_given(t, "dangvan") && !wanted(RC_DANG_VAN))
-        tool_usage(t, "--dangvan has no effect without the criterion dangvan");
-    if (wanted(RC_SHAKEDOWN) && args.pass == NULL)
-        tool_usage(
-            t, "the criterion shakedown needs --pass: only then the residual stresses do not vary "
-               "along the travel");
     if (args.life.n > 3 || (args.life.n > 0 && !(args.life.v[0] > 0)))
         tool_usage(t, "--life: it must be C, C,H or C,H,TAU, with C above 0");
     fatigue_limits_read(t, &args.limits, (unsigned)args.criteria, &run->limits);

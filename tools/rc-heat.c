@@ -25,17 +25,25 @@ static const char *const partitions[] = {
 /* clang-format off */
 static const struct opt opts[] = {
     {.name = "mu", .type = OPT_NUMBER, AT(mu), .min = 0, .max = INFINITY, .result = true,
-     .arg = "COEFFICIENT", .help = "coefficient of friction: the heat is mu times pressure times speed"},
+     .arg = "COEFFICIENT",
+     .against = RULES({.with = "frequency|rolling", .because = "each is a source of heat"}),
+     .help = "coefficient of friction: the heat is mu times pressure times speed"},
     {.name = "frequency", .type = OPT_NUMBER, .unit = UNIT_HZ, AT(frequency), ABOVE_0, .arg = "F",
+     .against = RULES({.with = "rolling", .because = "each is a source of heat"}),
      .help = "cycles per second: heat from the frames dissipation of rc-slip, summed over the cases"},
     {.name = "rolling", .type = OPT_NUMBER, .unit = UNIT_SPEED, AT(rolling), ABOVE_0, .arg = "V",
+     .against = RULES({.with = "speed|moving",
+                      .because = "it and the creepages of the stream give the motion of both bodies"}),
      .help = "speed of rolling towards +x: heat from the frame dissipation of rc-slip --creep"},
     {.name = "speed", .type = OPT_NUMBERS, .unit = UNIT_SPEED, AT(speed), .min = -INFINITY,
      .max = INFINITY, .result = true, .arg = "VX[,VY]", .help = "sliding speed along x and y"},
     {.name = "conductivity", .type = OPT_TEXT, AT(conductivity), .result = true, .arg = "K1,K2",
+     .one_of = RULES({.with = "conductivity", .remedy = "as in --conductivity 45W/mK,16W/mK"}),
      .help = "thermal conductivities of both bodies, as in 45W/mK,16W/mK"},
     {.name = "diffusivity", .type = OPT_NUMBERS, .unit = UNIT_DIFFUSIVITY, AT(diffusivity), ABOVE_0,
-     .arg = "A1,A2", .help = "thermal diffusivities of both bodies, as in 12mm2/s,4mm2/s"},
+     .arg = "A1,A2",
+     .one_of = RULES({.with = "diffusivity|heat-capacity"}),
+     .help = "thermal diffusivities of both bodies, as in 12mm2/s,4mm2/s"},
     {.name = "heat-capacity", .type = OPT_NUMBERS, .unit = UNIT_HEAT, AT(capacity), ABOVE_0,
      .arg = "C1,C2", .help = "instead: heat capacities by volume, as in 3.7MJ/m3K,4MJ/m3K"},
     {.name = "moving", .type = OPT_TEXT, AT(moving), .result = true, .arg = "1|2|V1,V2",
@@ -113,12 +121,6 @@ read_motion(struct run *run)
     struct numbers v = args.speed;
     struct rc_err err;
 
-    if (tool_given(t, "rolling") && (tool_given(t, "speed") || tool_given(t, "moving")))
-        tool_usage(
-            t,
-            "--rolling and the creepages of the stream give the motion of both bodies: leave "
-            "out --%s",
-            tool_given(t, "speed") ? "speed" : "moving");
     if (one < 0 && v.n > 0)
         tool_usage(t, "--moving %s has the speeds of both bodies: leave out --speed, or say 1 or 2",
                    args.moving);
@@ -144,8 +146,6 @@ read_source(struct run *run)
     const bool friction = tool_given(t, "mu"), cycles = tool_given(t, "frequency");
     const bool rolls = tool_given(t, "rolling");
 
-    if (friction + cycles + rolls > 1)
-        tool_usage(t, "--mu, --frequency and --rolling are sources of heat: give one of them");
     if (friction && run->speed * args.mu == 0 &&
         run->problem.body[0].bulk == run->problem.body[1].bulk)
         tool_usage(t,
@@ -193,9 +193,6 @@ read_options(struct run *run)
     const char *unit;
     double k[2];
 
-    if (args.conductivity == NULL || capacity == tool_given(t, "diffusivity"))
-        tool_usage(t, "give the materials with --conductivity and with one of --diffusivity and "
-                      "--heat-capacity");
     if (unit_conductivities(args.conductivity, k, &unit, &t->err) != RC_OK)
         tool_usage(t, "--conductivity %s: %s", args.conductivity, t->err.text);
     if (unit != NULL && strcmp(unit, "W/K") != 0)

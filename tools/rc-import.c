@@ -41,6 +41,7 @@ static const struct opt opts[] = {
      .help = "spacing of rows (default with --dx: the same)"},
     {.name = "even", .type = OPT_NUMBER, .unit = UNIT_M, .at = offsetof(struct args, even),
      .max = INFINITY, .above = true, .result = true, .optional = true, .arg = "STEP",
+     .against = RULES({.with = "dx", .word = "STEP", .because = "both say how wide a step is"}),
      .help = "resample uneven profiles (default: median spacing)"},
     {.name = "z-unit", .type = OPT_TEXT, .at = offsetof(struct args, z_unit), .result = true,
      .arg = "UNIT", .help = "unit of the file's heights: um, nm or a number of metres"},
@@ -130,8 +131,6 @@ make_wish(struct tool *t)
 
     wish.even = tool_given(t, "even");
     wish.even_step = isnan(args.even) ? 0 : args.even;
-    if (wish.even_step > 0 && !isnan(args.dx))
-        tool_usage(t, "--even STEP and --dx both say how wide a step is: give one");
     wish.z_unit = wish_unit(t, "z-unit", &args.z_unit, z_unit);
     wish.xy_unit = wish_unit(t, "xy-unit", &args.xy_unit, xy_unit);
     for (size_t k = 0; args.labels != NULL && label_words[k] != NULL; k++)

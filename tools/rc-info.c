@@ -22,6 +22,7 @@ static const struct opt opts[] = {
     {.name = "profile", .type = OPT_TEXT, AT(wanted.profile), .arg = "LINE",
      .help = "parameters of ISO 21920-2 along rows, columns, an angle in degrees, or X0,Y0:X1,Y1"},
     {.name = "sections", .type = OPT_COUNT, AT(wanted.sections), .min = 1, .max = 1000, .arg = "N",
+     .needs = RULES({.with = "profile"}),
      .help = "section lengths of a profile (default 5)"},
     {.name = "report", .type = OPT_REPORT, AT(wanted.report), .arg = "FILE",
      .help = "one row per frame, as JSON, .tsv or .csv, instead of text"},

@@ -43,9 +43,11 @@ static const struct opt opts[] = {
      .help = "the two edges along the flow join or are walls (default: the stream's boundary)"},
     {.name = "viscosity", .type = OPT_NUMBER, .unit = UNIT_PAS, AT(viscosity), .min = 0,
      .max = INFINITY, .above = true, .result = true, .arg = "ETA",
-     .help = "of the fluid; with --pressure-drop the report has a flow rate"},
+     .needs = RULES({.with = "pressure-drop", .because = "the flow rate depends on both"}),
+     .help = "of the fluid; the report then has a flow rate"},
     {.name = "pressure-drop", .type = OPT_NUMBER, .unit = UNIT_PA, AT(drop), .min = 0,
      .max = INFINITY, .above = true, .result = true, .arg = "DP",
+     .needs = RULES({.with = "viscosity", .because = "the flow rate depends on both"}),
      .help = "difference of the fluid pressure between the edges"},
     {.name = "sliding", .type = OPT_NUMBERS, .unit = UNIT_SPEED, AT(sliding), .min = -INFINITY,
      .max = INFINITY, .result = true, .arg = "U[,U1]",
@@ -229,10 +231,6 @@ main(int argc, char **argv)
     struct rc_grid *gap;
 
     tool_start(&run.t, &info, argc, argv, &args);
-    if (tool_given(&run.t, "viscosity") != tool_given(&run.t, "pressure-drop"))
-        tool_usage(
-            &run.t,
-            "--viscosity and --pressure-drop are given together, for a flow rate, or not at all");
     if (args.sliding.n > 2)
         tool_usage(&run.t, "--sliding: it must be one speed (the rough body at rest) or two");
     report_open(&run.report, &run.t, args.report);

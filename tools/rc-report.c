@@ -29,6 +29,7 @@ static const struct opt opts[] = {
      .help = "add the mirror images about two edges, and solve the contact as periodic"},
     {.group = physics_options, AT(physics)},
     {.name = "nu", .type = OPT_NUMBER, AT(nu), .min = -1, .max = 0.5, .above = true, .arg = "RATIO",
+     .against = RULES({.with = "nu1", .because = "it already gives Poisson's ratio", .remedy = "leave out --nu"}),
      .help = "Poisson's ratio for the stresses (default: --nu1, else 0.28)"},
     {.name = "title", .type = OPT_TEXT, AT(title), .arg = "TEXT",
      .help = "title of the page (default: the name of the file)"},
@@ -546,8 +547,6 @@ check_contact(struct run *run)
     run->loads = physics_steps(&args.physics)->n;
     run->contacts += tool_result_words(t, run->contact + run->contacts, WORDS / 2);
     rc_number_text(run->last, (double)run->loads);
-    if (tool_given(t, "nu") && tool_given(t, "nu1"))
-        tool_usage(t, "--nu: --nu1 already gives Poisson's ratio: leave --nu out");
     if (!tool_given(t, "nu1"))
         rc_number_text(run->nu, isnan(args.nu) ? 0.28 : args.nu);
 }

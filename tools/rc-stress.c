@@ -18,6 +18,8 @@ static struct args {
 static const struct opt opts[] = {
     {.name = "depths", .type = OPT_NUMBERS, .unit = UNIT_M, AT(depths), .min = 0,
      .max = INFINITY, .result = true, .word = "auto", .arg = "LIST",
+     .one_of = RULES({.with = "depths", .remedy = "as in --depths 0,1um,5um or --depths 0:50um:26, or leave their "
+                                                "choice to --depths auto"}),
      .help = "depths: a,b,c, a:b:n or a:b:log:n, or auto: dense near the surface"},
     {.name = "components", .type = OPT_WORDS, AT(components), .result = true,
      .words = words_component, .arg = "LIST", .help = "of %s (default: the six and mises)"},
@@ -103,9 +105,6 @@ check_arguments(struct run *run)
     struct tool *t = &run->t;
     char list[128];
 
-    if (!tool_given(t, "depths"))
-        tool_usage(t, "give the depths with --depths, as in --depths 0,1um,5um or "
-                      "--depths 0:50um:26, or leave their choice to --depths auto");
     read_section(run);
     for (size_t k = 1; args.section != NULL && k < args.depths.n; k++)
         if (!(args.depths.v[k] > args.depths.v[k - 1]))

@@ -41,6 +41,7 @@ static const struct opt opts[] = {
     LENGTH("dx", dx, "distance of nodes in a row"),
     LENGTH("dy", dy, "distance of rows (default: as --dx)"),
     {.name = "like", .type = OPT_TEXT, .at = offsetof(struct synth_args, like), .arg = "FILE",
+     .against = RULES({.with = "nx|ny|dx|dy", .because = "the file defines the grid"}),
      .help = "the grid of FILE's first frame instead"},
     {.name = "radius", .type = OPT_NUMBERS, .unit = UNIT_M, .at = offsetof(struct synth_args, radius),
      .max = INFINITY, .above = true, .result = true, .arg = "R1[,R2]",
@@ -56,6 +57,7 @@ static const struct opt opts[] = {
      .help = "direction of a cylinder's axis, of a paraboloid's R1, of the lay of selfaffine"},
     {.name = "place", .type = OPT_NUMBERS, .unit = UNIT_M, .at = offsetof(struct synth_args, place),
      .result = true, .word = "highest", .arg = "X,Y|highest",
+     .needs = RULES({.with = "like", .word = "highest", .because = "it is the highest measured point of the file"}),
      .help = "indenters: position of the apex (default: the middle)"},
     {.name = "amplitude", .type = OPT_NUMBER, .unit = UNIT_M,
      .at = offsetof(struct synth_args, amplitude), .max = INFINITY, .above = true, .result = true,
@@ -70,7 +72,9 @@ static const struct opt opts[] = {
      .help = "selfaffine: RMS slope, or"},
     {.name = "rms-height", .type = OPT_NUMBER, .unit = UNIT_M,
      .at = offsetof(struct synth_args, rms_height), .max = INFINITY, .above = true, .result = true,
-     .arg = "HEIGHT", .help = "selfaffine: RMS height"},
+     .arg = "HEIGHT",
+     .against = RULES({.with = "rms-slope", .because = "one follows from the other"}),
+     .help = "selfaffine: RMS height"},
     LENGTH("rolloff", rolloff, "selfaffine: flat above (default: not flat)"),
     LENGTH("short-cut", short_cut, "selfaffine: shortest wave (default: 2 nodes)"),
     LENGTH("long-cut", long_cut, "selfaffine: longest wave (default: the map)"),
@@ -79,6 +83,7 @@ static const struct opt opts[] = {
      .help = "selfaffine: length of waves along the lay over that across it"},
     {.name = "skewness", .type = OPT_NUMBER, .at = offsetof(struct synth_args, skewness),
      .min = -RC_SKEWNESS_MAX, .max = RC_SKEWNESS_MAX, .result = true, .arg = "S",
+     .against = RULES({.with = "weibull", .because = "heights have one distribution"}),
      .help = "selfaffine: skewness of the heights, by a gamma distribution"},
     {.name = "weibull", .type = OPT_NUMBER, .at = offsetof(struct synth_args, weibull),
      .min = RC_WEIBULL_MIN, .max = RC_WEIBULL_MAX, .result = true, .arg = "SHAPE",
@@ -198,9 +203,6 @@ check_radii(struct tool *t, const struct synth_shape *row)
 static struct rc_shape
 wanted_shape(struct tool *t)
 {
-    for (const char *const *name = grid_options; strcmp(*name, "like") != 0; name++)
-        if (args.like != NULL && tool_given(t, *name))
-            tool_usage(t, "--like already defines the grid: leave out --%s", *name);
     if (args.like != NULL)
         return shape_of_file(t);
     if (!tool_given(t, "nx") || !tool_given(t, "dx"))

@@ -25,22 +25,38 @@ static const struct opt opts[] = {
     {.name = "coefficient", .type = OPT_TEXT, AT(coefficient), .result = true, .arg = "K1[,K2]",
      .help = "wear coefficient of body 1, and of body 2 (default 0), in mm3/Nm, m2/N or 1/GPa"},
     {.name = "archard", .type = OPT_NUMBERS, AT(archard), .min = 0, .max = INFINITY, .result = true,
-     .arg = "K1[,K2]", .help = "instead: Archard's numbers, V = K P s/H, no factor 3; needs --hardness"},
+     .arg = "K1[,K2]",
+     .needs = RULES({.with = "hardness", .because = "V = K P s/H"}),
+     .against = RULES({.with = "coefficient", .because = "each says how much wears"}),
+     .help = "instead: Archard's numbers, V = K P s/H, no factor 3"},
     {.name = "hardness", .type = OPT_NUMBER, .unit = UNIT_HARD, AT(hardness), ABOVE_0, .result = true,
-     .arg = "PRESSURE", .help = "H of --archard; 600HV is 600 times 9.80665 MPa. The bound of the pressure is that of rc-solve"},
+     .arg = "PRESSURE",
+     .needs = RULES({.with = "archard", .because = "V = K P s/H"}),
+     .help = "H of --archard; 600HV is 600 times 9.80665 MPa. The bound of the pressure is that of rc-solve"},
     {.name = "energy", .type = OPT_TEXT, AT(energy), .result = true, .arg = "K1[,K2]",
+     .needs = RULES({.with = "mu|cycles", .because = "the energy is mu P s, or with --cycles the frame dissipation "
+                                                    "of rc-slip --output height,dissipation"}),
+     .against = RULES({.with = "coefficient|archard", .because = "each says how much wears"}),
      .help = "instead: volume per energy of friction, in mm3/J or m3/J: of --mu, or of the frame dissipation"},
     {.name = "mu", .type = OPT_NUMBER, AT(mu), ABOVE_0, .result = true, .arg = "COEFFICIENT",
+     .needs = RULES({.with = "energy", .because = "the energy is mu P s"}),
      .help = "coefficient of friction of --energy"},
     {.name = "distance", .type = OPT_NUMBERS, .unit = UNIT_M, AT(distance), .min = 0, .max = INFINITY,
-     .result = true, .arg = "LIST", .help = "sliding distances from the start, each a case"},
+     .result = true, .arg = "LIST",
+     .one_of = RULES({.with = "distance|cycles", .remedy = "as in --distance 1m,10m"}),
+     .help = "sliding distances from the start, each a case"},
     {.name = "cycles", .type = OPT_NUMBERS, AT(cycles), .min = 0, .max = INFINITY, .result = true,
      .arg = "LIST", .help = "instead: numbers of cycles or passes, with a frame slip or dissipation of rc-slip"},
     {.name = "motion", .type = OPT_TEXT, AT(motion), .result = true, .arg = "same|track:LENGTH|sliding",
+     .needs = RULES({.with = "counter", .word = "sliding", .because = "it is the surface of body 2"}),
+     .against = RULES({.with = "cycles", .word = "track|sliding",
+                       .because = "in a cycle of fretting the same points stay in contact"},
+                      {.with = "until", .word = "sliding", .because = "it is not implemented"}),
      .help = "the same points stay in contact (default), body 2 passes along x on a track of this length, "
              "or two rough bodies slide over each other"},
     {.name = "counter", .type = OPT_TEXT, AT(counter), .result = true, .arg = "FILE",
-     .help = "heights of body 2 for --motion sliding, seen from outside as those of body 1"},
+     .needs = RULES({.with = "motion sliding"}),
+     .help = "heights of body 2, seen from outside as those of body 1"},
     {.name = "until", .type = OPT_TEXT, AT(until), .result = true, .arg = "LIST",
      .help = "end earlier at area=FRACTION in contact, depth=LENGTH or uniform=SPREAD of the pressure"},
     {.name = "tol", .type = OPT_NUMBER, AT(tol), .min = 0, .max = 0.5, .above = true, .result = true,
@@ -124,16 +140,6 @@ read_law(struct run *run)
     struct tool *t = &run->d.t;
     double *k = run->k;
 
-    if (tool_given(t, "coefficient") + tool_given(t, "archard") + tool_given(t, "energy") > 1)
-        tool_usage(t, "give one of --coefficient, --archard and --energy: how much wears");
-    if (tool_given(t, "archard") != tool_given(t, "hardness"))
-        tool_usage(t, "--archard and --hardness belong together: V = K P s/H");
-    if (tool_given(t, "mu") && !tool_given(t, "energy"))
-        tool_usage(t, "--mu has no effect without --energy: the energy is mu P s");
-    if (tool_given(t, "energy") && !tool_given(t, "mu") && args.cycles.n == 0)
-        tool_usage(
-            t, "--energy needs --mu, for the energy mu P s, or --cycles and a frame dissipation, "
-               "as rc-slip --output height,dissipation writes it");
     if (args.coefficient != NULL)
         read_coefficients(t, "coefficient", args.coefficient, UNIT_WEAR,
                           "with its unit, as in 1e-6mm3/Nm, m2/N or 1/GPa: a number without a unit "
@@ -182,17 +188,6 @@ read_motion(struct run *run)
             "--motion %s: it must be same, sliding or track:LENGTH, with a length above 0, as "
             "in track:60mm",
             text);
-    if ((track || law->two_bodies) && args.cycles.n > 0)
-        tool_usage(t,
-                   "--motion %s and --cycles exclude each other: in a cycle of fretting the same "
-                   "points stay in contact",
-                   track ? "track" : text);
-    if (law->two_bodies != (args.counter != NULL))
-        tool_usage(
-            t, "--motion sliding and --counter belong together: it is the surface of body 2 that "
-               "slides over body 1");
-    if (law->two_bodies && args.until != NULL)
-        tool_usage(t, "--until with --motion sliding is not implemented");
     if (law->two_bodies)
         run->counter = physics_counter(t, args.counter);
 }
@@ -791,10 +786,6 @@ main(int argc, char **argv)
     read_law(&run);
     read_motion(&run);
     read_until(&run);
-    if ((args.distance.n > 0) == (args.cycles.n > 0))
-        tool_usage(
-            &run.d.t,
-            "give the sliding distances with --distance, as in --distance 1m,10m, or --cycles");
     axes[0].list = run.list = args.cycles.n > 0 ? &args.cycles : &args.distance;
     for (size_t k = 1; k < run.list->n; k++)
         if (!(run.list->v[k] > run.list->v[k - 1]))

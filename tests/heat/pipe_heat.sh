@@ -89,7 +89,7 @@ refuses 2 "must be above 0" "no diffusivity" "rc-heat --mu 0.3 --speed 1 --condu
 refuses 2 "do not slide" "equal speeds" "rc-heat --mu 0.3 --moving 2,2 $steel ball.rcg"
 refuses 2 "mu is 0" "no friction" "rc-heat --mu 0 --moving 2,1 --bulk 7,7 $steel ball.rcg"
 refuses 2 "there is none: leave it out" "a share of no heat" "rc-heat --mu 0 --moving 2,2 --bulk 7,8 --partition blok $steel ball.rcg"
-refuses 2 "sources of heat: give one of them" "friction and cycles" "rc-heat --mu 0.3 --speed 1 --frequency 5 $steel ball.rcg"
+refuses 2 '--mu does not work with --frequency' "friction and cycles" "rc-heat --mu 0.3 --speed 1 --frequency 5 $steel ball.rcg"
 refuses 2 "from 0 to 1" "a share above 1" "$heat --partition 1.5 ball.rcg"
 refuses 2 "needs --time" "time steps of a steady state" "$heat --time-steps 4 ball.rcg"
 refuses 2 "with and without a unit" "0 that may be degrees" "$heat --bulk 20degC,0 ball.rcg"

@@ -157,8 +157,8 @@ claim "  a message says so" says 'converged=no' head -c 1000 short-flow.rcg
 
 refuses 1 'boundary=free contradicts --sides periodic: remove that option' "sides that do not meet" "rc-leak --sides periodic channel.rcg -o x.rcg"
 refuses 2 'direction z: it must be one of|direction z: ' "another direction" "rc-leak --direction z channel.rcg -o x.rcg"
-refuses 2 'given together, for a flow rate, or not at all' "a viscosity alone" "rc-leak --viscosity 1mPas channel.rcg -o x.rcg"
-refuses 2 'given together, for a flow rate, or not at all' "a pressure drop alone" "rc-leak --pressure-drop 1Pa channel.rcg -o x.rcg"
+refuses 2 '--viscosity has no effect without --pressure-drop' "a viscosity alone" "rc-leak --viscosity 1mPas channel.rcg -o x.rcg"
+refuses 2 '--pressure-drop has no effect without --viscosity' "a pressure drop alone" "rc-leak --pressure-drop 1Pa channel.rcg -o x.rcg"
 refuses 2 "unknown unit 'Pa': Pas is expected" "a viscosity in another unit" "rc-leak --viscosity 1Pa --pressure-drop 1Pa channel.rcg -o x.rcg"
 refuses 2 'viscosity 0 Pas: it must be above 0' "no viscosity" "rc-leak --viscosity 0 --pressure-drop 1Pa channel.rcg -o x.rcg"
 made boundary=free 3 3 1e-6 1e-6 pressure 1 >alone.rcg

@@ -105,7 +105,7 @@ for numbers in '' 1 '1 2' '1e300 1' '-1 1' 'nan 1' values; do
     refuses 1 'cannot be continued|another grid' "the numbers '$numbers'" "$resumed few.rcg"
 done
 
-refuses 2 '--resume and --interval need --checkpoint' "--resume alone" "$solve --load 0.1N --resume -o x.rcg rough.rcg"
+refuses 2 '--resume has no effect without --checkpoint' "--resume alone" "$solve --load 0.1N --resume -o x.rcg rough.rcg"
 # killed inside the first frame: starting again loses nothing
 head -c 5000 kept.rcg >first.rcg
 claim "a file with an incomplete first frame is started again" \

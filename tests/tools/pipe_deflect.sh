@@ -35,7 +35,7 @@ claim "a pressure without keys has the free boundary, and needs --estar" says 'b
     rc-deflect --estar 1GPa bare.rcg | rc-info'
 refuses 2 'E\* is not in the stream: give it with --estar' "  which is asked for" "rc-deflect bare.rcg"
 refuses 1 'its boundary is free, which contradicts --periodic' "--periodic against the stream" "rc-deflect --periodic solved.rcg"
-refuses 2 '--order and --correction are given together' "--order without --correction" "rc-deflect --order 3 solved.rcg"
+refuses 2 '--order has no effect without --correction' "--order without --correction" "rc-deflect --order 3 solved.rcg"
 refuses 2 '--kernel guess: it must be one of auto\|fft' "an engine that is none" "rc-deflect --kernel guess solved.rcg"
 refuses 2 '--estar 0 Pa: it must be above 0' "a modulus of 0" "rc-deflect --estar 0 solved.rcg"
 refuses 1 'no frame with the channel pressure, only height' "a stream without pressure" \

@@ -103,14 +103,14 @@ claim "a sheet of a window is drawn" bash -c 'rc-render --quiet --sheet auto --w
 claim "a relief of a window is drawn" rc-render --quiet --view 30,35 --window -50um:50um,-50um:50um -o out.svg ball.rcg
 rm -f out.*
 draw='rc-render -o out.png'
-refuses 2 '--log x names an axis of a curve' "an axis of a map" "$draw --log x p.rcg"
-refuses 2 '--view has an even axis upwards: leave out --log' "a relief by logarithm" "$draw --view 30,35 --log p.rcg"
+refuses 2 '--log x has no effect without --curve, --cut, --histogram or --material-ratio' "an axis of a map" "$draw --log x p.rcg"
+refuses 2 '--view does not work with --log' "a relief by logarithm" "$draw --view 30,35 --log p.rcg"
 refuses 1 'there is no room for a relief: ask for a larger --width' "a relief on 60 mm" \
     "$draw --view 30,35 --width 60mm ball.rcg"
-refuses 2 '--hertz is for one flat map' "the circle of Hertz on a sheet" "$draw --hertz --sheet auto p.rcg"
-refuses 2 '--window contact is another one in each map' "a window of what touches on a sheet" \
+refuses 2 '--hertz does not work with --sheet' "the circle of Hertz on a sheet" "$draw --hertz --sheet auto p.rcg"
+refuses 2 '--window contact does not work with --sheet' "a window of what touches on a sheet" \
     "$draw --window contact --sheet auto p.rcg"
-refuses 2 'a curve is not part of a map: leave out --window' "a window of a curve" "$draw --cut y=0 --window 0:9um,0:9um p.rcg"
-refuses 2 'a curve has no colours: leave out --clip' "clipped curves" "$draw --curve load:approach --clip r.tsv"
+refuses 2 '--window does not work with --cut' "a window of a curve" "$draw --cut y=0 --window 0:9um,0:9um p.rcg"
+refuses 2 '--clip does not work with --curve' "clipped curves" "$draw --curve load:approach --clip r.tsv"
 refuses 2 '--range 1%:99%: for --cut it must be LO:HI' "percentiles of a curve" "$draw --cut y=0 --range 1%:99% p.rcg"
 claim "refused commands leave no picture" bash -c '[ ! -e out.png ]'

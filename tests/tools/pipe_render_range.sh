@@ -103,6 +103,6 @@ claim "  a map with a single value causes none" quiet --range 0:2um flat.rcg
 for range in 1%:2 1%:101% 5%:5% 90%:10% -1%:5% 1% %:5% x%:5%; do
     refuses 2 "--range $range: percentiles are P%:Q%" "--range $range" "rc-render --range $range ramp.rcg >no.png"
 done
-refuses 2 '--clip chooses the range: leave out --range' "two ranges" 'rc-render --clip --range 0:1um ramp.rcg >no.png'
+refuses 2 '--clip does not work with --range' "two ranges" 'rc-render --clip --range 0:1um ramp.rcg >no.png'
 refuses 2 '--log has no place for 0 and below' "a logarithm of less than 0" 'rc-render --log --range -1um:1um ramp.rcg >no.png'
 refuses 1 'no value is above 0, and only those have a logarithm' "a logarithm of nothing" 'rc-render --log pressed.rcg >no.png'

@@ -51,7 +51,7 @@ claim "  a sheet names it if the first map has no contact" eval 'rc-pick --case 
 claim "a relief can be ten times as high" eval 'rc-render --channel height --view 30,40 --exaggeration 10 -o r.svg rough.rcg && says "vertical exaggeration 10" cat r.svg'
 claim "  its box grows" eval 'h() { rc-render --channel height --view 30,20 --exaggeration $1 --width 600 -o r.svg rough.rcg && sed -n "s/.*viewBox=\"0 0 [0-9]* \([0-9]*\)\".*/\1/p" r.svg; }
     test "$(h 400)" -gt "$(h 100)"'
-refuses 2 '--exaggeration is for a relief: add --view AZ,EL' "a flat map" "$draw --exaggeration 2 rough.rcg"
+refuses 2 '--exaggeration has no effect without --view' "a flat map" "$draw --exaggeration 2 rough.rcg"
 refuses 2 '--exaggeration is for heights and other lengths, this is a pressure' "a relief of pressures" "$draw --channel pressure --view 30,40 --exaggeration 2 one.rcg"
 refuses 2 'the box would be [0-9.]+e?[+0-9]* times as high as its longer side: give at most' "a tower" "$draw --channel height --view 30,40 --exaggeration 1e6 rough.rcg"
 refuses 2 '--exaggeration 0: it must be above 0' "none" "$draw --view 30,40 --exaggeration 0 rough.rcg"
@@ -74,9 +74,9 @@ for width in 700 800 900 1000 1100; do # the bar may be below the plot or beside
         perl -0777 -ne "my (\$w) = /viewBox=\"0 0 (\d+)/; while (/<image [^>]*?x=\"([\d.]+)\"[^>]*?width=\"([\d.]+)\"/g) { exit 1 if \$1 + \$2 > \$w }" bar.svg'
 done
 refuses 2 '--aspect 100: the plot would be [0-9.]+ times as high as wide: give a value for at most 12 times' "a tower" "$draw --aspect 100 --channel height rough.rcg"
-refuses 2 '--aspect is for flat maps and sections; a relief has --exaggeration' "a relief" "$draw --view 30,40 --aspect 2 rough.rcg"
-refuses 2 'a curve is not part of a map: leave out --aspect' "a curve" "$draw --histogram --aspect 2 rough.rcg"
-refuses 2 '--raw draws only nodes: leave out --border' "raw pixels" "rc-render --raw --border -o out.png rough.rcg"
+refuses 2 '--view does not work with --aspect' "a relief" "$draw --view 30,40 --aspect 2 rough.rcg"
+refuses 2 '--aspect does not work with --histogram' "a curve" "$draw --histogram --aspect 2 rough.rcg"
+refuses 2 '--raw does not work with --border' "raw pixels" "rc-render --raw --border -o out.png rough.rcg"
 
 # ---- words ----
 

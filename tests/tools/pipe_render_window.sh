@@ -123,7 +123,7 @@ claim "--hertz draws a circle" rc-render --width 1200 --hertz --window=-5um:5um,
 claim "  its radius follows a^3 = 3 F R / (4 E*)" eval "paths h.svg '#1f8fd1' 1 -5 5 -5 5 | within -1.9574 1.9574 -1.9574 1.9574"
 claim "  the figure prints the radius" says 'Hertz, radius 1.957 µm' cat h.svg
 refuses 1 '--hertz needs the keys load, estar and form=sphere RADIUS' "a circle without a sphere" 'rc-render --hertz large.rcg >no.png'
-refuses 2 '--raw draws only nodes: leave out --hertz' "a circle in a raw picture" 'rc-render --raw --hertz speck.rcg >no.png'
+refuses 2 '--raw does not work with --hertz' "a circle in a raw picture" 'rc-render --raw --hertz speck.rcg >no.png'
 
 # ---- many nodes on a pixel ----
 

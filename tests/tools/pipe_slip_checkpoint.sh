@@ -68,6 +68,6 @@ refuses 1 'a grid stream, but no checkpoint' "a stream that is none" "$slip --ch
 echo "notes of a user" >notes.txt
 refuses 1 'no pressure can be read' "a file that is none" "$slip --checkpoint notes.txt --resume -o x.rcg alike.rcg"
 claim "  which stays as it is" grep -qx "notes of a user" notes.txt
-refuses 2 'need --checkpoint' "--resume alone" "$slip --resume -o x.rcg alike.rcg"
-refuses 2 'need --checkpoint' "--interval alone" "$slip --interval 1s -o x.rcg alike.rcg"
+refuses 2 '--resume has no effect without --checkpoint' "--resume alone" "$slip --resume -o x.rcg alike.rcg"
+refuses 2 '--interval has no effect without --checkpoint' "--interval alone" "$slip --interval 1s -o x.rcg alike.rcg"
 refuses 2 'give a file name' "a pipe" "$slip --checkpoint - -o x.rcg alike.rcg"

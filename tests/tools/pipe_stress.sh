@@ -168,7 +168,7 @@ refuses 2 '--depths: the depths of a section must increase' "depths of a section
 refuses 2 '--section is summed by fft: leave out --kernel mlms' "a section by mlms" \
     "rc-stress --section y=0 --kernel mlms --depths 0 ball.rcg"
 refuses 2 "'foo' is none of sxx" "a component that is none" "rc-stress --depths 0 --components sxx,foo ball.rcg"
-refuses 2 'give the depths with --depths' "no depths" "rc-stress ball.rcg"
+refuses 2 'give --depths' "no depths" "rc-stress ball.rcg"
 refuses 2 '--depths -1e-06 m: it must be at least 0' "a depth above the surface" "rc-stress --depths -1um ball.rcg"
 refuses 2 '--nu 0.6: it must be above -1 and at most 0.5' "a Poisson's ratio of 0.6" "rc-stress --nu 0.6 --depths 0 ball.rcg"
 refuses 2 '--mu 11: it must be at least -10 and at most 10' "a friction of 11" "rc-stress --mu 11 --depths 0 ball.rcg"

@@ -160,7 +160,7 @@ refuses 1 'no node lies within the radius 6e-07 m of the punch: take a finer gri
     "rc-synth punch --radius 0.6um --height 1um $grid"
 refuses 2 '--place takes X,Y from the middle of the map, or, with --like, highest' "a place on a line" \
     "rc-synth cone --slope 0.1 --place 1um $grid"
-refuses 2 '--place takes X,Y .* or, with --like, highest' "the highest of nothing" "rc-synth cone --slope 0.1 --place highest $grid"
+refuses 2 '--place highest has no effect without --like' "the highest of nothing" "rc-synth cone --slope 0.1 --place highest $grid"
 refuses 2 '--place 9e-06,0 m: beyond the map, which reaches to 8e-06 m and 8e-06 m' "a place beyond the map" \
     "rc-synth cone --slope 0.1 --place 9um,0 $grid"
 rc-solve --quiet --output pressure --load 1N --estar 100GPa -o pressure.rcg rough.rcg
@@ -171,7 +171,7 @@ refuses 1 '--like missing.rcg: no height was measured: --place highest is nowher
     "rc-synth cone --slope 0.1 --place highest --like missing.rcg"
 refuses 2 '--direction 30: give --anisotropy too' "a lay without anisotropy" \
     "rc-synth selfaffine --hurst 0.8 --rms-height 1um --direction 30 $grid"
-refuses 2 '--skewness and --weibull: heights have one distribution' "two distributions" \
+refuses 2 '--skewness does not work with --weibull' "two distributions" \
     "rc-synth selfaffine --hurst 0.8 --rms-height 1um --skewness 1 --weibull 2 $grid"
 refuses 2 '--skewness 3.5: it must be at least -3 and at most 3' "more skewness than can be" \
     "rc-synth selfaffine --hurst 0.8 --rms-height 1um --skewness 3.5 $grid"
@@ -186,13 +186,13 @@ refuses 2 'wave needs --wavelength' "a wave without length" "rc-synth wave --amp
 refuses 2 'selfaffine needs --hurst' "roughness without exponent" "rc-synth selfaffine $grid"
 refuses 2 'selfaffine needs one of --rms-slope and --rms-height' "roughness without size" \
     "rc-synth selfaffine --hurst 0.8 $grid"
-refuses 2 'selfaffine needs one of --rms-slope and --rms-height: the other one follows' "roughness of two sizes" \
+refuses 2 '--rms-height does not work with --rms-slope' "roughness of two sizes" \
     "rc-synth selfaffine --hurst 0.8 --rms-slope 0.1 --rms-height 1um $grid"
 refuses 2 '--hurst has no meaning for sphere' "an option of another shape" \
     "rc-synth sphere --radius 1mm --hurst 0.8 $grid"
 refuses 2 'the grid is not known: give --nx and --dx, or --like' "no grid" "rc-synth sphere --radius 1mm"
 refuses 2 'the grid is not known: give --nx and --dx' "half a grid" "rc-synth sphere --radius 1mm --nx 16"
-refuses 2 '--like already defines the grid: leave out --ny' "two grids" "rc-synth sphere --radius 1mm --like other.rcg --ny 3"
+refuses 2 '--like does not work with --ny' "two grids" "rc-synth sphere --radius 1mm --like other.rcg --ny 3"
 refuses 2 '--radius 0 m: it must be above 0' "a radius of 0" "rc-synth sphere --radius 0 $grid"
 refuses 2 '--nx 0: it must be at least 1' "no columns" "rc-synth sphere --radius 1mm --nx 0 --dx 1um"
 refuses 2 '--nx 1.5: it must be a whole number' "half a column" "rc-synth sphere --radius 1mm --nx 1.5 --dx 1um"

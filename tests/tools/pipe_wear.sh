@@ -103,7 +103,7 @@ claim "  whose length is then no warning" bash -c "
 refuses 1 'cut the contact out with rc-pick --crop' "a track shorter than the map" "$wear --motion track:40um --distance 1m -o x.rcg pin.rcg"
 refuses 1 'check the units of the wear coefficient' "a coefficient that is far too large" "rc-wear --coefficient '1e300 1/Pa' --distance 1m -o x.rcg pin.rcg"
 refuses 2 'with a length above 0' "a track without a length" "$wear --motion track:0 --distance 1m -o x.rcg pin.rcg"
-refuses 2 'exclude each other' "a track in fretting" "$wear --motion track:1mm --cycles 10 -o x.rcg pin.rcg"
+refuses 2 '--motion track does not work with --cycles' "a track in fretting" "$wear --motion track:1mm --cycles 10 -o x.rcg pin.rcg"
 
 # ---- two rough bodies that slide over each other ----
 
@@ -128,10 +128,10 @@ refuses 1 'needs a periodic map' "a free map" "$slide --distance 1m -o x.rcg pin
 refuses 1 'sliding with a hardness' "a hardness" "$slide --distance 1m -o x.rcg <(rc-solve --quiet --periodic --hardness 50MPa --load 1mN --estar 1GPa rough.rcg)"
 refuses 1 'sliding with a map of the wear coefficient' "a coefficient of each node" \
     "rc-wear --motion sliding --counter other.rcg --distance 1m -o x.rcg <(phase_of)"
-refuses 2 'belong together' "no body 2" "$wear --motion sliding --distance 1m -o x.rcg pressed.rcg"
-refuses 2 'belong together' "a body 2 that does not slide" "$wear --counter other.rcg --distance 1m -o x.rcg pressed.rcg"
-refuses 2 '--until with --motion sliding is not' "an early end" "$slide --until depth=1nm --distance 1m -o x.rcg pressed.rcg"
-refuses 2 'sliding and --cycles exclude' "cycles" "rc-wear --coefficient 1e-6mm3/Nm --motion sliding --counter other.rcg --cycles 10 -o x.rcg pressed.rcg"
+refuses 2 '--motion sliding has no effect without --counter' "no body 2" "$wear --motion sliding --distance 1m -o x.rcg pressed.rcg"
+refuses 2 '--counter has no effect without --motion sliding' "a body 2 that does not slide" "$wear --counter other.rcg --distance 1m -o x.rcg pressed.rcg"
+refuses 2 '--motion sliding does not work with --until' "an early end" "$slide --until depth=1nm --distance 1m -o x.rcg pressed.rcg"
+refuses 2 '--motion sliding does not work with --cycles' "cycles" "rc-wear --coefficient 1e-6mm3/Nm --motion sliding --counter other.rcg --cycles 10 -o x.rcg pressed.rcg"
 refuses 2 'it must be same, sliding or track:LENGTH' "another motion" "$wear --motion rolling --distance 1m -o x.rcg pressed.rcg"
 
 # ---- early ends ----
@@ -266,10 +266,10 @@ refuses 2 'each at least 0' "one below 0" "rc-wear --coefficient -1e-6mm3/Nm --d
 refuses 2 'each at least 0' "one that is not a number" "rc-wear --coefficient nanmm3/Nm --distance 1m ball.rcg -o x.rcg"
 refuses 2 'no body wears' "two of 0" "rc-wear --coefficient 0,0 --distance 1m ball.rcg -o x.rcg"
 refuses 2 'give one of --coefficient' "none" "rc-wear --distance 1m ball.rcg -o x.rcg"
-refuses 2 'belong together' "Archard's number without a hardness" "rc-wear --archard 1e-4 --distance 1m ball.rcg -o x.rcg"
-refuses 2 '--energy needs --mu' "an energy without a friction" "rc-wear --energy 1e-5mm3/J --distance 1m ball.rcg -o x.rcg"
+refuses 2 '--archard has no effect without --hardness' "Archard's number without a hardness" "rc-wear --archard 1e-4 --distance 1m ball.rcg -o x.rcg"
+refuses 2 '--energy has no effect without --mu or --cycles' "an energy without a friction" "rc-wear --energy 1e-5mm3/J --distance 1m ball.rcg -o x.rcg"
 refuses 2 'larger than the one before' "a distance that falls" "$wear --distance 2m,1m ball.rcg -o x.rcg"
-refuses 2 'give the sliding distances' "no distance" "$wear ball.rcg -o x.rcg"
+refuses 2 'give one of --distance and --cycles' "no distance" "$wear ball.rcg -o x.rcg"
 refuses 2 'it must be area=FRACTION' "an end that is none" "$wear --distance 1m --until area=2 ball.rcg -o x.rcg"
 refuses 2 'no key load.*run rc-solve first' "a surface that carries nothing" "$wear --distance 1m rough.rcg -o x.rcg"
 refuses 1 'attract each other' "bodies that attract each other" \

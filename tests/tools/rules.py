@@ -51,10 +51,10 @@ def number(row):
 def value(row, word):
     """An argument that the option takes, or None: with this word, if it is not None."""
     kind = row['type']
-    if kind in ('number', 'count', 'numbers', 'step') and (word is None or word == row['argument']):
-        return row['words'][0] if kind == 'step' and row['words'] else None if row['argument'] is None else '%.17g' % number(row)
     if kind == 'numbers' and word == 'LIST':
         return '%.17g:%.17g:2' % (number(row), number(row))
+    if kind in ('number', 'count', 'numbers', 'step') and (word is None or word == row['argument']):
+        return row['words'][0] if kind == 'step' and row['words'] else None if row['argument'] is None else '%.17g' % number(row)
     if word is not None:
         return word
     if kind == 'flag' or kind == 'step' and row['argument'] is None:
@@ -84,10 +84,12 @@ class Tool:
     def line(self, options):
         return [word for option in options for word in self.words(option)]
 
-    def with_needs(self, options):
-        """The options, and those that they need: the first of each rule."""
+    def with_needs(self, options, own=None):
+        """The options, and those that they need, the first of each rule; not those that `own` needs."""
         options = list(options)
         for option in options:
+            if option == own:
+                continue
             for rule in self.rows[option['name']]['needs']:
                 if rule['words'] and option['word'] not in rule['words']:
                     continue
@@ -95,6 +97,11 @@ class Tool:
                            and other['word'] is None for other in rule['options']):
                     options.append(rule['options'][0])
         return options
+
+    def without(self, option):
+        """An option with a word that it may have by default: the same with another word."""
+        others = [word for word in self.rows[option['name']]['words'] if word != option['word']]
+        return [{'name': option['name'], 'word': others[0]}] if option['word'] is not None and others else []
 
     def refused(self, kind, options, named):
         counts[kind] += 1
@@ -143,8 +150,9 @@ class Tool:
                 for word in rule['words'] or [None]:
                     own = {'name': row['name'], 'word': word}
                     before = [r['options'][0] for r in row['needs'][:k]]
-                    line = self.with_needs(before) if before else []
-                    self.refused('needs', [own] + line, [shown(own)] + [shown(o) for o in rule['options']])
+                    line = self.with_needs([own] + before, own)
+                    line += [other for option in rule['options'] for other in self.without(option)]
+                    self.refused('needs', line, [shown(own)] + [shown(o) for o in rule['options']])
             for rule in row['one_of']:
                 names = [shown(o) for o in rule['options']]
                 rest = [r['options'][0] for r in demanded if r is not rule]

@@ -39,7 +39,7 @@ refuses 1 'another problem: load was 0.002, is 0.003' "the state of another hist
     "${rough/1mN,2mN/1mN,3mN} --checkpoint kept.rcg --resume -o x.rcg rough.rcg"
 refuses 2 '--load has 2 values and --time 3: give lists of equal length' "lists of two lengths" \
     "${rough/1s,4s/1s,4s,5s} -o x.rcg rough.rcg"
-refuses 2 'need --checkpoint' "--resume by itself" "$rough --resume -o x.rcg rough.rcg"
+refuses 2 '--resume has no effect without --checkpoint' "--resume by itself" "$rough --resume -o x.rcg rough.rcg"
 claim "--dry-run prints the points and writes no frame" says '32 x 32 nodes, 2 points of the relaxing model' \
     bash -c "$rough --dry-run rough.rcg"
 claim "a figure beyond its limit causes one full warning, with advice, and a list of the other cases" bash -c "

@@ -43,17 +43,24 @@ same_word(const char *text, const char *word, size_t n)
     return text != NULL && strncmp(text, word, n) == 0 && (text[n] == '\0' || text[n] == ':');
 }
 
-/* True if the option has this value on the command line; n = 0: any value. */
+static bool
+is_given(const struct tool *t, const struct opt *o)
+{
+    return t->option.given[o - t->option.row];
+}
+
+/* True if the option has this value, which may be its default; n = 0: if it is given. */
 static bool
 has_word(const struct tool *t, const struct opt *o, const char *word, size_t n)
 {
     const void *at = tool_value(t, o);
 
-    if (!t->option.given[o - t->option.row] || n == 0)
-        return n == 0 && t->option.given[o - t->option.row];
+    if (n == 0)
+        return is_given(t, o);
     switch (o->type) {
     case OPT_NUMBER:
-        return same_word(o->word, word, n) == isinf(*(const double *)at);
+        return same_word(o->word, word, n) ? isinf(*(const double *)at)
+                                           : isfinite(*(const double *)at);
     case OPT_NUMBERS:
         return same_word(o->word, word, n) ? ((const struct numbers *)at)->n == 0
                                            : ((const struct numbers *)at)->n > 1;
@@ -73,7 +80,7 @@ applies(const struct tool *t, const struct opt *o, const char *words, size_t *n)
         words = "";
     do {
         *n = strcspn(words, "|");
-        if (has_word(t, o, words, *n))
+        if (is_given(t, o) && has_word(t, o, words, *n))
             return words;
         words += *n + (words[*n] == '|');
     } while (*words != '\0');
@@ -244,15 +251,15 @@ refuse(struct tool *t, const char *what, const struct opt_rule *r, const char *r
                *remedy == '\0' ? "" : ": ", remedy);
 }
 
-/* How many options of the list are given. */
+/* How many options of the list are given, or have the word by default too. */
 static size_t
-count_given(const struct tool *t, const char *list, struct named *last)
+count_met(const struct tool *t, const char *list, bool defaults, struct named *last)
 {
     struct named one;
     size_t count = 0;
 
     for (; (list = next_named(t, list, &one)) != NULL;)
-        if (has_word(t, one.opt, one.word, one.n)) {
+        if ((defaults || is_given(t, one.opt)) && has_word(t, one.opt, one.word, one.n)) {
             *last = one;
             count++;
         }
@@ -268,7 +275,8 @@ check_against(struct tool *t, const struct opt *o)
     size_t n;
 
     for (const struct opt_rule *r = o->against; r != NULL && r->with != NULL; r++)
-        if ((word = applies(t, o, r->word, &n)) != NULL && count_given(t, r->with, &other) > 0) {
+        if ((word = applies(t, o, r->word, &n)) != NULL &&
+            count_met(t, r->with, false, &other) > 0) {
             end = add_option(text, limit, o, word, n);
             end = add(end, limit, " does not work with ");
             add_option(end, limit, other.opt, other.word, other.n);
@@ -285,7 +293,8 @@ check_needs(struct tool *t, const struct opt *o)
     size_t n;
 
     for (const struct opt_rule *r = o->needs; r != NULL && r->with != NULL; r++)
-        if ((word = applies(t, o, r->word, &n)) != NULL && count_given(t, r->with, &other) == 0) {
+        if ((word = applies(t, o, r->word, &n)) != NULL &&
+            count_met(t, r->with, true, &other) == 0) {
             end = add_option(text, limit, o, word, n);
             end = add(end, limit, " has no effect without ");
             add_options(end, limit, t, r->with, " or ");
@@ -301,7 +310,7 @@ check_one_of(struct tool *t, const struct opt *o)
     struct named other;
 
     for (const struct opt_rule *r = o->one_of; r != NULL && r->with != NULL; r++)
-        if (count_given(t, r->with, &other) != 1) {
+        if (count_met(t, r->with, false, &other) != 1) {
             end = add(text, limit, strchr(r->with, '|') == NULL ? "give " : "give one of ");
             add_options(end, limit, t, r->with, " and ");
             tool_usage(t, "%s%s%s", text, r->remedy == NULL ? "" : ", ",

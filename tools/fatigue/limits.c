@@ -67,8 +67,6 @@ fatigue_limits_read(struct tool *t, const struct fatigue_limits_asked *asked, un
     l->asked = asked;
     for (int i = 0; i < 3; i++)
         most = list[i]->n > most ? list[i]->n : most;
-    if (asked->table != NULL && most > 0)
-        tool_usage(t, "--limits has all limits: leave out the options with numbers");
     if (asked->table == NULL && needs_limits(wanted) &&
         (asked->bending.n == 0 || asked->torsion.n == 0))
         tool_usage(

@@ -23,8 +23,6 @@ info_check(struct info_wanted *w, struct tool *t)
         snprintf(w->smr_name[k], sizeof w->smr_name[k], "smr_%s", rc_number(w->smr.v[k]));
     }
     w->areal = w->areal || w->smr.n > 0;
-    if (tool_given(t, "sections") && w->profile == NULL)
-        tool_usage(t, "--sections has no effect without --profile: give one");
     info_line_read(t, w->profile, &w->line);
     report_open(&w->out, t, w->report);
     w->psd = w->psd || w->fit.n != 0 || w->window != NULL || w->psd_map != NULL;

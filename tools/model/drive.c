@@ -17,9 +17,11 @@ const struct opt drive_options[] = {
     {.name = "checkpoint", .type = OPT_TEXT, AT(checkpoint), .arg = "FILE",
      .help = "store the states reached in FILE, to continue an interrupted run"},
     {.name = "resume", .type = OPT_FLAG, AT(resume),
+     .needs = RULES({.with = "checkpoint"}),
      .help = "continue from the --checkpoint of an earlier run"},
     {.name = "interval", .type = OPT_NUMBER, .unit = UNIT_S, AT(interval), .min = 0, .max = 1e9,
      .arg = "TIME",
+     .needs = RULES({.with = "checkpoint"}),
      .help = "first state of a case in --checkpoint after this time, then after 2, 4 ... times it "
              "(60)"},
     {.name = "dry-run", .type = OPT_FLAG, AT(dry_run), .text = true,
@@ -64,8 +66,6 @@ void
 drive_open(struct drive *d, const struct drive_axis *axes)
 {
     d->axes = axes;
-    if ((d->args->resume || tool_given(&d->t, "interval")) && d->args->checkpoint == NULL)
-        tool_usage(&d->t, "--resume and --interval need --checkpoint FILE");
     if (axes != NULL)
         drive_make_points(d, axes);
     d->course.t = &d->t;

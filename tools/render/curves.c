@@ -186,8 +186,6 @@ split_options(struct curves *c)
                    c->error_names = tool_copy(c->tool, s->error), c->error, COLUMNS, &c->errors);
     if (c->errors > 0 && c->errors != c->columns - 1)
         tool_usage(c->tool, "--error %s: it must be one column for each of --curve", s->error);
-    if (c->errors > 0 && s->spread)
-        tool_usage(c->tool, "--spread and --error are two kinds of bars: give one");
     c->asked = c->columns + c->bys + c->errors;
 }
 

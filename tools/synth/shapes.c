@@ -118,14 +118,11 @@ static void
 check_selfaffine(struct tool *t, const struct synth_args *a, const struct rc_shape *shape)
 {
     (void)shape;
-    if (isnan(a->rms_slope) == isnan(a->rms_height))
-        tool_usage(t, "selfaffine needs one of --rms-slope and --rms-height: the other "
-                      "one follows");
+    if (isnan(a->rms_slope) && isnan(a->rms_height))
+        tool_usage(t, "selfaffine needs one of --rms-slope and --rms-height");
     if (!isnan(a->direction) && isnan(a->anisotropy))
         tool_usage(t, "--direction %g: give --anisotropy too: without it there is no lay",
                    a->direction);
-    if (!isnan(a->skewness) && !isnan(a->weibull))
-        tool_usage(t, "--skewness and --weibull: heights have one distribution");
 }
 
 static enum rc_status
