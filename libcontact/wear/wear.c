@@ -90,20 +90,34 @@ enum { /* of error[] */
     ERRORS
 };
 
+/* The coefficients of the law. */
+struct rates {
+    double k;           /* 1/Pa: sum of the bodies that stay, at the node that wears most */
+    double row;         /* 1/Pa: k2/L of the body that passes; 0: none         */
+    double share[2];    /* of the bodies in `worn`                             */
+    const double *part; /* coefficient of a node over the largest one; NULL: 1 */
+    double least;       /* the smallest one */
+};
+
+struct maps {
+    double *h, *worn;     /* heights at the start, and worn depth of the bodies that stay */
+    double *deep;         /* worn depth of each row of the body that passes               */
+    double *p0, *pa, *p1; /* pressures of a step                                        */
+    double *e, *room;     /* error of a step; heights of the inner model, other numbers */
+};
+
+struct way {
+    size_t stage, last;      /* last: steps of backward Euler since the last point         */
+    double s, end, t, tried; /* m: distance slid, end of the leg, next step, present step */
+};
+
 struct wear {
     struct rc_model base;
     struct rc_wear_problem law;
-    double k;        /* 1/Pa: sum of the bodies that stay, at the node that wears most */
-    double row;      /* 1/Pa: k2/L of the body that passes; 0: none         */
-    double share[2]; /* of the bodies in `worn`                             */
-    double least;    /* smallest law.part; 1 if that is NULL                  */
+    struct rates rates;
     size_t n;
-    double *h, *worn;        /* heights at the start, and worn depth of the bodies that stay */
-    double *deep;            /* worn depth of each row of the body that passes               */
-    double *p0, *pa, *p1;    /* pressures of a step                                        */
-    double *e, *room;        /* error of a step; heights of the inner model, other numbers */
-    size_t stage, last;      /* last: steps of backward Euler since the last point         */
-    double s, end, t, tried; /* m: distance slid, end of the leg, next step, present step */
+    struct maps maps;
+    struct way way;
     double error[ERRORS]; /* m3: error of the worn volume; relative: errors of p0, of steps ... */
     double over;          /* m: the compliance of the last contact is W times this      */
     bool kept;            /* the inner model has kept its contact                     */
@@ -164,28 +178,27 @@ rc_wear_load(const struct rc_model *m, double s)
 
 /* The coefficient of a node over the largest one. */
 static double
-part(const struct wear *v, size_t k)
+part(const struct rates *rates, size_t k)
 {
-    return v->law.part == NULL ? 1 : v->law.part[k];
+    return rates->part == NULL ? 1 : rates->part[k];
 }
 
 /* The depth that all bodies have lost at a node. */
 static double
-depth(const struct wear *v, size_t k)
+depth(const struct maps *maps, double row, size_t nx, size_t k)
 {
-    return v->worn[k] + (v->row > 0 ? v->deep[k / v->base.shape.nx] : 0);
+    return maps->worn[k] + (row > 0 ? maps->deep[k / nx] : 0);
 }
 
 /* Adds t W p to `to`. With `deep`, m of each row, adds the part of the rows there instead. */
 static void
-lose(const struct wear *v, double t, const double *p, double *to, double *deep)
+lose(const struct rates *rates, const struct rc_shape *s, double t, const double *p, double *to,
+     double *deep)
 {
-    const struct rc_shape *s = &v->base.shape;
-
-    for (size_t k = 0; k < v->n; k++)
-        to[k] += t * v->k * part(v, k) * p[k];
-    for (size_t j = 0; j < s->ny && v->row > 0; j++) {
-        const double sunk = t * v->row * s->dx * rc_sum(p + j * s->nx, s->nx);
+    for (size_t k = 0; k < s->nx * s->ny; k++)
+        to[k] += t * rates->k * part(rates, k) * p[k];
+    for (size_t j = 0; j < s->ny && rates->row > 0; j++) {
+        const double sunk = t * rates->row * s->dx * rc_sum(p + j * s->nx, s->nx);
         for (size_t i = 0; i < s->nx && deep == NULL; i++)
             to[j * s->nx + i] += sunk;
         if (deep != NULL)
@@ -195,26 +208,26 @@ lose(const struct wear *v, double t, const double *p, double *to, double *deep)
 
 /* The largest sum of W p over the map, over the sum of p. */
 static double
-most_lost(const struct wear *v)
+most_lost(const struct rates *rates, const struct rc_shape *s)
 {
-    return v->k + v->row * v->base.shape.dx * (double)v->base.shape.nx;
+    return rates->k + rates->row * s->dx * (double)s->nx;
 }
 
 /* The tolerance of the contact of this stage, over the tolerance of the others. */
 static double
-accuracy(const struct wear *v)
+accuracy(size_t stage, size_t n)
 {
-    return v->stage == LAST ? fmin(accurate, nodes_in_part / (double)v->n) : 1;
+    return stage == LAST ? fmin(accurate, nodes_in_part / (double)n) : 1;
 }
 
 /* Gives the inner model these heights, and the compliance of this stage. */
 static enum rc_status
 pose_at(struct wear *v, const double *heights, struct rc_err *err)
 {
-    if (rc_model_set_compliance(v->base.inner, v->k * v->over, v->law.part, v->row * v->over,
-                                err) != RC_OK)
+    if (rc_model_set_compliance(v->base.inner, v->rates.k * v->over, v->rates.part,
+                                v->rates.row * v->over, err) != RC_OK)
         return RC_FAIL;
-    rc_model_set_accuracy(v->base.inner, accuracy(v));
+    rc_model_set_accuracy(v->base.inner, accuracy(v->way.stage, v->n));
     return rc_model_set_heights(v->base.inner, heights, err);
 }
 
@@ -222,18 +235,19 @@ pose_at(struct wear *v, const double *heights, struct rc_err *err)
 static enum rc_status
 pose(struct wear *v, struct rc_err *err)
 {
-    const bool halves = v->stage == FIRST || v->stage == SECOND;
+    const bool halves = v->way.stage == FIRST || v->way.stage == SECOND;
 
-    v->over = halves ? d * v->tried : v->stage == LAST ? v->tried : 0;
+    v->over = halves ? d * v->way.tried : v->way.stage == LAST ? v->way.tried : 0;
     for (size_t k = 0; k < v->n; k++)
-        v->room[k] = v->h[k] - depth(v, k);
+        v->maps.room[k] = v->maps.h[k] - depth(&v->maps, v->rates.row, v->base.shape.nx, k);
     if (halves)
-        lose(v, -(v->stage == FIRST ? d : w) * v->tried, v->p0, v->room, NULL);
-    if (v->stage == SECOND)
-        lose(v, -w * v->tried, v->pa, v->room, NULL);
+        lose(&v->rates, &v->base.shape, -(v->way.stage == FIRST ? d : w) * v->way.tried, v->maps.p0,
+             v->maps.room, NULL);
+    if (v->way.stage == SECOND)
+        lose(&v->rates, &v->base.shape, -w * v->way.tried, v->maps.pa, v->maps.room, NULL);
     if (!halves)
-        memcpy(v->pa, v->room, v->n * sizeof *v->pa);
-    return pose_at(v, v->room, err);
+        memcpy(v->maps.pa, v->maps.room, v->n * sizeof *v->maps.pa);
+    return pose_at(v, v->maps.room, err);
 }
 
 /* Starts the contact of a stage. Plastic dents of the last step stay. */
@@ -241,49 +255,48 @@ static enum rc_status
 contact(struct wear *v, enum stage stage, struct rc_err *err)
 {
     const double along = stage == PRESS ? 0 : stage == FIRST ? g : 1;
-    const struct rc_point to = rc_wear_load(&v->base, v->s + along * v->tried);
+    const struct rc_point to = rc_wear_load(&v->base, v->way.s + along * v->way.tried);
 
     if (!v->kept && rc_model_keep(v->base.inner, err) != RC_OK)
         return RC_FAIL;
     v->kept = true;
-    v->stage = stage;
+    v->way.stage = stage;
     return pose(v, err) == RC_OK ? rc_model_go(v->base.inner, &to, err) : RC_FAIL;
 }
 
 /* The sum of W p. */
 static double
-rate(const struct wear *v, const double *p)
+rate(const struct rates *rates, const struct rc_shape *s, const double *p)
 {
     struct rc_total sum = {0};
 
-    for (size_t k = 0; k < v->n; k++)
-        rc_total_add(&sum, (most_lost(v) - v->k + v->k * part(v, k)) * p[k]);
+    for (size_t k = 0; k < s->nx * s->ny; k++)
+        rc_total_add(&sum, (most_lost(rates, s) - rates->k + rates->k * part(rates, k)) * p[k]);
     return rc_total_value(&sum);
 }
 
 /* The sum of the worn depths. */
 static double
-lost(const struct wear *v)
+lost(const struct maps *maps, double row, const struct rc_shape *s)
 {
-    const struct rc_shape *s = &v->base.shape;
-
-    return rc_sum(v->worn, v->n) + (v->row > 0 ? (double)s->nx * rc_sum(v->deep, s->ny) : 0);
+    return rc_sum(maps->worn, s->nx * s->ny) +
+           (row > 0 ? (double)s->nx * rc_sum(maps->deep, s->ny) : 0);
 }
 
 /* The largest sum of |e| that an error e of the heights has now or gets while the bodies slide on. The flow
  * never increases the sum of |e| over the coefficients; in the end e is even over the contact. */
 static double
-lasting(const struct wear *v, const double *e)
+lasting(const struct rates *rates, const double *p, const double *e, size_t n)
 {
     double weighted = 0, weights = 0, count = 0;
 
-    for (size_t k = 0; k < v->n && v->law.part != NULL; k++)
-        if (part(v, k) > 0) {
-            weighted += fabs(e[k]) / part(v, k);
-            weights += rc_in_contact(v->p1[k]) / part(v, k);
-            count += rc_in_contact(v->p1[k]);
+    for (size_t k = 0; k < n && rates->part != NULL; k++)
+        if (part(rates, k) > 0) {
+            weighted += fabs(e[k]) / part(rates, k);
+            weights += rc_in_contact(p[k]) / part(rates, k);
+            count += rc_in_contact(p[k]);
         }
-    return fmax(rc_distance(e, NULL, v->n), weights > 0 ? count / weights * weighted : 0);
+    return fmax(rc_distance(e, NULL, n), weights > 0 ? count / weights * weighted : 0);
 }
 
 /* ---- steps ---- */
@@ -308,21 +321,24 @@ find_figures(struct wear *v)
     struct rc_wear_figures *f = &v->f;
     double in = 0;
 
-    f->distance = v->law.energy == NULL ? v->s : NAN;
-    f->wear_volume = rc_sum(v->worn, v->n) * cell;
+    f->distance = v->law.energy == NULL ? v->way.s : NAN;
+    f->wear_volume = rc_sum(v->maps.worn, v->n) * cell;
     f->max_wear_depth = 0;
     for (size_t k = 0; k < v->n; k++) {
-        f->max_wear_depth = fmax(f->max_wear_depth, depth(v, k));
-        in += rc_in_contact(v->p0[k]);
+        f->max_wear_depth =
+            fmax(f->max_wear_depth, depth(&v->maps, v->rates.row, v->base.shape.nx, k));
+        in += rc_in_contact(v->maps.p0[k]);
     }
-    f->wear_volume_1 = v->share[0] * f->wear_volume;
-    f->wear_volume_2 = v->share[1] * f->wear_volume;
-    if (v->row > 0)
+    f->wear_volume_1 = v->rates.share[0] * f->wear_volume;
+    f->wear_volume_2 = v->rates.share[1] * f->wear_volume;
+    if (v->rates.row > 0)
         f->wear_volume += f->wear_volume_2 =
-            rc_sum(v->deep, v->base.shape.ny) * v->base.shape.dy * v->law.track;
-    f->mean_wear_depth = lost(v) / (double)v->n;
-    f->pressure_spread = rc_wear_spread(v->p0, v->n);
-    f->wear_error = f->wear_volume > 0 ? v->error[VOLUME] / (lost(v) * cell) : 0;
+            rc_sum(v->maps.deep, v->base.shape.ny) * v->base.shape.dy * v->law.track;
+    f->mean_wear_depth = lost(&v->maps, v->rates.row, &v->base.shape) / (double)v->n;
+    f->pressure_spread = rc_wear_spread(v->maps.p0, v->n);
+    f->wear_error = f->wear_volume > 0
+                        ? v->error[VOLUME] / (lost(&v->maps, v->rates.row, &v->base.shape) * cell)
+                        : 0;
     f->pressure_error = v->error[OF_STEPS] + v->error[OF_P0];
     f->converged = v->good && f->wear_error <= v->law.tol && f->pressure_error <= v->law.tol;
     v->in_contact = in / (double)v->n;
@@ -330,15 +346,15 @@ find_figures(struct wear *v)
 
 /* The distance before the point that backward Euler takes, m. */
 static double
-last_way(const struct wear *v)
+last_way(double start, double end)
 {
-    return fmin(last_part * v->end, v->end - v->base.from.at[RC_DISTANCE]);
+    return fmin(last_part * end, end - start);
 }
 
 static size_t
-last_steps(const struct wear *v)
+last_steps(double tol)
 {
-    return (size_t)ceil(fmax(fewest, per_tolerance / v->law.tol));
+    return (size_t)ceil(fmax(fewest, per_tolerance / tol));
 }
 
 /* The longest step that does not pass far beyond a condition. The depth grows at most with the largest
@@ -352,14 +368,14 @@ longest(struct wear *v)
     double most = INFINITY, peak = 0;
 
     if (v->law.until_area > 0 || v->law.until_spread > 0)
-        most = fmax(quarter * v->s, v->t / GROWTH);
+        most = fmax(quarter * v->way.s, v->way.t / GROWTH);
     if (v->law.until_depth > 0) {
-        memset(v->room, 0, v->n * sizeof *v->room);
-        lose(v, 1, v->p0, v->room, NULL);
+        memset(v->maps.room, 0, v->n * sizeof *v->maps.room);
+        lose(&v->rates, &v->base.shape, 1, v->maps.p0, v->maps.room, NULL);
         for (size_t k = 0; k < v->n; k++)
-            peak = fmax(peak, v->room[k]);
-        most =
-            fmin(most, fmax((v->law.until_depth - v->f.max_wear_depth) / peak, last_part * v->s));
+            peak = fmax(peak, v->maps.room[k]);
+        most = fmin(most,
+                    fmax((v->law.until_depth - v->f.max_wear_depth) / peak, last_part * v->way.s));
     }
     return most;
 }
@@ -368,28 +384,28 @@ longest(struct wear *v)
 static enum rc_status
 set_out(struct wear *v, struct rc_err *err)
 {
-    const double left = v->end - last_way(v) - v->s;
+    const double left = v->way.end - last_way(v->base.from.at[RC_DISTANCE], v->way.end) - v->way.s;
 
-    if (v->last == last_steps(v) || !(v->end > v->s)) {
-        v->s = v->end;
-        v->stage = REST;
+    if (v->way.last == last_steps(v->law.tol) || !(v->way.end > v->way.s)) {
+        v->way.s = v->way.end;
+        v->way.stage = REST;
         find_figures(v);
         return v->f.converged ? RC_OK : RC_SHORT;
     }
     if (v->law.energy != NULL) {
         for (size_t k = 0; k < v->n; k++)
-            v->worn[k] += v->k * v->law.energy[k] * (v->end - v->s);
-        v->s = v->end;
-        v->tried = 0;
+            v->maps.worn[k] += v->rates.k * v->law.energy[k] * (v->way.end - v->way.s);
+        v->way.s = v->way.end;
+        v->way.tried = 0;
         return contact(v, PRESS, err);
     }
-    if (v->last == 0 && left > 1e-9 * v->end) {
-        v->t = fmin(v->t, longest(v));
-        v->tried = v->t >= left ? left : v->t > left / 2 ? left / 2 : v->t;
+    if (v->way.last == 0 && left > 1e-9 * v->way.end) {
+        v->way.t = fmin(v->way.t, longest(v));
+        v->way.tried = v->way.t >= left ? left : v->way.t > left / 2 ? left / 2 : v->way.t;
         return contact(v, FIRST, err);
     }
-    v->tried = (v->end - v->s) / (double)(last_steps(v) - v->last);
-    v->last++;
+    v->way.tried = (v->way.end - v->way.s) / (double)(last_steps(v->law.tol) - v->way.last);
+    v->way.last++;
     return contact(v, LAST, err);
 }
 
@@ -402,7 +418,7 @@ see_conditions(struct wear *v)
              (v->law.until_depth > 0 && f->max_wear_depth >= v->law.until_depth) ||
              (v->law.until_spread > 0 && f->pressure_spread <= v->law.until_spread);
     if (v->met)
-        v->end = fmin(v->end, v->s / (1 - last_part));
+        v->way.end = fmin(v->way.end, v->way.s / (1 - last_part));
 }
 
 /* Under a large compliance the tolerance of the contact changes the heights more than elasticity does. This
@@ -414,14 +430,14 @@ fit(struct wear *v, struct rc_err *err)
     const struct rc_shape *s = &v->base.shape;
     const double side = fmax(s->dx * (double)s->nx, s->dy * (double)s->ny);
 
-    v->fitted = v->over * v->k * v->least * v->law.estar > long_step * side &&
+    v->fitted = v->over * v->rates.k * v->rates.least * v->law.estar > long_step * side &&
                 !(rc_model_number(v->base.inner, "plastic_area") > 0);
     if (!v->fitted)
         return RC_OK;
-    if (rc_model_frame(v->base.inner, "gap", v->room, err) != RC_OK)
+    if (rc_model_frame(v->base.inner, "gap", v->maps.room, err) != RC_OK)
         return RC_FAIL;
     for (size_t k = 0; k < v->n; k++)
-        v->worn[k] -= rc_in_contact(v->p1[k]) ? v->room[k] : 0;
+        v->maps.worn[k] -= rc_in_contact(v->maps.p1[k]) ? v->maps.room[k] : 0;
     return RC_OK;
 }
 
@@ -431,24 +447,26 @@ static enum rc_status
 take(struct wear *v, double first, double last, double error, double of_p1, double of_steps,
      struct rc_err *err)
 {
-    double *p = v->p0;
+    double *p = v->maps.p0;
 
     if (first > 0) {
-        lose(v, first * v->tried, v->p0, v->worn, v->deep);
-        lose(v, first * v->tried, v->pa, v->worn, v->deep);
+        lose(&v->rates, &v->base.shape, first * v->way.tried, v->maps.p0, v->maps.worn,
+             v->maps.deep);
+        lose(&v->rates, &v->base.shape, first * v->way.tried, v->maps.pa, v->maps.worn,
+             v->maps.deep);
     }
-    lose(v, last * v->tried, v->p1, v->worn, v->deep);
+    lose(&v->rates, &v->base.shape, last * v->way.tried, v->maps.p1, v->maps.worn, v->maps.deep);
     if (fit(v, err) != RC_OK)
         return RC_FAIL;
-    v->p0 = v->p1;
-    v->p1 = p;
-    v->s += v->tried;
+    v->maps.p0 = v->maps.p1;
+    v->maps.p1 = p;
+    v->way.s += v->way.tried;
     v->error[VOLUME] += error * v->base.shape.dx * v->base.shape.dy;
     v->error[OF_P0] = of_p1;
     v->error[WEAR_P0] = v->error[WEAR_P1];
     v->error[OF_STEPS] = of_steps;
     v->kept = false;
-    v->f.steps += v->stage != PRESS;
+    v->f.steps += v->way.stage != PRESS;
     find_figures(v);
     v->base.looked = true; /* also without a look, which may change the contact */
     return RC_OK;
@@ -459,11 +477,11 @@ take(struct wear *v, double first, double last, double error, double of_p1, doub
 static enum rc_status
 respond(struct wear *v, double *sum, struct rc_err *err)
 {
-    if (rc_model_respond(v->base.inner, v->e, v->room, err) != RC_OK)
+    if (rc_model_respond(v->base.inner, v->maps.e, v->maps.room, err) != RC_OK)
         return RC_FAIL;
     v->f.convolutions += 1;
-    lose(v, -v->over, v->room, v->e, NULL);
-    *sum = rc_distance(v->room, NULL, v->n);
+    lose(&v->rates, &v->base.shape, -v->over, v->maps.room, v->maps.e, NULL);
+    *sum = rc_distance(v->maps.room, NULL, v->n);
     return RC_OK;
 }
 
@@ -471,8 +489,9 @@ respond(struct wear *v, double *sum, struct rc_err *err)
 static enum rc_status
 even(struct wear *v, double of_p1, struct rc_err *err)
 {
-    const double step = most_lost(v) * v->tried, sum = rc_distance(v->p1, NULL, v->n);
-    const double change = rc_distance(v->p1, v->p0, v->n), *error = v->error;
+    const double step = most_lost(&v->rates, &v->base.shape) * v->way.tried,
+                 sum = rc_distance(v->maps.p1, NULL, v->n);
+    const double change = rc_distance(v->maps.p1, v->maps.p0, v->n), *error = v->error;
     double z;
 
     if (respond(v, &z, err) != RC_OK)
@@ -489,9 +508,10 @@ even(struct wear *v, double of_p1, struct rc_err *err)
 static double
 due(const struct wear *v)
 {
-    const double now = rate(v, v->p1), so_far = lost(v) / (v->s + v->tried);
+    const double now = rate(&v->rates, &v->base.shape, v->maps.p1),
+                 so_far = lost(&v->maps, v->rates.row, &v->base.shape) / (v->way.s + v->way.tried);
 
-    return v->law.part == NULL ? now : fmax(now, so_far);
+    return v->rates.part == NULL ? now : fmax(now, so_far);
 }
 
 /* Accepts the step of TR-BDF2, or tries a shorter one. Its local error e is third_order t^3 W p'', with p''
@@ -499,33 +519,34 @@ due(const struct wear *v)
 static enum rc_status
 judge(struct wear *v, double of_p1, struct rc_err *err)
 {
-    const double step = most_lost(v) * v->tried, sum = rc_distance(v->p1, NULL, v->n),
-                 *error = v->error;
-    const double most = of_tol * v->law.tol * v->tried * due(v);
+    const double step = most_lost(&v->rates, &v->base.shape) * v->way.tried,
+                 sum = rc_distance(v->maps.p1, NULL, v->n), *error = v->error;
+    const double most = of_tol * v->law.tol * v->way.tried * due(v);
     double e, z = 0, contacts, factor;
 
-    memset(v->e, 0, v->n * sizeof *v->e);
+    memset(v->maps.e, 0, v->n * sizeof *v->maps.e);
     for (size_t k = 0; k < v->n; k++)
-        v->room[k] = (v->p1[k] - v->pa[k]) / (1 - g) - (v->pa[k] - v->p0[k]) / g;
-    lose(v, 2 * third_order * v->tried, v->room, v->e, NULL);
+        v->maps.room[k] =
+            (v->maps.p1[k] - v->maps.pa[k]) / (1 - g) - (v->maps.pa[k] - v->maps.p0[k]) / g;
+    lose(&v->rates, &v->base.shape, 2 * third_order * v->way.tried, v->maps.room, v->maps.e, NULL);
     if (respond(v, &z, err) != RC_OK)
         return RC_FAIL;
-    e = lasting(v, v->e);
+    e = lasting(&v->rates, v->maps.p1, v->maps.e, v->n);
     /* The next step aims below the largest error. Half takes 4 % more convolutions. Double takes 1 % fewer,
      * with errors up to 3.4 times as large (26 runs of bench/constants.py). */
     factor = fmin(GROWTH, 0.9 * sqrt(most / e));
-    if (e > most && v->tried > 1e-12 * v->end) {
-        v->t = fmax(factor, 1.0 / GROWTH) * v->tried;
+    if (e > most && v->way.tried > 1e-12 * v->way.end) {
+        v->way.t = fmax(factor, 1.0 / GROWTH) * v->way.tried;
         v->f.rejected++;
         return set_out(v, err);
     }
     /* an error of p0 also acts through p_a, twice: no contact increases a difference of its heights */
     contacts = step * sum * (3 * w * error[WEAR_P0] + w * error[WEAR_PA] + d * error[WEAR_P1]);
-    if (v->tried >= v->t ||
+    if (v->way.tried >= v->way.t ||
         factor < 1) /* a step shortened to end at the point does not limit the next one */
-        v->t = fmax(factor, 1.0 / GROWTH) * v->tried;
+        v->way.t = fmax(factor, 1.0 / GROWTH) * v->way.tried;
     /* the errors of earlier steps decay as sliding continues */
-    v->error[OF_ALL] = v->error[OF_ALL] * v->s / (v->s + v->tried) + z / sum;
+    v->error[OF_ALL] = v->error[OF_ALL] * v->way.s / (v->way.s + v->way.tried) + z / sum;
     v->error[REPEATED] = z > 0 ? v->error[OF_ALL] * sum / z : 1;
     if (take(v, w, d, caution * e + contacts, of_p1, v->error[OF_ALL], err) != RC_OK)
         return RC_FAIL;
@@ -550,66 +571,64 @@ go(struct rc_model *m, struct rc_err *err)
 
     if (rc_wear_check_point(m, err) != RC_OK)
         return RC_FAIL;
-    v->end = v->met ? v->s : m->to.at[RC_DISTANCE];
-    v->last = 0;
+    v->way.end = v->met ? v->way.s : m->to.at[RC_DISTANCE];
+    v->way.last = 0;
     v->again = false;
-    if (m->from.given == 0 || (!v->met && v->s >= v->end)) {
-        v->tried = 0;
+    if (m->from.given == 0 || (!v->met && v->way.s >= v->way.end)) {
+        v->way.tried = 0;
         v->good = true;
         return contact(v, PRESS, err) == RC_MORE ? RC_OK : RC_FAIL;
     }
     return v->met ? RC_OK : set_out(v, err) == RC_MORE ? RC_OK : RC_FAIL;
 }
 
-/* Sets the error of the wear under p1, relative to k times the load. Where nodes stick, most of the error
- * of the pressure may be at these. An error z of the pressure moves the heights by D z, and (K + D) z is
- * the gap that the contact has left open, so that the sum of |D z| is about that of |gap| at most. */
-static enum rc_status
-find_wear_error(struct wear *v, double of_p1, struct rc_err *err)
+/* The error of the wear under a pressure p, relative to k times the load; of_p is the error of p. Where nodes
+ * stick, most of the error of the pressure may be at these. An error z of the pressure moves the heights by
+ * D z, and (K + D) z is the gap that the contact has left open, so that the sum of |D z| is about that of
+ * |gap| at most. The largest D is `compliance`. */
+static double
+wear_error(double of_p, const double *p, const double *gap, size_t n, double compliance)
 {
     double open = 0;
 
-    v->error[WEAR_P1] = of_p1;
-    if (v->law.part == NULL || v->over == 0)
-        return RC_OK;
-    if (rc_model_frame(v->base.inner, "gap", v->room, err) != RC_OK)
-        return RC_FAIL;
-    for (size_t k = 0; k < v->n; k++)
-        open += rc_in_contact(v->p1[k]) ? fabs(v->room[k]) : 0;
-    v->error[WEAR_P1] =
-        fmin(of_p1, caution * open / (v->k * v->over * rc_distance(v->p1, NULL, v->n)));
-    return RC_OK;
+    for (size_t k = 0; k < n; k++)
+        open += rc_in_contact(p[k]) ? fabs(gap[k]) : 0;
+    return fmin(of_p, caution * open / (compliance * rc_distance(p, NULL, n)));
 }
 
 static enum rc_status
 step(struct rc_model *m, struct rc_err *err)
 {
     struct wear *v = (struct wear *)m;
-    const bool there = v->stage == REST && !v->again;
+    const bool there = v->way.stage == REST && !v->again;
     const enum rc_status status = there ? RC_OK : rc_model_step(m->inner, err);
     double of_p1;
 
     if (status == RC_MORE || status == RC_FAIL)
         return status;
     v->again = false;
-    if (v->stage == REST)
+    if (v->way.stage == REST)
         return set_out(v, err);
     if (rc_model_look(m->inner, NULL, err) != RC_OK ||
-        rc_model_frame(m->inner, "pressure", v->p1, err) != RC_OK)
+        rc_model_frame(m->inner, "pressure", v->maps.p1, err) != RC_OK)
         return RC_FAIL;
     v->good = v->good && status == RC_OK;
     v->f.contacts++;
     v->f.convolutions += rc_model_number(m->inner, "convolutions");
     of_p1 = rc_model_number(m->inner, "pressure_error_estimate");
-    if (find_wear_error(v, of_p1, err) != RC_OK)
-        return RC_FAIL;
-    if (v->stage != LAST)
-        v->error[LEFT] = fmax(v->stage == SECOND ? v->error[LEFT] : 0, of_p1);
-    switch (v->stage) {
+    v->error[WEAR_P1] = of_p1;
+    if (v->rates.part != NULL && v->over > 0) {
+        if (rc_model_frame(m->inner, "gap", v->maps.room, err) != RC_OK)
+            return RC_FAIL;
+        v->error[WEAR_P1] = wear_error(of_p1, v->maps.p1, v->maps.room, v->n, v->rates.k * v->over);
+    }
+    if (v->way.stage != LAST)
+        v->error[LEFT] = fmax(v->way.stage == SECOND ? v->error[LEFT] : 0, of_p1);
+    switch (v->way.stage) {
     case FIRST: {
-        double *pa = v->pa;
-        v->pa = v->p1;
-        v->p1 = pa;
+        double *pa = v->maps.pa;
+        v->maps.pa = v->maps.p1;
+        v->maps.p1 = pa;
         v->error[WEAR_PA] = v->error[WEAR_P1];
         return contact(v, SECOND, err);
     }
@@ -632,17 +651,17 @@ height_in(struct wear *v, double *to, struct rc_err *err)
 {
     struct rc_model *inner = v->base.inner;
 
-    if (v->stage != REST) {
+    if (v->way.stage != REST) {
         for (size_t k = 0; k < v->n; k++)
-            to[k] = v->h[k] - depth(v, k);
+            to[k] = v->maps.h[k] - depth(&v->maps, v->rates.row, v->base.shape.nx, k);
         return RC_OK;
     }
     if (rc_model_frame(inner, "plastic", to, err) != RC_OK ||
-        (v->fitted && rc_model_frame(inner, "gap", v->room, err) != RC_OK))
+        (v->fitted && rc_model_frame(inner, "gap", v->maps.room, err) != RC_OK))
         return RC_FAIL;
     for (size_t k = 0; k < v->n; k++)
-        to[k] += v->fitted && rc_in_contact(v->p0[k]) ? v->room[k] : 0;
-    lose(v, -v->over, v->p0, to, NULL);
+        to[k] += v->fitted && rc_in_contact(v->maps.p0[k]) ? v->maps.room[k] : 0;
+    lose(&v->rates, &v->base.shape, -v->over, v->maps.p0, to, NULL);
     return RC_OK;
 }
 
@@ -650,8 +669,8 @@ static enum rc_status
 fill(struct rc_model *m, size_t frame, double *to, struct rc_err *err)
 {
     struct wear *v = (struct wear *)m;
-    const double of_worn = frame == RC_WEAR_BOTH ? 1 : v->share[frame == RC_WEAR_2];
-    const bool track = v->row > 0 && frame != RC_WEAR_1;
+    const double of_worn = frame == RC_WEAR_BOTH ? 1 : v->rates.share[frame == RC_WEAR_2];
+    const bool track = v->rates.row > 0 && frame != RC_WEAR_1;
 
     if (frame == RC_WEAR_HEIGHT)
         return height_in(v, to, err);
@@ -659,8 +678,8 @@ fill(struct rc_model *m, size_t frame, double *to, struct rc_err *err)
         return RC_FAIL;
     for (size_t k = 0; k < v->n; k++)
         if (frame != RC_WEAR_GAP)
-            to[k] = of_worn * v->worn[k] + (track ? v->deep[k / m->shape.nx] : 0);
-        else if (v->fitted && rc_in_contact(v->p0[k]))
+            to[k] = of_worn * v->maps.worn[k] + (track ? v->maps.deep[k / m->shape.nx] : 0);
+        else if (v->fitted && rc_in_contact(v->maps.p0[k]))
             to[k] = 0;
     return RC_OK;
 }
@@ -671,14 +690,15 @@ find_approach(struct wear *v, double *approach, struct rc_err *err)
 {
     double shift;
 
-    if (rc_model_frame(v->base.inner, "displacement", v->room, err) != RC_OK)
+    if (rc_model_frame(v->base.inner, "displacement", v->maps.room, err) != RC_OK)
         return RC_FAIL;
-    shift = v->room[0];
-    if (height_in(v, v->p1, err) != RC_OK || fill(&v->base, RC_WEAR_GAP, v->room, err) != RC_OK)
+    shift = v->maps.room[0];
+    if (height_in(v, v->maps.p1, err) != RC_OK ||
+        fill(&v->base, RC_WEAR_GAP, v->maps.room, err) != RC_OK)
         return RC_FAIL;
-    shift -= v->p1[0] + v->room[0];
+    shift -= v->maps.p1[0] + v->maps.room[0];
     if (!isnan(*approach))
-        *approach = shift + rc_highest(v->p1, v->n);
+        *approach = shift + rc_highest(v->maps.p1, v->n);
     return RC_OK;
 }
 
@@ -689,7 +709,7 @@ look(struct rc_model *m, struct rc_point *at, struct rc_err *err)
 
     find_figures(v);
     v->f.converged = v->f.converged && m->status != RC_MORE;
-    at->at[RC_DISTANCE] = v->s;
+    at->at[RC_DISTANCE] = v->way.s;
     return find_approach(v, &at->at[RC_APPROACH], err);
 }
 
@@ -713,25 +733,25 @@ state(struct rc_model *m, struct rc_state *s)
     struct rc_err err;
     bool there;
 
-    rc_state_count(s, &v->stage, LAST);
-    rc_state_count(s, &v->last, last_steps(v));
-    there = v->stage == REST && m->moved && !rc_state_is_copy(s);
+    rc_state_count(s, &v->way.stage, LAST);
+    rc_state_count(s, &v->way.last, last_steps(v->law.tol));
+    there = v->way.stage == REST && m->moved && !rc_state_is_copy(s);
     RC_STATE_FLAGS(s, &v->kept, &v->good, &v->met, &v->fitted);
     RC_STATE_COUNTS(s, &v->f.steps, &v->f.rejected, &v->f.contacts);
-    RC_STATE_NUMBERS(s, &v->s, &v->end, &v->t, &v->tried, &v->f.convolutions);
+    RC_STATE_NUMBERS(s, &v->way.s, &v->way.end, &v->way.t, &v->way.tried, &v->f.convolutions);
     RC_STATE_SIZES(s, &v->over);
     rc_state_finite(s, ERRORS, v->error);
-    rc_state_map(s, v->n, v->worn);
-    if (v->row > 0)
-        rc_state_finite(s, m->shape.ny, v->deep);
-    rc_state_map(s, v->n, v->p0);
-    rc_state_map(s, v->n, v->e);
-    if (v->stage == SECOND || there)
-        rc_state_map(s, v->n, v->pa);
+    rc_state_map(s, v->n, v->maps.worn);
+    if (v->rates.row > 0)
+        rc_state_finite(s, m->shape.ny, v->maps.deep);
+    rc_state_map(s, v->n, v->maps.p0);
+    rc_state_map(s, v->n, v->maps.e);
+    if (v->way.stage == SECOND || there)
+        rc_state_map(s, v->n, v->maps.pa);
     if (!rc_state_reads(s))
         return;
     v->again = there;
-    if ((there ? pose_at(v, v->pa, &err) : pose(v, &err)) != RC_OK)
+    if ((there ? pose_at(v, v->maps.pa, &err) : pose(v, &err)) != RC_OK)
         rc_state_refuse(s, "its heights are not finite");
 }
 
@@ -740,7 +760,7 @@ progress(const struct rc_model *m, struct rc_loops *l)
 {
     const struct wear *v = (const struct wear *)m;
 
-    rc_loops_add(l, "distance", "m", v->s, v->end);
+    rc_loops_add(l, "distance", "m", v->way.s, v->way.end);
     rc_loops_add(l, "step", NULL, (double)v->f.steps, NAN);
 }
 
@@ -752,19 +772,20 @@ plan(const struct rc_model *m, const struct rc_point *most, struct rc_expected *
 {
     const struct wear *v = (const struct wear *)m;
     const struct rc_point inner = rc_point_for(m->inner, most);
-    const double nodes =
-        most->at[RC_DISTANCE] * (v->k + v->row * m->shape.dx) * v->law.estar / m->shape.dx;
+    const double nodes = most->at[RC_DISTANCE] * (v->rates.k + v->rates.row * m->shape.dx) *
+                         v->law.estar / m->shape.dx;
     const double steps = 4 * fmax(log10(nodes / first_step), 0) + 2;
     const double contacts = !(most->at[RC_DISTANCE] > 0) ? 1
-                            : v->law.energy != NULL      ? 2
-                                                         : 1 + 2 * steps + (double)last_steps(v);
-    const double work = contacts * (v->law.part != NULL ? RC_WEAR_BY_NODE : 1);
+                            : v->law.energy != NULL
+                                ? 2
+                                : 1 + 2 * steps + (double)last_steps(v->law.tol);
+    const double work = contacts * (v->rates.part != NULL ? RC_WEAR_BY_NODE : 1);
 
     if (rc_model_plan(m->inner, &inner, expected, err) != RC_OK)
         return RC_FAIL;
     expected->convolutions *= work;
     expected->seconds *= work;
-    if (v->law.part != NULL) /* of the preconditioner, see rc_preconditioner_tune */
+    if (v->rates.part != NULL) /* of the preconditioner, see rc_preconditioner_tune */
         expected->memory += 2 * v->n * sizeof(float);
     expected->memory += STATE * v->n * sizeof(double);
     return RC_OK;
@@ -840,29 +861,31 @@ make(struct wear *v, const double *h, const struct rc_wear_problem *law, struct 
 {
     struct rc_model *inner = v->base.inner;
     const struct rc_shape *s = &v->base.shape;
-    double **maps[] = {&v->worn, &v->p0, &v->pa, &v->p1, &v->e, &v->room};
+    double **maps[] = {&v->maps.worn, &v->maps.p0, &v->maps.pa,
+                       &v->maps.p1,   &v->maps.e,  &v->maps.room};
 
     v->n = s->nx * s->ny;
     v->law = *law;
     if (rc_wear_check(&v->law, v->n, err) != RC_OK)
         return RC_FAIL;
-    v->least = law->part != NULL ? INFINITY : 1;
+    v->rates.part = law->part;
+    v->rates.least = law->part != NULL ? INFINITY : 1;
     for (size_t k = 0; k < v->n && law->part != NULL; k++)
-        v->least = fmin(v->least, law->part[k]);
-    v->row = law->track > 0 ? law->k[1] / law->track : 0;
-    v->k = law->k[0] + (law->track > 0 ? 0 : law->k[1]);
-    v->share[0] = law->track > 0 ? 1 : law->k[0] / v->k;
-    v->share[1] = law->track > 0 ? 0 : law->k[1] / v->k;
-    v->t = rc_wear_first_step(&v->law, s);
+        v->rates.least = fmin(v->rates.least, law->part[k]);
+    v->rates.row = law->track > 0 ? law->k[1] / law->track : 0;
+    v->rates.k = law->k[0] + (law->track > 0 ? 0 : law->k[1]);
+    v->rates.share[0] = law->track > 0 ? 1 : law->k[0] / v->rates.k;
+    v->rates.share[1] = law->track > 0 ? 0 : law->k[1] / v->rates.k;
+    v->way.t = rc_wear_first_step(&v->law, s);
     v->kept = true;
-    if ((law->energy == NULL &&
-         rc_model_set_compliance(inner, v->k * v->t, law->part, v->row * v->t, err) != RC_OK) ||
+    if ((law->energy == NULL && rc_model_set_compliance(inner, v->rates.k * v->way.t, law->part,
+                                                        v->rates.row * v->way.t, err) != RC_OK) ||
         rc_model_set_compliance(inner, 0, NULL, 0, err) != RC_OK)
         return RC_FAIL;
-    v->h = rc_store_copy(&v->base.own, v->n, sizeof *h, h);
+    v->maps.h = rc_store_copy(&v->base.own, v->n, sizeof *h, h);
     for (size_t k = 0; k < sizeof maps / sizeof *maps; k++)
         *maps[k] = rc_store_zeros(&v->base.own, v->n, sizeof **maps[k]);
-    v->deep = rc_store_zeros(&v->base.own, s->ny, sizeof *v->deep);
+    v->maps.deep = rc_store_zeros(&v->base.own, s->ny, sizeof *v->maps.deep);
     return rc_model_room(&v->base, err);
 }
 
