@@ -59,31 +59,46 @@ struct run {
     double *r;    /* m, one map for each term    */
 };
 
-struct creep {
+struct material {
+    size_t terms;
+    struct term *term;
+    double quickest; /* s: shortest time of a term that takes time */
+    double left_out; /* relative error of fast and slow terms */
+};
+
+/* Heights of the inner model; free; pressure of the coarse run. */
+struct maps {
+    double *posed, *room, *coarse;
+};
+
+/* The way from one point to the next. */
+struct leg {
+    double start, end;          /* s */
+    double least, most, shrink; /* s, s, -: first and longest step of the fine run, times shrink */
+    size_t increments;
+    size_t steps; /* of the fine run; even */
+    double tried; /* estimate of the last try; INFINITY: none */
+    double slope; /* of load or approach in the last leg, per s */
+    bool taken;   /* the end is reached */
+};
+
+struct viscoelastic {
     struct rc_model base;
     struct rc_viscoelastic_problem problem;
     const double *h; /* the caller's */
-    size_t n, terms;
-    struct term *term;
+    size_t n;
+    struct material material;
     double load, *equivalent; /* N: load after the last step, and its r, one for each term */
-    double quickest;          /* s: shortest time of a term that takes time */
-    double left_out;          /* relative error of fast and slow terms */
     struct run run[RUNS];
-    double *posed, *room,
-        *coarse;                /* heights of the inner model; free; pressure of the coarse run */
-    size_t on;                  /* the present run */
-    double start, end, dt;      /* s: the leg, the present step */
-    double least, most, shrink; /* s, s, -: first and longest step of the fine run, times shrink */
-    size_t increments;          /* of this leg */
-    double tried;               /* estimate of the last try of this leg; INFINITY: none */
-    size_t steps;               /* of the fine run in this leg; even */
-    double slope;               /* of load or approach in the last leg, per s */
-    double c;                   /* C of the present step */
-    double top, posed_top;      /* m: highest nodes of h and posed */
-    double beyond;              /* m: gap at first touch, at a given approach without contact */
-    double worst;               /* largest error of a contact so far */
-    bool good;                  /* all contacts have converged */
-    bool taken;                 /* the end of the leg is reached */
+    size_t on; /* the present run */
+    struct maps maps;
+    struct leg leg;
+    double dt;             /* s: the present step */
+    double c;              /* C of the present step */
+    double top, posed_top; /* m: highest nodes of h and posed */
+    double beyond;         /* m: gap at first touch, at a given approach without contact */
+    double worst;          /* largest error of a contact so far */
+    bool good;             /* all contacts have converged */
     struct rc_viscoelastic_figures f;
 };
 
@@ -105,8 +120,8 @@ const struct rc_figure rc_figures_viscoelastic[] = {
     {0},
 };
 static const struct rc_figure_set sets[] = {
-    {rc_figures_contact, offsetof(struct creep, f.contact)},
-    {rc_figures_viscoelastic, offsetof(struct creep, f)},
+    {rc_figures_contact, offsetof(struct viscoelastic, f.contact)},
+    {rc_figures_viscoelastic, offsetof(struct viscoelastic, f)},
     {NULL, 0},
 };
 
@@ -124,15 +139,14 @@ static const struct rc_frame_kind frames[] = {
 
 /* Chooses the terms of the history. All fast ones are one term, and all slow ones are another. */
 static void
-choose_terms(struct creep *v)
+choose_terms(struct material *material, const struct rc_viscoelastic_problem *a)
 {
-    const struct rc_viscoelastic_problem *a = &v->problem;
     const struct rc_relaxation *m = a->material;
     const double unit = a->share / m->instant, low = fast * a->shortest,
                  high = a->longest > 0 ? slow * a->longest : INFINITY;
     double at_once = 0, flow = unit * m->fluidity, of_fast = 0, of_slow = 0;
 
-    v->quickest = INFINITY;
+    material->quickest = INFINITY;
     for (size_t k = 0; k < m->creep_terms; k++) {
         const double th = m->retardation[k], j = unit * m->compliance[k];
         if (th < low) {
@@ -142,27 +156,26 @@ choose_terms(struct creep *v)
             flow += j / th;
             of_slow += j * pow(a->longest / th, 2) / 2;
         } else {
-            v->quickest = fmin(v->quickest, th);
-            v->term[v->terms++] = (struct term){.time = th, .j = j};
+            material->quickest = fmin(material->quickest, th);
+            material->term[material->terms++] = (struct term){.time = th, .j = j};
         }
     }
-    v->left_out = of_fast / (1 + at_once) + of_slow / (1 + flow * a->longest);
+    material->left_out = of_fast / (1 + at_once) + of_slow / (1 + flow * a->longest);
     if (at_once > 0)
-        v->term[v->terms++] = (struct term){.time = 0, .j = at_once};
+        material->term[material->terms++] = (struct term){.time = 0, .j = at_once};
     if (flow > 0)
-        v->term[v->terms++] = (struct term){.time = INFINITY, .j = flow};
+        material->term[material->terms++] = (struct term){.time = INFINITY, .j = flow};
 }
 
-/* Finds the weights of a step. */
-static void
-weigh(struct creep *v, double dt)
+/* Finds the weights of a step, and returns C. */
+static double
+weigh(struct material *material, double dt)
 {
     const double series = 0.01; /* the difference loses digits below it */
+    double c = 1;
 
-    v->dt = dt;
-    v->c = 1;
-    for (size_t k = 0; k < v->terms; k++) {
-        struct term *m = &v->term[k];
+    for (size_t k = 0; k < material->terms; k++) {
+        struct term *m = &material->term[k];
         const double x = dt / m->time, gone = -expm1(-x);
         if (dt == 0) {
             m->keep = 1;
@@ -178,32 +191,32 @@ weigh(struct creep *v, double dt)
             m->new = m->j *part;
             m->old = m->j * (gone - part);
         }
-        v->c += m->new;
+        c += m->new;
     }
+    return c;
 }
 
 /* The displacement after the step, less C w'. */
 static void
-find_history(const struct creep *v, double *to)
+find_history(const struct material *m, const struct run *run, size_t n, double *to)
 {
-    const struct run *run = &v->run[v->on];
     double of_w = 0;
 
-    for (size_t k = 0; k < v->terms; k++)
-        of_w += v->term[k].old;
-    for (size_t i = 0; i < v->n; i++)
+    for (size_t k = 0; k < m->terms; k++)
+        of_w += m->term[k].old;
+    for (size_t i = 0; i < n; i++)
         to[i] = of_w * run->w[i];
-    for (size_t k = 0; k < v->terms; k++) {
-        const double *r = run->r + k * v->n;
-        for (size_t i = 0; i < v->n; i++)
-            to[i] += v->term[k].keep * r[i];
+    for (size_t k = 0; k < m->terms; k++) {
+        const double *r = run->r + k * n;
+        for (size_t i = 0; i < n; i++)
+            to[i] += m->term[k].keep * r[i];
     }
 }
 
 /* ---- a step ---- */
 
 static bool
-by_approach(const struct creep *v)
+by_approach(const struct viscoelastic *v)
 {
     return rc_point_has(&v->base.to, RC_APPROACH);
 }
@@ -211,12 +224,12 @@ by_approach(const struct creep *v)
 /* Load or approach of the inner model at the end of the step. Its approach counts from the first touch of its
  * own heights. */
 static struct rc_point
-target(struct creep *v)
+target(struct viscoelastic *v)
 {
     const struct rc_point *from = &v->base.from, *to = &v->base.to;
-    const double way = v->end - v->start;
+    const double way = v->leg.end - v->leg.start;
     struct rc_point at =
-        rc_point_between(from, to, way > 0 ? (v->run[v->on].t - v->start) / way : 1);
+        rc_point_between(from, to, way > 0 ? (v->run[v->on].t - v->leg.start) / way : 1);
     double approach;
 
     at = rc_point_for(v->base.inner, &at);
@@ -231,69 +244,66 @@ target(struct creep *v)
 
 /* Step i of the fine run. Steps grow in proportion to the time since a corner of the load. */
 static double
-fine_step(const struct creep *v, size_t i)
+fine_step(const struct leg *leg, size_t i)
 {
-    const double growth = pow(10, (double)i / (per_decade * (double)v->increments));
+    const double growth = pow(10, (double)i / (per_decade * (double)leg->increments));
 
-    return v->shrink * fmin(v->most, v->least * growth);
+    return leg->shrink * fmin(leg->most, leg->least * growth);
 }
 
 /* Divides the leg into steps. A step of the coarse run is two of the fine one. */
 static void
-divide(struct creep *v, bool corner, size_t increments)
+divide(struct leg *leg, double quickest, bool corner, size_t increments)
 {
-    const double leg = v->end - v->start, n = (double)increments;
+    const double way = leg->end - leg->start, n = (double)increments;
     double sum = 0;
 
-    v->least = corner ? v->quickest / n : fine_step(v, v->steps) * (double)v->increments / n;
-    v->increments = increments;
-    v->most = leg / n;
-    v->shrink = 1;
-    v->steps = 0;
-    while (leg > 0 && (sum < whole * leg || v->steps % 2 == 1))
-        sum += fine_step(v, v->steps++);
-    v->shrink = leg > 0 ? leg / sum : 1;
-    v->run[COARSE].steps = v->run[FINE].steps = 0;
+    leg->least = corner ? quickest / n : fine_step(leg, leg->steps) * (double)leg->increments / n;
+    leg->increments = increments;
+    leg->most = way / n;
+    leg->shrink = 1;
+    leg->steps = 0;
+    while (way > 0 && (sum < whole * way || leg->steps % 2 == 1))
+        sum += fine_step(leg, leg->steps++);
+    leg->shrink = way > 0 ? way / sum : 1;
 }
 
 /* The length of the next step. */
 static double
-next_step(struct creep *v)
+next_step(const struct leg *leg, struct run *run, bool fine)
 {
-    struct run *run = &v->run[v->on];
     const size_t i = run->steps++;
-    const bool last = run->steps >= (v->on == FINE ? v->steps : v->steps / 2);
-    const double dt =
-        v->on == FINE ? fine_step(v, i) : fine_step(v, 2 * i) + fine_step(v, 2 * i + 1);
+    const bool last = run->steps >= (fine ? leg->steps : leg->steps / 2);
+    const double dt = fine ? fine_step(leg, i) : fine_step(leg, 2 * i) + fine_step(leg, 2 * i + 1);
 
-    return v->end == v->start ? 0 : last ? v->end - run->t : dt;
+    return leg->end == leg->start ? 0 : last ? leg->end - run->t : dt;
 }
 
 static enum rc_status
-start_step(struct creep *v, struct rc_err *err)
+start_step(struct viscoelastic *v, struct rc_err *err)
 {
     struct run *run = &v->run[v->on];
-    const double dt = next_step(v);
+    const double dt = next_step(&v->leg, run, v->on == FINE);
     struct rc_point at;
 
-    weigh(v, dt);
-    run->t = dt == v->end - run->t ? v->end : run->t + dt;
-    find_history(v, v->posed);
+    v->c = weigh(&v->material, v->dt = dt);
+    run->t = dt == v->leg.end - run->t ? v->leg.end : run->t + dt;
+    find_history(&v->material, run, v->n, v->maps.posed);
     for (size_t i = 0; i < v->n; i++)
-        v->posed[i] = (v->h[i] - v->posed[i]) / v->c;
-    v->posed_top = rc_highest(v->posed, v->n);
+        v->maps.posed[i] = (v->h[i] - v->maps.posed[i]) / v->c;
+    v->posed_top = rc_highest(v->maps.posed, v->n);
     at = target(v);
-    if (rc_model_set_heights(v->base.inner, v->posed, err) != RC_OK)
+    if (rc_model_set_heights(v->base.inner, v->maps.posed, err) != RC_OK)
         return RC_FAIL;
     return rc_model_go(v->base.inner, &at, err);
 }
 
 /* The contact of the step is found: its displacement goes into the history. */
 static enum rc_status
-take_step(struct creep *v, enum rc_status status, struct rc_err *err)
+take_step(struct viscoelastic *v, enum rc_status status, struct rc_err *err)
 {
     struct run *run = &v->run[v->on];
-    double *w = v->room;
+    double *w = v->maps.room;
     struct rc_point at;
 
     if (rc_model_look(v->base.inner, &at, err) != RC_OK ||
@@ -301,15 +311,15 @@ take_step(struct creep *v, enum rc_status status, struct rc_err *err)
         return RC_FAIL;
     if (rc_model_number(v->base.inner, "plastic_area") > 0)
         return rc_err_set(err, "a hardness of viscoelastic bodies is not implemented");
-    for (size_t k = 0; k < v->terms; k++) {
-        const struct term m = v->term[k];
+    for (size_t k = 0; k < v->material.terms; k++) {
+        const struct term m = v->material.term[k];
         double *r = run->r + k * v->n;
         for (size_t i = 0; i < v->n; i++)
             r[i] = m.keep * r[i] + m.old * run->w[i] + m.new *w[i];
         if (v->on == FINE)
             v->equivalent[k] = m.keep * v->equivalent[k] + m.old * v->load + m.new *at.at[RC_LOAD];
     }
-    v->room = run->w;
+    v->maps.room = run->w;
     run->w = w;
     if (v->on == FINE) {
         v->load = at.at[RC_LOAD];
@@ -326,126 +336,126 @@ take_step(struct creep *v, enum rc_status status, struct rc_err *err)
 /* ---- legs ---- */
 
 static enum rc_status
-start_run(struct creep *v, size_t on, struct rc_err *err)
+start_run(struct viscoelastic *v, size_t on, struct rc_err *err)
 {
     struct rc_model *inner = v->base.inner;
     const enum rc_status status = (v->on = on, start_step(v, err));
 
     /* the last pressure belongs to the other end of the leg */
-    if (on == FINE && v->end > v->start && status == RC_MORE &&
+    if (on == FINE && v->leg.end > v->leg.start && status == RC_MORE &&
         rc_model_start(inner, 0, NULL, err) != RC_OK)
         return RC_FAIL;
     return status;
 }
 
-/* The error of the increments, from the relative difference of the pressures of the two runs. */
-static enum rc_status
-compare(struct creep *v, struct rc_err *err)
+/* The relative difference of the pressures of the two runs. */
+static double
+difference(const double *fine, const double *coarse, size_t n)
 {
-    struct rc_total apart = {0}, coarse = {0}, fine = {0};
+    struct rc_total apart = {0}, of_coarse = {0}, of_fine = {0};
     double size, nodes = 0;
 
-    if (rc_model_frame(v->base.inner, "pressure", v->room, err) != RC_OK)
-        return RC_FAIL;
-    for (size_t i = 0; i < v->n; i++) {
-        rc_total_add(&apart, fabs(v->room[i] - v->coarse[i]));
-        rc_total_add(&coarse, v->coarse[i]);
-        rc_total_add(&fine, v->room[i]);
-        nodes += rc_in_contact(v->room[i]);
+    for (size_t i = 0; i < n; i++) {
+        rc_total_add(&apart, fabs(fine[i] - coarse[i]));
+        rc_total_add(&of_coarse, coarse[i]);
+        rc_total_add(&of_fine, fine[i]);
+        nodes += rc_in_contact(fine[i]);
     }
-    size = rc_total_value(&coarse) > rc_total_value(&fine) ? rc_total_value(&coarse)
-                                                           : rc_total_value(&fine);
-    v->f.increment_error =
-        v->left_out + (size != 0 ? (1 + few / fmax(nodes, 1)) * rc_total_value(&apart) / size : 0);
-    return RC_OK;
+    size = fmax(rc_total_value(&of_coarse), rc_total_value(&of_fine));
+    return size != 0 ? (1 + few / fmax(nodes, 1)) * rc_total_value(&apart) / size : 0;
 }
 
 /* True if the model chooses the increments, and more of them can lower the error of this leg. */
 static bool
-deserves_more(const struct creep *v)
+deserves_more(const struct rc_viscoelastic_problem *problem, const struct leg *leg, double error)
 {
-    return v->problem.increments == 0 && v->end > v->start && v->increments < MOST_AUTO &&
-           v->f.increment_error > v->problem.tol && v->f.increment_error < helps * v->tried;
+    return problem->increments == 0 && leg->end > leg->start && leg->increments < MOST_AUTO &&
+           error > problem->tol && error < helps * leg->tried;
 }
 
 /* Increments for the aim, of an error of second order. */
 static size_t
-increments_for(const struct creep *v, double least, double most)
+increments_for(size_t increments, double error, double tol, double least, double most)
 {
-    const double times = sqrt(v->f.increment_error / (aim * v->problem.tol));
+    const double times = sqrt(error / (aim * tol));
 
-    return (size_t)fmin(MOST_AUTO, ceil((double)v->increments * fmin(fmax(times, least), most)));
+    return (size_t)fmin(MOST_AUTO, ceil((double)increments * fmin(fmax(times, least), most)));
 }
 
-static enum rc_status start_leg(struct creep *v, size_t increments, struct rc_err *err);
+static enum rc_status start_leg(struct viscoelastic *v, size_t increments, struct rc_err *err);
 
 /* Returns to the start of the leg and takes more increments. */
 static enum rc_status
-try_again(struct creep *v, struct rc_err *err)
+try_again(struct viscoelastic *v, struct rc_err *err)
 {
-    const size_t increments = increments_for(v, least_more, most_more);
+    const size_t increments = increments_for(v->leg.increments, v->f.increment_error,
+                                             v->problem.tol, least_more, most_more);
     const double work = v->f.contact.convolutions, tried = v->f.increment_error;
 
     if (rc_model_recall(&v->base, err) != RC_OK)
         return RC_FAIL;
-    v->tried = tried;
+    v->leg.tried = tried;
     v->f.contact.convolutions = work;
     return start_leg(v, increments, err);
 }
 
 static enum rc_status
-judge(const struct creep *v)
+judge(const struct viscoelastic *v)
 {
     return v->good && v->f.increment_error <= v->problem.tol ? RC_OK : RC_SHORT;
 }
 
 /* Starts the next step, or the fine run; or ends the leg. */
 static enum rc_status
-go_on(struct creep *v, struct rc_err *err)
+go_on(struct viscoelastic *v, struct rc_err *err)
 {
     const bool begins = v->base.from.given == 0;
 
-    if (v->run[v->on].t < v->end)
+    if (v->run[v->on].t < v->leg.end)
         return start_step(v, err);
     if (v->on == COARSE)
-        return rc_model_frame(v->base.inner, "pressure", v->coarse, err) == RC_OK
+        return rc_model_frame(v->base.inner, "pressure", v->maps.coarse, err) == RC_OK
                    ? start_run(v, FINE, err)
                    : RC_FAIL;
     if (begins) { /* both runs start from the same contact */
-        memcpy(v->run[COARSE].w, v->run[FINE].w, v->n * sizeof *v->room);
-        v->run[COARSE].t = v->end;
-        v->f.increment_error = v->left_out;
-    } else if (compare(v, err) != RC_OK) {
-        return RC_FAIL;
-    } else if (deserves_more(v)) {
-        return try_again(v, err);
+        memcpy(v->run[COARSE].w, v->run[FINE].w, v->n * sizeof *v->maps.room);
+        v->run[COARSE].t = v->leg.end;
+        v->f.increment_error = v->material.left_out;
+    } else {
+        if (rc_model_frame(v->base.inner, "pressure", v->maps.room, err) != RC_OK)
+            return RC_FAIL;
+        v->f.increment_error =
+            v->material.left_out + difference(v->maps.room, v->maps.coarse, v->n);
+        if (deserves_more(&v->problem, &v->leg, v->f.increment_error))
+            return try_again(v, err);
     }
-    v->taken = true;
+    v->leg.taken = true;
     return judge(v);
 }
 
 static enum rc_status
 step(struct rc_model *m, struct rc_err *err)
 {
-    struct creep *v = (struct creep *)m;
+    struct viscoelastic *v = (struct viscoelastic *)m;
     const enum rc_status status = rc_model_step(m->inner, err);
 
     if (status == RC_MORE || status == RC_FAIL)
         return status;
-    if (v->taken) /* after a state was read */
+    if (v->leg.taken) /* after a state was read */
         return judge(v);
     return take_step(v, status, err) == RC_OK ? go_on(v, err) : RC_FAIL;
 }
 
 static enum rc_status
-allocate(struct creep *v, struct rc_err *err)
+allocate(struct viscoelastic *v, struct rc_err *err)
 {
-    double **maps[] = {&v->room, &v->coarse, &v->run[COARSE].w, &v->run[FINE].w, &v->posed};
+    double **maps[] = {&v->maps.room, &v->maps.coarse, &v->run[COARSE].w, &v->run[FINE].w,
+                       &v->maps.posed};
 
-    if (v->posed != NULL)
+    if (v->maps.posed != NULL)
         return RC_OK;
     for (size_t k = 0; k < RUNS; k++)
-        v->run[k].r = rc_store_zeros(&v->base.own, v->terms * v->n, sizeof(double));
+        v->run[k].r = rc_store_zeros(&v->base.own, v->material.terms * v->n, sizeof(double));
     for (size_t k = 0; k < MAPS && !v->base.own.failed; k++)
         *maps[k] = rc_store_zeros(&v->base.own, v->n, sizeof(double));
     return rc_model_room(&v->base, err);
@@ -453,48 +463,53 @@ allocate(struct creep *v, struct rc_err *err)
 
 /* True if the load or the approach changes at another rate than in the last leg. */
 static bool
-turns(struct creep *v)
+turns(struct leg *leg, enum rc_axis axis, const struct rc_point *from, const struct rc_point *to)
 {
-    const enum rc_axis axis = by_approach(v) ? RC_APPROACH : RC_LOAD;
-    const struct rc_point *from = &v->base.from, *to = &v->base.to;
-    const double slope = (to->at[axis] - from->at[axis]) / (v->end - v->start), last = v->slope;
+    const double last = leg->slope,
+                 slope = (to->at[axis] - from->at[axis]) / (leg->end - leg->start);
 
-    v->slope = isfinite(slope) ? slope : INFINITY; /* a state holds no NaN */
+    leg->slope = isfinite(slope) ? slope : INFINITY; /* a state holds no NaN */
     return !(fabs(slope - last) <= same_slope * fabs(slope));
 }
 
 static enum rc_status
-start_leg(struct creep *v, size_t increments, struct rc_err *err)
+start_leg(struct viscoelastic *v, size_t increments, struct rc_err *err)
 {
     const bool begins = v->base.from.given == 0;
+    bool corner;
 
-    v->end = v->base.to.at[RC_TIME];
-    v->start = begins ? v->end : v->base.from.at[RC_TIME];
+    v->leg.end = v->base.to.at[RC_TIME];
+    v->leg.start = begins ? v->leg.end : v->base.from.at[RC_TIME];
     v->f.increments = 0;
-    v->taken = false;
+    v->leg.taken = false;
     if (begins)
-        v->run[FINE].t = v->end;
-    divide(v, turns(v), increments);
+        v->run[FINE].t = v->leg.end;
+    corner = turns(&v->leg, by_approach(v) ? RC_APPROACH : RC_LOAD, &v->base.from, &v->base.to);
+    divide(&v->leg, v->material.quickest, corner, increments);
+    v->run[COARSE].steps = v->run[FINE].steps = 0;
     return start_run(v, begins ? FINE : COARSE, err);
 }
 
 static enum rc_status
 go(struct rc_model *m, struct rc_err *err)
 {
-    struct creep *v = (struct creep *)m;
+    struct viscoelastic *v = (struct viscoelastic *)m;
     const size_t given = v->problem.increments;
 
     if (m->to.at[RC_APPROACH] < 0 && by_approach(v))
         return rc_err_set(err, "approach %g m: it must be at least 0", m->to.at[RC_APPROACH]);
     if (allocate(v, err) != RC_OK)
         return RC_FAIL;
-    v->tried = INFINITY;
+    v->leg.tried = INFINITY;
     v->f.contact.convolutions = 0;
     /* the next leg often needs as many as the last one */
     return start_leg(v,
-                     given > 0            ? given
-                     : v->increments == 0 ? USUAL
-                                          : (size_t)fmax(USUAL, (double)increments_for(v, 0, 1)),
+                     given > 0 ? given
+                     : v->leg.increments == 0
+                         ? USUAL
+                         : (size_t)fmax(USUAL, (double)increments_for(v->leg.increments,
+                                                                      v->f.increment_error,
+                                                                      v->problem.tol, 0, 1)),
                      err) == RC_FAIL
                ? RC_FAIL
                : RC_OK;
@@ -505,34 +520,34 @@ go(struct rc_model *m, struct rc_err *err)
 static enum rc_status
 fill(struct rc_model *m, size_t frame, double *to, struct rc_err *err)
 {
-    const struct creep *v = (const struct creep *)m;
+    const struct viscoelastic *v = (const struct viscoelastic *)m;
 
     if (rc_model_frame(m->inner, frames[frame].name, to, err) != RC_OK)
         return RC_FAIL;
     for (size_t i = 0; i < v->n; i++)
-        to[i] = v->c * to[i] + (frame == GAP ? v->beyond : v->h[i] - v->c * v->posed[i]);
+        to[i] = v->c * to[i] + (frame == GAP ? v->beyond : v->h[i] - v->c * v->maps.posed[i]);
     return RC_OK;
 }
 
 /* The first touch of the heights less the history. */
 static double
-residual(struct creep *v)
+residual(const double *h, double highest, const double *r, size_t n, size_t terms)
 {
     double top = -INFINITY;
 
-    for (size_t i = 0; i < v->n; i++) {
-        double left = v->h[i];
-        for (size_t k = 0; k < v->terms; k++)
-            left -= v->run[FINE].r[k * v->n + i];
+    for (size_t i = 0; i < n; i++) {
+        double left = h[i];
+        for (size_t k = 0; k < terms; k++)
+            left -= r[k * n + i];
         top = fmax(top, left);
     }
-    return v->top - top;
+    return highest - top;
 }
 
 static enum rc_status
 look(struct rc_model *m, struct rc_point *at, struct rc_err *err)
 {
-    struct creep *v = (struct creep *)m;
+    struct viscoelastic *v = (struct viscoelastic *)m;
     const double work = v->f.contact.convolutions;
     struct rc_viscoelastic_figures *f = &v->f;
 
@@ -546,13 +561,14 @@ look(struct rc_model *m, struct rc_point *at, struct rc_err *err)
     f->contact.elastic_energy = NAN; /* the bodies dissipate a part of the work */
     if (f->contact.load != 0)
         f->contact.pressure_error += v->worst + f->increment_error;
-    f->contact.converged = v->taken && judge(v) == RC_OK;
-    f->time = v->taken ? v->end : v->run[v->on].t;
+    f->contact.converged = v->leg.taken && judge(v) == RC_OK;
+    f->time = v->leg.taken ? v->leg.end : v->run[v->on].t;
     f->equivalent_load = v->load;
-    for (size_t k = 0; k < v->terms; k++)
+    for (size_t k = 0; k < v->material.terms; k++)
         f->equivalent_load += v->equivalent[k];
     f->indentation = f->contact.approach;
-    f->residual_indentation = v->taken ? residual(v) : NAN;
+    f->residual_indentation =
+        v->leg.taken ? residual(v->h, v->top, v->run[FINE].r, v->n, v->material.terms) : NAN;
     at->at[RC_TIME] = f->time;
     at->at[RC_LOAD] = f->contact.load;
     at->at[RC_APPROACH] = f->contact.approach;
@@ -564,58 +580,57 @@ look(struct rc_model *m, struct rc_point *at, struct rc_err *err)
 static void
 state(struct rc_model *m, struct rc_state *s)
 {
-    struct creep *v = (struct creep *)m;
-    bool begun = v->posed != NULL;
+    struct viscoelastic *v = (struct viscoelastic *)m;
+    bool begun = v->maps.posed != NULL;
     struct rc_err err;
 
     rc_state_count(s, &v->on, FINE);
-    RC_STATE_FLAGS(s, &begun, &v->good, &v->taken);
-    RC_STATE_COUNTS(s, &v->f.increments, &v->increments, &v->steps, &v->run[COARSE].steps,
+    RC_STATE_FLAGS(s, &begun, &v->good, &v->leg.taken);
+    RC_STATE_COUNTS(s, &v->f.increments, &v->leg.increments, &v->leg.steps, &v->run[COARSE].steps,
                     &v->run[FINE].steps);
-    RC_STATE_NUMBERS(s, &v->start, &v->end, &v->dt, &v->beyond, &v->shrink, &v->load, &v->worst,
-                     &v->posed_top, &v->f.increment_error, &v->f.contact.convolutions,
+    RC_STATE_NUMBERS(s, &v->leg.start, &v->leg.end, &v->dt, &v->beyond, &v->leg.shrink, &v->load,
+                     &v->worst, &v->posed_top, &v->f.increment_error, &v->f.contact.convolutions,
                      &v->run[COARSE].t, &v->run[FINE].t);
-    RC_STATE_OPEN(s, &v->slope, &v->least, &v->most, &v->tried);
-    rc_state_finite(s, v->terms, v->equivalent);
+    RC_STATE_OPEN(s, &v->leg.slope, &v->leg.least, &v->leg.most, &v->leg.tried);
+    rc_state_finite(s, v->material.terms, v->equivalent);
     if (rc_state_reads(s) && begun && allocate(v, &err) != RC_OK)
         rc_state_refuse(s, "memory is short");
     if (!begun)
         return;
     for (size_t k = 0; k < RUNS; k++) {
         rc_state_map(s, v->n, v->run[k].w);
-        for (size_t q = 0; q < v->terms; q++)
+        for (size_t q = 0; q < v->material.terms; q++)
             rc_state_map(s, v->n, v->run[k].r + q * v->n);
     }
-    rc_state_map(s, v->n, v->posed);
-    rc_state_map(s, v->n, v->coarse);
+    rc_state_map(s, v->n, v->maps.posed);
+    rc_state_map(s, v->n, v->maps.coarse);
     if (!rc_state_reads(s))
         return;
-    weigh(v, v->dt);
-    if (rc_model_set_heights(m->inner, v->posed, &err) != RC_OK)
+    v->c = weigh(&v->material, v->dt);
+    if (rc_model_set_heights(m->inner, v->maps.posed, &err) != RC_OK)
         rc_state_refuse(s, "its heights are not finite");
 }
 
 static void
 progress(const struct rc_model *m, struct rc_loops *l)
 {
-    const struct creep *v = (const struct creep *)m;
+    const struct viscoelastic *v = (const struct viscoelastic *)m;
 
-    rc_loops_add(l, "time", "s", v->run[v->on].t, v->end);
+    rc_loops_add(l, "time", "s", v->run[v->on].t, v->leg.end);
     rc_loops_add(l, "step", NULL, (double)v->f.increments, NAN);
 }
 
 /* Steps of a point in both runs, of a part of the whole history. */
 static double
-steps_of(const struct creep *v, double part)
+steps_of(const struct rc_viscoelastic_problem *a, double quickest, double part)
 {
-    const struct rc_viscoelastic_problem *a = &v->problem;
     const double n = (double)(a->increments > 0 ? a->increments : USUAL);
     double decades = 0;
 
     if (!(a->longest > 0))
         return 0;
-    if (isfinite(v->quickest))
-        decades = fmax(0, log10(a->longest / fmin(v->quickest, a->longest)));
+    if (isfinite(quickest))
+        decades = fmax(0, log10(a->longest / fmin(quickest, a->longest)));
     return (n + per_decade * n * decades * part) * (1 + 1.0 / 2);
 }
 
@@ -623,16 +638,17 @@ static enum rc_status
 plan(const struct rc_model *m, const struct rc_point *most, struct rc_expected *expected,
      struct rc_err *err)
 {
-    const struct creep *v = (const struct creep *)m;
+    const struct viscoelastic *v = (const struct viscoelastic *)m;
     const struct rc_point inner = rc_point_for(m->inner, most);
-    const size_t maps = RUNS * v->terms;
+    const size_t maps = RUNS * v->material.terms;
     const double part = 1 / (double)v->problem.points;
     double one;
 
     if (rc_model_plan(m->inner, &inner, expected, err) != RC_OK)
         return RC_FAIL;
     one = expected->seconds / expected->convolutions;
-    expected->convolutions = part * expected->convolutions + RC_CREEP_STEP * steps_of(v, part);
+    expected->convolutions = part * expected->convolutions +
+                             RC_CREEP_STEP * steps_of(&v->problem, v->material.quickest, part);
     expected->seconds = expected->convolutions * one;
     /* with the copy of the state at the last kept point */
     expected->memory += v->n * (2 * maps + MAPS + RUNS + 3) * sizeof(double);
@@ -675,7 +691,8 @@ check(const struct rc_model *inner, const struct rc_viscoelastic_problem *a, str
 }
 
 static enum rc_status
-make(struct creep *v, const double *h, const struct rc_viscoelastic_problem *a, struct rc_err *err)
+make(struct viscoelastic *v, const double *h, const struct rc_viscoelastic_problem *a,
+     struct rc_err *err)
 {
     const struct rc_shape *s = &v->base.shape;
     const size_t most = a->material->creep_terms + 2;
@@ -692,13 +709,13 @@ make(struct creep *v, const double *h, const struct rc_viscoelastic_problem *a, 
     v->h = h;
     v->top = rc_highest(h, v->n);
     v->good = true;
-    v->slope = INFINITY;
-    v->c = v->shrink = 1;
-    v->term = rc_store_take(&v->base.own, most, sizeof *v->term);
+    v->leg.slope = INFINITY;
+    v->c = v->leg.shrink = 1;
+    v->material.term = rc_store_take(&v->base.own, most, sizeof *v->material.term);
     v->equivalent = rc_store_zeros(&v->base.own, most, sizeof *v->equivalent);
     if (rc_model_room(&v->base, err) != RC_OK)
         return RC_FAIL;
-    choose_terms(v);
+    choose_terms(&v->material, &v->problem);
     return RC_OK;
 }
 
@@ -707,7 +724,8 @@ rc_viscoelastic_new(struct rc_model *inner, const double *h,
                     const struct rc_viscoelastic_problem *problem, struct rc_err *err)
 {
     RC_OWN(rc_model, m) =
-        rc_model_make_outer(&rc_model_viscoelastic, sizeof(struct creep), inner, err);
+        rc_model_make_outer(&rc_model_viscoelastic, sizeof(struct viscoelastic), inner, err);
 
-    return m != NULL && make((struct creep *)m, h, problem, err) == RC_OK ? rc_give(&m) : NULL;
+    return m != NULL && make((struct viscoelastic *)m, h, problem, err) == RC_OK ? rc_give(&m)
+                                                                                 : NULL;
 }
