@@ -71,6 +71,23 @@ enum stage {
     VOLUME
 };
 
+/* The loads of the caller, N. */
+struct plan {
+    double load, largest; /* load of the point; largest load of the plan */
+    size_t left, planned; /* remaining loads of the plan; all of them */
+};
+
+/* The tries of a load, each with more increments. */
+struct tries {
+    size_t increments;           /* of the present try */
+    size_t number;               /* of the try, from 0 */
+    struct rc_state_copy before; /* state before the load; empty: there is no further try */
+    struct rc_state_copy half;   /* companion: state of the run with half the increments */
+    double *other;               /* Pa: pressure of the first try; NULL: there was none */
+    size_t than;                 /* its increments; 0: it is not comparable */
+    size_t spent;                /* applications of the tries of this load that were given up */
+};
+
 struct yield {
     struct rc_model base;
     struct rc_yield_problem
@@ -81,21 +98,9 @@ struct yield {
                               strain */
     struct rc_solver *elastic;
     struct rc_yield_solver *plastic; /* NULL: no voxel has yielded */
-    double *thickness;               /* thicknesses of the slabs, m */
-    size_t slabs;                /* 0: the elastic stress nowhere exceeds the yield stress     */
-    double load, largest;        /* N: load of the point; largest load of the plan */
-    size_t left, planned;        /* remaining loads of the plan; all of them */
-    size_t increments, try;      /* increments of the present try of the load; number of the try,
-                                    from 0 */
-    struct rc_state_copy before; /* state before the load; empty: there is no further try */
-    struct rc_state_copy half;   /* companion: state of the run with half the increments */
-    double *other;               /* Pa: pressure of the first try; NULL: there was none */
-    size_t than;                 /* its increments; 0: it is not comparable */
-    size_t spent;                /* applications of the tries of this load that were given up */
-    double part;                 /* part of the nodes of the slabs with an elastic stress above the
-                                    yield stress */
-    double most, deepest;        /* the largest elastic Mises stress over the yield stress; its
-                                    depth, m */
+    struct rc_yield_depths depths;   /* its `most` is over the yield stress */
+    struct plan plan;
+    struct tries tries;
     enum stage stage;
     enum rc_status reached; /* status of the elastic contact */
     bool travels, moved;    /* the heights may change; they have changed since the last load */
@@ -155,60 +160,60 @@ static const struct rc_frame_kind frames[] = {
 
 /* Finds the slabs from the elastic pressure; y->slabs is 0 if no stress reaches the yield stress. */
 static enum rc_status
-find_slabs(struct yield *y, struct rc_err *err)
+find_slabs(const struct rc_yield_problem *asked, const struct rc_shape *shape, const double *p,
+           struct rc_yield_depths *depths, struct rc_err *err)
 {
-    const struct rc_yield_problem *asked = &y->problem;
     const double yield = rc_yield_law_stress(&asked->law, 0);
     struct rc_yield_depths d;
-    const enum rc_status status = rc_yield_depths(&y->base.shape, &asked->contact,
-                                                  rc_solver_pressure(y->elastic), yield, &d, err);
+    const enum rc_status status = rc_yield_depths(shape, &asked->contact, p, yield, &d, err);
 
     if (status != RC_OK)
         return status;
-    y->most = d.most / yield;
-    y->deepest = d.deepest;
-    y->part = d.part;
-    y->slabs = d.slabs == 0 || asked->slabs == 0 ? d.slabs : asked->slabs;
-    free(y->thickness);
-    y->thickness = NULL;
-    if (y->slabs > 0 && (y->thickness = malloc(y->slabs * sizeof *y->thickness)) == NULL)
+    depths->most = d.most / yield;
+    depths->deepest = d.deepest;
+    depths->part = d.part;
+    depths->slabs = d.slabs == 0 || asked->slabs == 0 ? d.slabs : asked->slabs;
+    free(depths->thickness);
+    depths->thickness = NULL;
+    if (depths->slabs > 0 &&
+        (depths->thickness = malloc(depths->slabs * sizeof *depths->thickness)) == NULL)
         rc_err_set(err, "out of memory for the slabs");
-    else if (y->slabs > 0 && asked->thickness != NULL)
-        memcpy(y->thickness, asked->thickness, y->slabs * sizeof *y->thickness);
-    else if (y->slabs > 0)
-        rc_yield_solver_stack(&d, y->slabs, y->thickness);
+    else if (depths->slabs > 0 && asked->thickness != NULL)
+        memcpy(depths->thickness, asked->thickness, depths->slabs * sizeof *depths->thickness);
+    else if (depths->slabs > 0)
+        rc_yield_solver_stack(&d, depths->slabs, depths->thickness);
     free(d.thickness);
-    return y->slabs > 0 && y->thickness == NULL ? RC_FAIL : RC_OK;
+    return depths->slabs > 0 && depths->thickness == NULL ? RC_FAIL : RC_OK;
 }
 
 /* ---- the volume ---- */
 
 /* The allowed relative error of the pressure. */
 static double
-goal(const struct yield *y)
+goal(const struct rc_yield_problem *problem)
 {
-    return y->problem.contact.tol > 0 ? y->problem.contact.tol : deserved;
+    return problem->contact.tol > 0 ? problem->contact.tol : deserved;
 }
 
 static struct rc_yield_problem
-problem_of(const struct yield *y)
+problem_of(const struct rc_yield_problem *given, const struct rc_yield_depths *depths)
 {
-    struct rc_yield_problem problem = y->problem;
+    struct rc_yield_problem problem = *given;
     const double asked = problem.contact.tol > 0 ? problem.contact.tol : 1;
 
     problem.contact.tol =
         fmin(fmin(asked, fmax(contact_share * asked, contact_least)), contact_most);
-    problem.slabs = y->slabs;
-    problem.thickness = y->thickness;
+    problem.slabs = depths->slabs;
+    problem.thickness = depths->thickness;
     if (problem.lag == 0)
-        problem.lag = fmax(2 * fmin(goal(y), deserved), lag_least);
+        problem.lag = fmax(2 * fmin(goal(given), deserved), lag_least);
     return problem;
 }
 
 static enum rc_status
 make(struct yield *y, struct rc_err *err)
 {
-    const struct rc_yield_problem problem = problem_of(y);
+    const struct rc_yield_problem problem = problem_of(&y->problem, &y->depths);
 
     rc_solver_free(y->elastic); /* the volume has a solver of its own, and takes its memory */
     y->elastic = NULL;
@@ -223,37 +228,37 @@ make(struct yield *y, struct rc_err *err)
 static enum rc_status
 try_load(struct yield *y, struct rc_err *err)
 {
-    y->plastic->asked.thorough = y->try > 0 && !y->problem.companion;
-    rc_yield_solver_set_increments(y->plastic, y->increments);
-    return rc_yield_solver_set_load(y->plastic, y->load, err);
+    y->plastic->asked.thorough = y->tries.number > 0 && !y->problem.companion;
+    rc_yield_solver_set_increments(y->plastic, y->tries.increments);
+    return rc_yield_solver_set_load(y->plastic, y->plan.load, err);
 }
 
 /* Begins the first try of a load. On other heights the same load is one more increment. */
 static enum rc_status
 begin(struct yield *y, struct rc_err *err)
 {
-    const bool follows = y->moved && y->load > 0 && y->load == y->plastic->way.from;
+    const bool follows = y->moved && y->plan.load > 0 && y->plan.load == y->plastic->way.from;
 
     y->moved = false;
-    y->than = y->spent = 0;
+    y->tries.than = y->tries.spent = 0;
     if (follows) {
-        y->increments = 1;
-        y->try = 0;
-        rc_state_forget(&y->before);
+        y->tries.increments = 1;
+        y->tries.number = 0;
+        rc_state_forget(&y->tries.before);
         y->plastic->asked.thorough = false;
         rc_yield_solver_follow(y->plastic);
-        return rc_yield_solver_set_load(y->plastic, y->load, err);
+        return rc_yield_solver_set_load(y->plastic, y->plan.load, err);
     }
-    y->increments = y->problem.increments > 0 ? y->problem.increments : FIRST;
-    y->try = 0;
-    rc_state_forget(&y->before);
+    y->tries.increments = y->problem.increments > 0 ? y->problem.increments : FIRST;
+    y->tries.number = 0;
+    rc_state_forget(&y->tries.before);
     if ((y->problem.increments == 0 || y->problem.companion) &&
-        rc_state_save(&y->before, rc_yield_solver_exchange, y->plastic) != RC_OK)
+        rc_state_save(&y->tries.before, rc_yield_solver_exchange, y->plastic) != RC_OK)
         return rc_err_set(err, "out of memory for the state before a load");
     if (y->problem.companion)
-        y->increments /= 2;
-    if (y->problem.companion && y->half.n > 0 &&
-        rc_state_load(&y->half, rc_yield_solver_exchange, y->plastic, err) != RC_OK)
+        y->tries.increments /= 2;
+    if (y->problem.companion && y->tries.half.n > 0 &&
+        rc_state_load(&y->tries.half, rc_yield_solver_exchange, y->plastic, err) != RC_OK)
         return RC_FAIL;
     return try_load(y, err);
 }
@@ -261,22 +266,21 @@ begin(struct yield *y, struct rc_err *err)
 /* True if more increments can lower the error of the load to the goal; sets their number. The errors from
  * images and earlier loads do not depend on it. */
 static bool
-deserves_more(struct yield *y)
+deserves_more(struct tries *tries, const struct rc_yield_load *f, double wanted, bool later)
 {
-    const struct rc_yield_load *f = &y->plastic->figures;
-    const double wanted = goal(y), own = f->increment_error;
-    const double aim = wanted * (y->left > 0 ? for_later : 1), here = f->error - f->image_error;
+    const double own = f->increment_error;
+    const double aim = wanted * (later ? for_later : 1), here = f->error - f->image_error;
     const size_t most = wanted < deserved ? RC_YIELD_INCREMENTS : MOST_AUTO;
-    const double ratio = y->try == 0
+    const double ratio = tries->number == 0
                              ? fmin(fmax(second.beyond * own / aim, second.least), second.most)
                              : fmin(fmax(third.beyond * own / aim, third.least), third.most);
-    const double more = ceil((double)y->increments * ratio);
+    const double more = ceil((double)tries->increments * ratio);
 
-    if (y->before.n == 0 || y->try + 1 == TRIES || y->increments >= most ||
+    if (tries->before.n == 0 || tries->number + 1 == TRIES || tries->increments >= most ||
         own <= wanted / (f->image_error > wanted ? 2 : 4) ||
         (here <= aim && !(f->error > wanted && own > wanted / 2)))
         return false;
-    y->increments = more < (double)most ? (size_t)more : most;
+    tries->increments = more < (double)most ? (size_t)more : most;
     return true;
 }
 
@@ -286,15 +290,16 @@ static void
 compare_runs(struct yield *y)
 {
     const struct rc_yield_load *f = &y->plastic->figures;
-    const double ratio = y->than > 0 ? (double)y->increments / (double)y->than : 0;
+    const double ratio =
+        y->tries.than > 0 ? (double)y->tries.increments / (double)y->tries.than : 0;
     const double *p = rc_solver_pressure(y->plastic->solver);
     double sum = 0, change = 0, own = of_terms * f->increment_error, before = f->inherited_error;
 
-    if (y->load == 0 || ratio < least_ratio || isnan(f->increment_error))
+    if (y->plan.load == 0 || ratio < least_ratio || isnan(f->increment_error))
         return;
     for (size_t k = 0; k < y->n; k++) {
         sum += p[k];
-        change += fabs(p[k] - y->other[k]);
+        change += fabs(p[k] - y->tries.other[k]);
     }
     change *= of_change / (fmin(ratio, most_ratio) - 1) / sum;
     if (!y->problem.companion) {
@@ -309,9 +314,9 @@ compare_runs(struct yield *y)
 static bool
 has_other(struct yield *y)
 {
-    if (y->other == NULL)
-        y->other = rc_store_take(&y->base.own, y->n, sizeof *y->other);
-    return y->other != NULL;
+    if (y->tries.other == NULL)
+        y->tries.other = rc_store_take(&y->base.own, y->n, sizeof *y->tries.other);
+    return y->tries.other != NULL;
 }
 
 /* Keeps the pressure of the first try, and returns to the state before it. */
@@ -320,13 +325,14 @@ try_again(struct yield *y, size_t than, struct rc_err *err)
 {
     if (!has_other(y))
         return rc_err_set(err, "out of memory for the pressure of a try");
-    if (y->try == 0) {
-        memcpy(y->other, rc_solver_pressure(y->plastic->solver), y->n * sizeof *y->other);
-        y->than = than;
+    if (y->tries.number == 0) {
+        memcpy(y->tries.other, rc_solver_pressure(y->plastic->solver),
+               y->n * sizeof *y->tries.other);
+        y->tries.than = than;
     }
-    y->spent += y->plastic->figures.applications;
-    y->try++;
-    if (rc_state_load(&y->before, rc_yield_solver_exchange, y->plastic, err) != RC_OK)
+    y->tries.spent += y->plastic->figures.applications;
+    y->tries.number++;
+    if (rc_state_load(&y->tries.before, rc_yield_solver_exchange, y->plastic, err) != RC_OK)
         return RC_FAIL;
     return try_load(y, err) == RC_OK ? RC_MORE : RC_FAIL;
 }
@@ -335,21 +341,22 @@ static enum rc_status
 press_volume(struct yield *y, struct rc_err *err)
 {
     const enum rc_status status = rc_yield_solver_step(y->plastic, err);
-    const size_t tried = y->increments;
+    const size_t tried = y->tries.increments;
 
     if (status == RC_MORE || status == RC_FAIL)
         return status;
     compare_runs(y);
-    if (y->problem.companion && y->before.n > 0 && y->try == 0) {
-        rc_state_forget(&y->half);
-        if (rc_state_save(&y->half, rc_yield_solver_exchange, y->plastic) != RC_OK)
+    if (y->problem.companion && y->tries.before.n > 0 && y->tries.number == 0) {
+        rc_state_forget(&y->tries.half);
+        if (rc_state_save(&y->tries.half, rc_yield_solver_exchange, y->plastic) != RC_OK)
             return rc_err_set(err, "out of memory for the state of the companion run");
-        y->increments = y->problem.increments;
+        y->tries.increments = y->problem.increments;
         return try_again(y, tried, err);
     }
-    if (!y->problem.companion && deserves_more(y))
+    if (!y->problem.companion &&
+        deserves_more(&y->tries, &y->plastic->figures, goal(&y->problem), y->plan.left > 0))
         return try_again(y, tried, err);
-    rc_state_forget(&y->before);
+    rc_state_forget(&y->tries.before);
     return status;
 }
 
@@ -357,29 +364,30 @@ press_volume(struct yield *y, struct rc_err *err)
 
 /* Bytes of the volume and of its state, if this part of the voxels yields. */
 static size_t
-volume_bytes(const struct yield *y, size_t slabs, double part)
+volume_bytes(const struct rc_yield_problem *problem, size_t n, size_t slabs, double part)
 {
     /* bytes a node, measured on 1024 x 1024 nodes: free, periodic */
     static const double body[] = {122, 96}, slab[] = {92.2, 23.1};
-    const int periodic = y->problem.contact.boundary == RC_PERIODIC;
+    const int periodic = problem->contact.boundary == RC_PERIODIC;
     const double voxels = part * sizeof(struct rc_voxel);
-    const bool tries = y->problem.increments == 0 || y->problem.companion;
+    const bool tries = problem->increments == 0 || problem->companion;
 
     /* a state takes at most the memory of the voxels and of a pressure */
-    return (size_t)((double)y->n *
+    return (size_t)((double)n *
                     (body[periodic] + (1 + tries) * sizeof(double) +
-                     (double)slabs * (slab[periodic] + (2 + y->problem.companion) * voxels)));
+                     (double)slabs * (slab[periodic] + (2 + problem->companion) * voxels)));
 }
 
 /* The cost of the elastic contact. */
 static enum rc_status
-expect_elastic(const struct yield *y, double load, struct rc_expected *expected, struct rc_err *err)
+expect_elastic(const struct rc_shape *shape, const struct rc_yield_problem *problem, double load,
+               struct rc_expected *expected, struct rc_err *err)
 {
-    struct rc_problem contact = y->problem.contact;
+    struct rc_problem contact = problem->contact;
 
     contact.load = load;
     contact.approach = 0;
-    return rc_solver_expect(&y->base.shape, &contact, expected, err);
+    return rc_solver_expect(shape, &contact, expected, err);
 }
 
 /* The cost of the elastic contact. Once the body is known to yield, the cost of a first load of the volume is
@@ -389,13 +397,14 @@ plan(const struct rc_model *m, const struct rc_point *most, struct rc_expected *
      struct rc_err *err)
 {
     const struct yield *y = (const struct yield *)m;
-    const size_t slabs = y->slabs > 0 ? y->slabs : y->problem.slabs;
-    const size_t volume = slabs > 0 ? volume_bytes(y, slabs, y->part) : 0;
+    const size_t slabs = y->depths.slabs > 0 ? y->depths.slabs : y->problem.slabs;
+    const size_t volume = slabs > 0 ? volume_bytes(&y->problem, y->n, slabs, y->depths.part) : 0;
     const double increments = (double)(y->problem.increments > 0 ? y->problem.increments : FIRST);
     static const double sums[] = RC_YIELD_SUMS;
-    const double applied = (RC_YIELD_LAST + RC_YIELD_INCREMENT * increments) * (double)y->slabs;
+    const double applied =
+        (RC_YIELD_LAST + RC_YIELD_INCREMENT * increments) * (double)y->depths.slabs;
 
-    if (expect_elastic(y, most->at[RC_LOAD], expected, err) != RC_OK)
+    if (expect_elastic(&y->base.shape, &y->problem, most->at[RC_LOAD], expected, err) != RC_OK)
         return RC_FAIL;
     expected->seconds *=
         1 + applied * sums[y->problem.contact.boundary == RC_PERIODIC] / expected->convolutions;
@@ -408,10 +417,11 @@ plan(const struct rc_model *m, const struct rc_point *most, struct rc_expected *
 static size_t
 more_bytes(const struct yield *y)
 {
-    const size_t volume = volume_bytes(y, y->slabs, y->part);
+    const size_t volume = volume_bytes(&y->problem, y->n, y->depths.slabs, y->depths.part);
     struct rc_expected elastic = {0};
 
-    (void)expect_elastic(y, fmax(y->load, y->largest), &elastic, NULL);
+    (void)expect_elastic(&y->base.shape, &y->problem, fmax(y->plan.load, y->plan.largest), &elastic,
+                         NULL);
     return volume > elastic.memory ? volume - elastic.memory : 0;
 }
 
@@ -433,14 +443,14 @@ set_elastic(struct yield *y, double load, struct rc_err *err)
 static enum rc_status
 set_load(struct yield *y, double load, struct rc_err *err)
 {
-    y->load = load;
+    y->plan.load = load;
     if (y->stage == VOLUME)
         return begin(y, err);
     if (!(load >= 0))
         return rc_err_set(err, "load %g N: it must be finite and not negative", load);
     y->stage = load > 0 ? ELASTIC : APART;
     if (load > 0)
-        y->most = y->deepest = 0;
+        y->depths.most = y->depths.deepest = 0;
     return load > 0 ? set_elastic(y, load, err) : RC_OK;
 }
 
@@ -449,7 +459,7 @@ go(struct rc_model *m, struct rc_err *err)
 {
     struct yield *y = (struct yield *)m;
 
-    y->left -= y->left > 0;
+    y->plan.left -= y->plan.left > 0;
     return set_load(y, m->to.at[RC_LOAD], err);
 }
 
@@ -457,14 +467,15 @@ go(struct rc_model *m, struct rc_err *err)
 static enum rc_status
 look_inside(struct yield *y, struct rc_err *err)
 {
-    const enum rc_status status = find_slabs(y, err);
+    const enum rc_status status =
+        find_slabs(&y->problem, &y->base.shape, rc_solver_pressure(y->elastic), &y->depths, err);
 
     if (status != RC_OK) /* RC_MORE: the caller cannot wait */
         return status;
-    if (y->slabs == 0)
+    if (y->depths.slabs == 0)
         return y->reached;
-    y->stage = y->largest > y->load ? LARGEST : MAKE;
-    return y->stage == LARGEST && set_elastic(y, y->largest, err) != RC_OK ? RC_FAIL : RC_MORE;
+    y->stage = y->plan.largest > y->plan.load ? LARGEST : MAKE;
+    return y->stage == LARGEST && set_elastic(y, y->plan.largest, err) != RC_OK ? RC_FAIL : RC_MORE;
 }
 
 /* Takes an iteration of the elastic contact. */
@@ -477,7 +488,8 @@ press_elastic(struct yield *y, struct rc_err *err)
     if (status == RC_MORE)
         return RC_MORE;
     if (y->stage == LARGEST)
-        looked = find_slabs(y, err);
+        looked = find_slabs(&y->problem, &y->base.shape, rc_solver_pressure(y->elastic), &y->depths,
+                            err);
     if (looked != RC_OK)
         return looked;
     y->reached = status;
@@ -569,14 +581,14 @@ look_at_volume(struct yield *y)
     struct rc_yield_figures *f = &y->figures;
 
     f->last = y->plastic->figures;
-    f->last.applications += y->spent;
+    f->last.applications += y->tries.spent;
     f->increment = increment_of(y->plastic);
     f->contact.pressure_error = f->last.error;
     f->contact.convolutions = NAN; /* nearly all of the work is for the volume */
     /* the error is unknown if the caller asked for few increments */
     f->contact.converged =
         y->base.status == RC_OK && f->contact.converged &&
-        (f->last.error <= goal(y) || (y->problem.increments > 0 && isnan(f->last.error)));
+        (f->last.error <= goal(&y->problem) || (y->problem.increments > 0 && isnan(f->last.error)));
 }
 
 static enum rc_status
@@ -584,11 +596,11 @@ look(struct rc_model *m, struct rc_point *at, struct rc_err *err)
 {
     struct yield *y = (struct yield *)m;
     struct rc_yield_figures *f = &y->figures;
-    const bool known = y->plastic == NULL && (y->most > 0 || y->load == 0);
+    const bool known = y->plastic == NULL && (y->depths.most > 0 || y->plan.load == 0);
 
     if (y->stage == LARGEST) { /* the caller stopped before the end: the load is the load of the
                                   point */
-        if (set_elastic(y, y->load, err) != RC_OK)
+        if (set_elastic(y, y->plan.load, err) != RC_OK)
             return RC_FAIL;
         y->stage = ELASTIC;
     }
@@ -599,11 +611,11 @@ look(struct rc_model *m, struct rc_point *at, struct rc_err *err)
         rc_solver_result(solver(m), NULL, NULL, &f->contact);
     f->last = (struct rc_yield_load){0};
     f->yielded = y->plastic != NULL;
-    f->slabs = y->slabs;
-    f->thickness = y->thickness;
-    f->increments = y->increments;
-    f->max_mises_over_yield = known ? y->most : NAN;
-    f->max_mises_depth = known ? y->deepest : NAN;
+    f->slabs = y->depths.slabs;
+    f->thickness = y->depths.thickness;
+    f->increments = y->tries.increments;
+    f->max_mises_over_yield = known ? y->depths.most : NAN;
+    f->max_mises_depth = known ? y->depths.deepest : NAN;
     if (y->plastic != NULL)
         look_at_volume(y);
     f->residual_indentation = y->first_top - y->top;
@@ -640,7 +652,7 @@ static void
 progress(const struct rc_model *m, struct rc_loops *l)
 {
     const struct yield *y = (const struct yield *)m;
-    const double most = (double)y->increments;
+    const double most = (double)y->tries.increments;
     struct rc_progress at;
 
     l->coming = y->stage == MAKE ? more_bytes(y) : 0;
@@ -685,12 +697,12 @@ static void
 forget_volume(struct yield *y)
 {
     rc_yield_solver_free(y->plastic);
-    free(y->thickness);
-    rc_state_forget(&y->before);
-    rc_state_forget(&y->half);
+    free(y->depths.thickness);
+    rc_state_forget(&y->tries.before);
+    rc_state_forget(&y->tries.half);
     y->plastic = NULL;
-    y->thickness = NULL;
-    y->slabs = 0;
+    y->depths.thickness = NULL;
+    y->depths.slabs = 0;
 }
 
 /* solved: the load of the stored pressure; 0: none is stored. */
@@ -712,7 +724,7 @@ exchange_elastic(struct yield *y, struct rc_state *s, double solved)
     else if (solved > 0)
         rc_state_finite(s, y->n, p);
     if (rc_state_reads(s) &&
-        (set_load(y, y->load, &err) != RC_OK ||
+        (set_load(y, y->plan.load, &err) != RC_OK ||
          (solved > 0 &&
           (y->elastic == NULL || rc_solver_warm_start(y->elastic, solved, p, &err) != RC_OK))))
         rc_state_refuse(s, "its load or its pressure is not finite or negative");
@@ -721,7 +733,7 @@ exchange_elastic(struct yield *y, struct rc_state *s, double solved)
 static void
 exchange_volume(struct yield *y, struct rc_state *s, size_t slabs)
 {
-    double *thickness = y->thickness;
+    double *thickness = y->depths.thickness;
     struct rc_err err;
 
     if (!rc_state_holds(s, slabs))
@@ -731,24 +743,25 @@ exchange_volume(struct yield *y, struct rc_state *s, size_t slabs)
         return;
     }
     rc_state_finite(s, slabs, thickness);
-    if (rc_state_reads(s) && (y->plastic == NULL || slabs != y->slabs ||
-                              memcmp(thickness, y->thickness, slabs * sizeof *thickness) != 0)) {
+    if (rc_state_reads(s) &&
+        (y->plastic == NULL || slabs != y->depths.slabs ||
+         memcmp(thickness, y->depths.thickness, slabs * sizeof *thickness) != 0)) {
         forget_volume(y);
-        y->slabs = slabs;
-        y->thickness = thickness;
+        y->depths.slabs = slabs;
+        y->depths.thickness = thickness;
         if (make(y, &err) != RC_OK)
             rc_state_refuse(s, err.text);
     }
-    if (thickness != y->thickness)
+    if (thickness != y->depths.thickness)
         free(thickness);
-    rc_state_copy(s, &y->before);
-    rc_state_copy(s, &y->half);
-    rc_state_count(s, &y->spent, SIZE_MAX / 4096);
-    rc_state_count(s, &y->than, RC_YIELD_INCREMENTS);
-    if (y->than > 0 && !has_other(y))
+    rc_state_copy(s, &y->tries.before);
+    rc_state_copy(s, &y->tries.half);
+    rc_state_count(s, &y->tries.spent, SIZE_MAX / 4096);
+    rc_state_count(s, &y->tries.than, RC_YIELD_INCREMENTS);
+    if (y->tries.than > 0 && !has_other(y))
         rc_state_refuse(s, "memory is short");
-    else if (y->than > 0)
-        rc_state_finite(s, y->n, y->other);
+    else if (y->tries.than > 0)
+        rc_state_finite(s, y->n, y->tries.other);
     if (y->plastic != NULL)
         rc_yield_solver_exchange(y->plastic, s);
 }
@@ -757,16 +770,16 @@ static void
 state(struct rc_model *m, struct rc_state *s)
 {
     struct yield *y = (struct yield *)m;
-    size_t slabs = y->plastic != NULL ? y->slabs : 0;
+    size_t slabs = y->plastic != NULL ? y->depths.slabs : 0;
     double solved = y->plastic == NULL && y->elastic != NULL && y->stage != APART
                         ? rc_solver_load(y->elastic)
                         : 0;
 
-    rc_state_count(s, &y->increments, RC_YIELD_INCREMENTS);
-    rc_state_count(s, &y->try, TRIES - 1);
-    rc_state_count(s, &y->left, SIZE_MAX / 2);
+    rc_state_count(s, &y->tries.increments, RC_YIELD_INCREMENTS);
+    rc_state_count(s, &y->tries.number, TRIES - 1);
+    rc_state_count(s, &y->plan.left, SIZE_MAX / 2);
     rc_state_count(s, &slabs, SIZE_MAX / sizeof(double));
-    rc_state_number(s, &y->load, 0);
+    rc_state_number(s, &y->plan.load, 0);
     rc_state_number(s, &solved, 0);
     rc_state_finite(s, 1, &y->first_top);
     if (rc_state_refused(s))
@@ -835,8 +848,8 @@ rc_yield_plan(struct rc_model *m, size_t loads, double largest)
     struct yield *y = yielding_of(m);
 
     if (y != NULL) {
-        y->left = y->planned = loads;
-        y->largest = largest;
+        y->plan.left = y->plan.planned = loads;
+        y->plan.largest = largest;
     }
 }
 
@@ -845,7 +858,7 @@ rc_yield_strain(const struct rc_model *m, size_t slab, double *const e[RC_YIELD_
 {
     const struct yield *y = yielding_of(m);
 
-    if (y == NULL || y->plastic == NULL || slab >= y->slabs)
+    if (y == NULL || y->plastic == NULL || slab >= y->depths.slabs)
         return false;
     rc_yield_solver_strain(y->plastic, slab, e);
     return true;
