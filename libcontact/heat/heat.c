@@ -21,17 +21,29 @@ enum {
     STEPS = 100 /* of the iteration, at most */
 };
 
+/* Heat is constant in each of `n` time steps; step `at` is being solved. Number k of a body: its temperature
+ * k steps after one in which heat flows. */
+struct times {
+    size_t n, at;
+    struct rc_warming *lag[2];
+    double *share;   /* heat into body 1 at the nodes in contact, for each time step */
+    double *past[2]; /* K: rise due to earlier time steps, nx ny; NULL: there is one */
+};
+
+/* The iteration at the nodes in contact: C1 z = V h, with V orthonormal, z = M v */
+struct space {
+    double *right, *v[STEPS + 1], *z[STEPS];
+    double h[STEPS][STEPS + 1]; /* column by column; its first rows are rotated to a triangle */
+    double turn[STEPS][2], g[STEPS + 1];
+    size_t steps; /* of this time step */
+};
+
 struct rc_heat {
     struct rc_store own; /* the maps and arrays below */
     struct rc_shape shape;
     struct rc_heat_problem problem;
     struct rc_conduction *c;
-    /* Heat is constant in each of `times` time steps; step `at` is being solved. Number k of a body: its
-     * temperature k steps after one in which heat flows. */
-    size_t times, at;
-    struct rc_warming *lag[2];
-    double *share;   /* heat into body 1 at the nodes in contact, for each time step */
-    double *past[2]; /* K: rise due to earlier time steps, nx ny; NULL: there is one */
+    struct times times;
     struct rc_heat_inverse *inverse; /* NULL: heat is not matched */
     double drop;                     /* K: bulk temperature of body 2 less that of body 1 */
     double scale;                    /* K: largest rise of a body above its bulk          */
@@ -39,12 +51,9 @@ struct rc_heat {
     double *q, *flux[2],
         *rise[2]; /* heat and rise above their bulk, nx ny; heat is 0 out of contact */
     double *work; /* nx ny */
-    /* At the nodes in contact: C1 z = V h, with V orthonormal, z = M v */
-    double *right, *v[STEPS + 1], *z[STEPS];
-    double h[STEPS][STEPS + 1]; /* column by column; its first rows are rotated to a triangle */
-    double turn[STEPS][2], g[STEPS + 1];
-    size_t steps, earlier; /* of this time step, of all before it */
-    double worst;          /* largest mismatch of the time steps  */
+    struct space space;
+    size_t earlier; /* steps of all time steps before */
+    double worst;   /* largest mismatch of the time steps  */
     bool begun;
     struct rc_heat_figures figures;
 };
@@ -138,7 +147,7 @@ static struct rc_heated
 heated(const struct rc_heat *h, int b, double depth, size_t lag)
 {
     const struct rc_heat_body *body = &h->problem.body[b];
-    const double time = h->problem.time / (double)h->times;
+    const double time = h->problem.time / (double)h->times.n;
 
     return (struct rc_heated){
         .k = body->conductivity,
@@ -211,11 +220,11 @@ set_figures(struct rc_heat *h, const double *contact, struct rc_err *err)
 static struct rc_warming *
 lags_new(const struct rc_heat *h, int b, double depth, struct rc_store *own, struct rc_err *err)
 {
-    struct rc_warming *lag = rc_store_take(own, h->times, sizeof *lag);
+    struct rc_warming *lag = rc_store_take(own, h->times.n, sizeof *lag);
 
     if (lag == NULL)
-        return rc_err_null(err, "out of memory for %zu time steps", h->times);
-    for (size_t k = 0; k < h->times; k++) {
+        return rc_err_null(err, "out of memory for %zu time steps", h->times.n);
+    for (size_t k = 0; k < h->times.n; k++) {
         const struct rc_heated body = heated(h, b, depth, k);
         if (rc_warming_set(&lag[k], own, h->c, &body, err) != RC_OK)
             return NULL;
@@ -276,10 +285,10 @@ rc_heat_new(const struct rc_shape *shape, const struct rc_heat_problem *problem,
     if (h->problem.tol == 0)
         h->problem.tol = 1e-3;
     h->drop = problem->body[1].bulk - problem->body[0].bulk;
-    h->times = problem->time > 0 && problem->time_steps > 0 &&
-                       problem->partition == RC_HEAT_MATCHED /* else the shares are constant */
-                   ? problem->time_steps
-                   : 1;
+    h->times.n = problem->time > 0 && problem->time_steps > 0 &&
+                         problem->partition == RC_HEAT_MATCHED /* else the shares are constant */
+                     ? problem->time_steps
+                     : 1;
     for (int b = 0; b < 2; b++) {
         h->flux[b] = h->q + (size_t)(1 + b) * nodes;
         h->rise[b] = h->q + (size_t)(3 + b) * nodes;
@@ -288,10 +297,10 @@ rc_heat_new(const struct rc_shape *shape, const struct rc_heat_problem *problem,
     memset(h->q, 0, 6 * nodes * sizeof *h->q);
     if (set_contact(h, q, contact, err) != RC_OK)
         return NULL;
-    h->right = rc_store_take(&h->own, h->n, sizeof *h->right);
-    h->share = rc_store_take(&h->own, h->times * h->n, sizeof *h->share);
-    for (int b = 0; b < 2 && h->times > 1; b++)
-        h->past[b] = rc_store_take(&h->own, nodes, sizeof **h->past);
+    h->space.right = rc_store_take(&h->own, h->n, sizeof *h->space.right);
+    h->times.share = rc_store_take(&h->own, h->times.n * h->n, sizeof *h->times.share);
+    for (int b = 0; b < 2 && h->times.n > 1; b++)
+        h->times.past[b] = rc_store_take(&h->own, nodes, sizeof **h->times.past);
     if (h->own.failed)
         return rc_err_null(err, "out of memory for %zu nodes in contact", h->n);
     for (size_t k = 0; k < h->n; k++)
@@ -301,7 +310,7 @@ rc_heat_new(const struct rc_shape *shape, const struct rc_heat_problem *problem,
         return NULL;
     for (int b = 0; b < 2; b++) {
         body[b] = heated(h, b, 0, 0);
-        if ((h->lag[b] = lags_new(h, b, 0, &h->own, err)) == NULL)
+        if ((h->times.lag[b] = lags_new(h, b, 0, &h->own, err)) == NULL)
             return NULL;
     }
     if (problem->partition == RC_HEAT_MATCHED &&
@@ -328,7 +337,7 @@ static void
 add_rise(struct rc_heat *h, int b, const struct rc_warming *lag, size_t n, size_t last, double *out)
 {
     for (size_t j = 0; j < n; j++) {
-        const double *share = h->share + j * h->n;
+        const double *share = h->times.share + j * h->n;
         memset(h->work, 0, h->shape.nx * h->shape.ny * sizeof *h->work);
         for (size_t k = 0; k < h->n; k++)
             h->work[h->node[k]] = b == 0 ? share[k] : h->q[h->node[k]] - share[k];
@@ -338,12 +347,12 @@ add_rise(struct rc_heat *h, int b, const struct rc_warming *lag, size_t n, size_
 }
 
 static double
-largest(const struct rc_heat *h, const double *map)
+largest(const size_t *node, size_t n, const double *map)
 {
     double most = 0;
 
-    for (size_t k = 0; k < h->n; k++)
-        most = fmax(most, fabs(map[h->node[k]]));
+    for (size_t k = 0; k < n; k++)
+        most = fmax(most, fabs(map[node[k]]));
     return most;
 }
 
@@ -371,12 +380,11 @@ row_of_nodes(struct rc_heat *h, size_t k)
 /* The share of body 1. Between bodies of different bulk temperatures more heat may cross than the contact
  * has; it is then no share. */
 static double
-share_of(const struct rc_heat *h)
+share_of(const struct rc_heat_figures *f, double drop)
 {
-    const struct rc_heat_figures *f = &h->figures;
     const double share = f->heat_power != 0 ? f->heat_power_1 / f->heat_power : NAN;
 
-    return h->drop == 0 || (share >= 0 && share <= 1) ? share : NAN;
+    return drop == 0 || (share >= 0 && share <= 1) ? share : NAN;
 }
 
 /* Keeps the heat in flux[0] of this time step; finds temperatures and figures at its end. */
@@ -392,14 +400,15 @@ finish(struct rc_heat *h)
     for (size_t k = 0; k < nodes; k++)
         h->flux[1][k] = h->q[k] - h->flux[0][k];
     for (size_t k = 0; k < h->n; k++)
-        h->share[h->at * h->n + k] = h->flux[0][h->node[k]];
+        h->times.share[h->times.at * h->n + k] = h->flux[0][h->node[k]];
     for (int b = 0; b < 2; b++) {
         rc_conduction_load(h->c, h->flux[b]);
-        if (h->at > 0)
-            memcpy(h->rise[b], h->past[b], nodes * sizeof *h->rise[b]);
-        field(h, h->lag[b], h->at > 0, h->rise[b]);
+        if (h->times.at > 0)
+            memcpy(h->rise[b], h->times.past[b], nodes * sizeof *h->rise[b]);
+        field(h, h->times.lag[b], h->times.at > 0, h->rise[b]);
     }
-    h->scale = fmax(fmax(largest(h, h->rise[0]), largest(h, h->rise[1])), DBL_MIN);
+    h->scale =
+        fmax(fmax(largest(h->node, h->n, h->rise[0]), largest(h->node, h->n, h->rise[1])), DBL_MIN);
     for (size_t i = 0; i < h->n; i++) {
         const size_t k = h->node[i];
         const double one = h->rise[0][k], two = h->rise[1][k] + h->drop;
@@ -417,9 +426,9 @@ finish(struct rc_heat *h)
     f->mean_temperature = fmax(sum[0], sum[1]) / (double)h->n;
     f->hot_nodes = row_of_nodes(h, hottest);
     f->heat_power_1 = rc_sum(h->flux[0], nodes) * s->dx * s->dy;
-    f->share_1 = share_of(h);
+    f->share_1 = share_of(&h->figures, h->drop);
     f->mismatch = fmax(h->worst, differs / h->scale);
-    f->iterations = h->earlier + h->steps;
+    f->iterations = h->earlier + h->space.steps;
     f->convolutions = h->c->count;
     f->converged = h->problem.partition != RC_HEAT_MATCHED || f->mismatch <= h->problem.tol;
 }
@@ -428,19 +437,19 @@ finish(struct rc_heat *h)
 
 /* Makes a vector where it is missing. */
 static enum rc_status
-need_vector(struct rc_heat *h, double **v, struct rc_err *err)
+need_vector(struct rc_store *own, size_t n, double **v, struct rc_err *err)
 {
-    if (*v == NULL && (*v = rc_store_take(&h->own, h->n, sizeof **v)) == NULL)
-        return rc_err_set(err, "out of memory for %zu nodes in contact", h->n);
+    if (*v == NULL && (*v = rc_store_take(own, n, sizeof **v)) == NULL)
+        return rc_err_set(err, "out of memory for %zu nodes in contact", n);
     return RC_OK;
 }
 
 static double
-product(const struct rc_heat *h, const double *a, const double *b)
+product(size_t n, const double *a, const double *b)
 {
     struct rc_total sum = {0, 0};
 
-    for (size_t k = 0; k < h->n; k++)
+    for (size_t k = 0; k < n; k++)
         rc_total_add(&sum, a[k] * b[k]);
     return rc_total_value(&sum);
 }
@@ -449,7 +458,7 @@ product(const struct rc_heat *h, const double *a, const double *b)
 static void
 apply(struct rc_heat *h, const double *v, double *z, double *to)
 {
-    const struct rc_warming *const both[] = {h->lag[0], h->lag[1]};
+    const struct rc_warming *const both[] = {h->times.lag[0], h->times.lag[1]};
 
     rc_heat_inverse_apply(h->inverse, both, v, z);
     memset(h->work, 0, h->shape.nx * h->shape.ny * sizeof *h->work);
@@ -469,11 +478,11 @@ find_blok(struct rc_heat *h)
 
     rc_conduction_load(h->c, h->q);
     for (int b = 0; b < 2; b++) {
-        field(h, h->lag[b], false, h->rise[b]);
-        first[b] = largest(h, h->rise[b]);
-        for (size_t k = 1; k < h->times; k++)
-            field(h, &h->lag[b][k], true, h->rise[b]);
-        most[b] = largest(h, h->rise[b]);
+        field(h, h->times.lag[b], false, h->rise[b]);
+        first[b] = largest(h->node, h->n, h->rise[b]);
+        for (size_t k = 1; k < h->times.n; k++)
+            field(h, &h->times.lag[b][k], true, h->rise[b]);
+        most[b] = largest(h->node, h->n, h->rise[b]);
     }
     h->figures.share_blok = most[0] + most[1] > 0 ? most[1] / (most[0] + most[1]) : NAN;
     h->scale = first[0] + first[1] > 0 ? first[0] * first[1] / (first[0] + first[1]) : 0;
@@ -487,23 +496,24 @@ begin(struct rc_heat *h, struct rc_err *err)
     const size_t nodes = h->shape.nx * h->shape.ny;
     double size;
 
-    if (h->at == 0)
+    if (h->times.at == 0)
         find_blok(h);
-    for (int b = 0; b < 2 && h->at > 0; b++) {
-        memset(h->past[b], 0, nodes * sizeof *h->past[b]);
-        add_rise(h, b, h->lag[b], h->at, h->at, h->past[b]);
+    for (int b = 0; b < 2 && h->times.at > 0; b++) {
+        memset(h->times.past[b], 0, nodes * sizeof *h->times.past[b]);
+        add_rise(h, b, h->times.lag[b], h->times.at, h->times.at, h->times.past[b]);
     }
     rc_conduction_load(h->c, h->q);
-    field(h, h->lag[1], false, h->work);
+    field(h, h->times.lag[1], false, h->work);
     for (size_t k = 0; k < h->n; k++) {
         const size_t at = h->node[k];
-        h->right[k] = h->work[at] + h->drop + (h->at > 0 ? h->past[1][at] - h->past[0][at] : 0);
+        h->space.right[k] = h->work[at] + h->drop +
+                            (h->times.at > 0 ? h->times.past[1][at] - h->times.past[0][at] : 0);
     }
-    if (need_vector(h, &h->v[0], err) != RC_OK)
+    if (need_vector(&h->own, h->n, &h->space.v[0], err) != RC_OK)
         return RC_FAIL;
-    size = h->g[0] = sqrt(product(h, h->right, h->right));
+    size = h->space.g[0] = sqrt(product(h->n, h->space.right, h->space.right));
     for (size_t k = 0; k < h->n; k++)
-        h->v[0][k] = size > 0 ? h->right[k] / size : 0;
+        h->space.v[0][k] = size > 0 ? h->space.right[k] / size : 0;
     h->begun = true;
     return RC_OK;
 }
@@ -512,53 +522,54 @@ begin(struct rc_heat *h, struct rc_err *err)
 static enum rc_status
 extend(struct rc_heat *h, struct rc_err *err)
 {
-    const size_t m = h->steps;
-    double *column = h->h[m], *next, size, c, s;
+    const size_t m = h->space.steps;
+    double *column = h->space.h[m], *next, size, c, s;
 
-    if (need_vector(h, &h->z[m], err) != RC_OK || need_vector(h, &h->v[m + 1], err) != RC_OK)
+    if (need_vector(&h->own, h->n, &h->space.z[m], err) != RC_OK ||
+        need_vector(&h->own, h->n, &h->space.v[m + 1], err) != RC_OK)
         return RC_FAIL;
-    next = h->v[m + 1];
-    apply(h, h->v[m], h->z[m], next);
+    next = h->space.v[m + 1];
+    apply(h, h->space.v[m], h->space.z[m], next);
     for (size_t i = 0; i <= m; i++) {
-        column[i] = product(h, h->v[i], next);
+        column[i] = product(h->n, h->space.v[i], next);
         for (size_t k = 0; k < h->n; k++)
-            next[k] -= column[i] * h->v[i][k];
+            next[k] -= column[i] * h->space.v[i][k];
     }
-    size = column[m + 1] = sqrt(product(h, next, next));
+    size = column[m + 1] = sqrt(product(h->n, next, next));
     for (size_t k = 0; k < h->n; k++)
         next[k] = size > 0 ? next[k] / size : 0;
     for (size_t i = 0; i < m; i++) {
         const double a = column[i], b = column[i + 1];
-        column[i] = h->turn[i][0] * a + h->turn[i][1] * b;
-        column[i + 1] = h->turn[i][0] * b - h->turn[i][1] * a;
+        column[i] = h->space.turn[i][0] * a + h->space.turn[i][1] * b;
+        column[i + 1] = h->space.turn[i][0] * b - h->space.turn[i][1] * a;
     }
     size = hypot(column[m], column[m + 1]);
-    c = h->turn[m][0] = size > 0 ? column[m] / size : 1;
-    s = h->turn[m][1] = size > 0 ? column[m + 1] / size : 0;
+    c = h->space.turn[m][0] = size > 0 ? column[m] / size : 1;
+    s = h->space.turn[m][1] = size > 0 ? column[m + 1] / size : 0;
     column[m] = size;
-    h->g[m + 1] = -s * h->g[m];
-    h->g[m] *= c;
-    h->steps++;
+    h->space.g[m + 1] = -s * h->space.g[m];
+    h->space.g[m] *= c;
+    h->space.steps++;
     return RC_OK;
 }
 
 /* The largest value of the residual V Q'(0, ..., 0, g). */
 static double
-largest_residual(struct rc_heat *h)
+largest_residual(const struct space *space, size_t n)
 {
     double y[STEPS + 1] = {0}, most = 0;
-    const size_t m = h->steps;
+    const size_t m = space->steps;
 
-    y[m] = h->g[m];
+    y[m] = space->g[m];
     for (size_t i = m; i-- > 0;) {
         const double a = y[i], b = y[i + 1];
-        y[i] = h->turn[i][0] * a - h->turn[i][1] * b;
-        y[i + 1] = h->turn[i][1] * a + h->turn[i][0] * b;
+        y[i] = space->turn[i][0] * a - space->turn[i][1] * b;
+        y[i + 1] = space->turn[i][1] * a + space->turn[i][0] * b;
     }
-    for (size_t k = 0; k < h->n; k++) {
+    for (size_t k = 0; k < n; k++) {
         double r = 0;
         for (size_t i = 0; i <= m; i++)
-            r += y[i] * h->v[i][k];
+            r += y[i] * space->v[i][k];
         most = fmax(most, fabs(r));
     }
     return most;
@@ -566,21 +577,21 @@ largest_residual(struct rc_heat *h)
 
 /* f = Z y with the least residual. */
 static void
-take_solution(struct rc_heat *h)
+take_solution(const struct space *space, const size_t *node, size_t n, double *flux)
 {
     double y[STEPS];
 
-    for (size_t i = h->steps; i-- > 0;) {
-        y[i] = h->g[i];
-        for (size_t j = i + 1; j < h->steps; j++)
-            y[i] -= h->h[j][i] * y[j];
-        y[i] = h->h[i][i] != 0 ? y[i] / h->h[i][i] : 0;
+    for (size_t i = space->steps; i-- > 0;) {
+        y[i] = space->g[i];
+        for (size_t j = i + 1; j < space->steps; j++)
+            y[i] -= space->h[j][i] * y[j];
+        y[i] = space->h[i][i] != 0 ? y[i] / space->h[i][i] : 0;
     }
-    for (size_t k = 0; k < h->n; k++) {
+    for (size_t k = 0; k < n; k++) {
         double f = 0;
-        for (size_t i = 0; i < h->steps; i++)
-            f += y[i] * h->z[i][k];
-        h->flux[0][h->node[k]] = f;
+        for (size_t i = 0; i < space->steps; i++)
+            f += y[i] * space->z[i][k];
+        flux[node[k]] = f;
     }
 }
 
@@ -610,19 +621,20 @@ rc_heat_step(struct rc_heat *h, struct rc_err *err)
     }
     if (extend(h, err) != RC_OK)
         return RC_FAIL;
-    last = h->steps == STEPS || fabs(h->g[h->steps]) <= 16 * DBL_EPSILON * fabs(h->g[0]);
-    if (!last && largest_residual(h) > h->problem.tol * h->scale)
+    last = h->space.steps == STEPS ||
+           fabs(h->space.g[h->space.steps]) <= 16 * DBL_EPSILON * fabs(h->space.g[0]);
+    if (!last && largest_residual(&h->space, h->n) > h->problem.tol * h->scale)
         return RC_MORE;
-    take_solution(h);
+    take_solution(&h->space, h->node, h->n, h->flux[0]);
     finish(h); /* finds the scale too */
     if (!h->figures.converged && !last)
         return RC_MORE;
-    if (h->at + 1 == h->times)
+    if (h->times.at + 1 == h->times.n)
         return h->figures.converged ? RC_OK : RC_SHORT;
     h->worst = h->figures.mismatch;
-    h->earlier += h->steps;
-    h->steps = 0;
-    h->at++;
+    h->earlier += h->space.steps;
+    h->space.steps = 0;
+    h->times.at++;
     h->begun = false;
     return RC_MORE;
 }
@@ -656,7 +668,7 @@ rc_heat_temperature(struct rc_heat *h, int b, double depth, double *to, struct r
         if ((lag = lags_new(h, b, depth, &own, err)) == NULL)
             return RC_FAIL;
         memset(to, 0, nodes * sizeof *to);
-        add_rise(h, b, lag, h->times, h->times - 1, to);
+        add_rise(h, b, lag, h->times.n, h->times.n - 1, to);
     }
     for (size_t k = 0; k < nodes; k++)
         to[k] += b == 1 ? h->drop : 0;
