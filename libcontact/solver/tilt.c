@@ -60,6 +60,14 @@ static const double far_softer = 3;
  * contacts, double takes 2 % fewer convolutions (bench/constants.py). */
 static const double thin = 1e-7;
 
+/* A turn: its base, direction, length, and the lengths between which the moment about its axis vanishes. */
+struct search {
+    bool on;
+    double base[2], way[2], at_base[2], error_at_base, far;
+    double low, high, moment_low, moment_high;
+    size_t trials;
+};
+
 struct rc_tilt {
     double at[2]; /* m: the point of the force, from the middle of the map                        */
     double length;  /* m: unit of arms */
@@ -76,12 +84,7 @@ struct rc_tilt {
     double error;     /* error of the pressure from that moment */
     bool known;       /* H and S are known */
     double h[2][2], s;
-    /* The turn: its base, direction, length, and the lengths between which the moment about its axis
-     * vanishes. */
-    bool turning;
-    double base[2], way[2], at_base[2], error_at_base, far;
-    double low, high, moment_low, moment_high;
-    size_t trials;
+    struct search search;
     float *room; /* for the computation of H */
 };
 
@@ -600,7 +603,7 @@ choose_way(struct rc_solver *s)
     struct rc_tilt *t = s->tilt;
     double value[2], vector[2][2];
 
-    t->way[0] = t->way[1] = 0;
+    t->search.way[0] = t->search.way[1] = 0;
     stiffnesses(t, value, vector);
     for (size_t e = 0; e < 2; e++) {
         double m = t->moment[0] * vector[e][0] + t->moment[1] * vector[e][1], by;
@@ -614,7 +617,7 @@ choose_way(struct rc_solver *s)
             by = copysign(until_touch(s, way, fabs(m)), m);
         }
         for (size_t a = 0; a < 2; a++)
-            t->way[a] += t->turns[a] ? by * vector[e][a] : 0;
+            t->search.way[a] += t->turns[a] ? by * vector[e][a] : 0;
     }
 }
 
@@ -642,8 +645,8 @@ learn(struct rc_solver *s)
     double d[2], y[2], hd[2], dy = 0, dhd = 0;
 
     for (size_t a = 0; a < 2; a++) {
-        d[a] = t->rise[a] - t->base[a];
-        y[a] = (t->at_base[a] - t->moment[a]) * s->load.sum;
+        d[a] = t->rise[a] - t->search.base[a];
+        y[a] = (t->search.at_base[a] - t->moment[a]) * s->load.sum;
     }
     for (size_t a = 0; a < 2; a++) {
         hd[a] = t->h[a][0] * d[0] + t->h[a][1] * d[1];
@@ -658,29 +661,29 @@ learn(struct rc_solver *s)
 }
 
 static double
-about_way(const struct rc_tilt *t, const double moment[2])
+about_way(const struct search *search, const double moment[2])
 {
-    return moment[0] * t->way[0] + moment[1] * t->way[1];
+    return moment[0] * search->way[0] + moment[1] * search->way[1];
 }
 
 /* Updates the bracket and chooses another length in it, or a larger one where it has no upper end yet. */
 static double
-next_length(struct rc_tilt *t)
+next_length(struct search *s, const double moment[2])
 {
-    double m = about_way(t, t->moment), share;
+    double m = about_way(s, moment), share;
 
     if (m > 0) {
-        t->low = t->far;
-        t->moment_low = m;
+        s->low = s->far;
+        s->moment_low = m;
     } else {
-        t->high = t->far;
-        t->moment_high = m;
+        s->high = s->far;
+        s->moment_high = m;
     }
-    t->trials++;
-    if (isinf(t->high))
-        return 4 * t->far;
-    share = t->trials > EVEN ? 0.5 : t->moment_low / (t->moment_low - t->moment_high);
-    return t->low + fmin(fmax(share, 0.1), 0.9) * (t->high - t->low);
+    s->trials++;
+    if (isinf(s->high))
+        return 4 * s->far;
+    share = s->trials > EVEN ? 0.5 : s->moment_low / (s->moment_low - s->moment_high);
+    return s->low + fmin(fmax(share, 0.1), 0.9) * (s->high - s->low);
 }
 
 static void
@@ -689,9 +692,9 @@ turn_to(struct rc_solver *s, double far)
     struct rc_tilt *t = s->tilt;
     double by[2];
 
-    t->far = far;
+    t->search.far = far;
     for (size_t a = 0; a < 2; a++)
-        by[a] = t->base[a] + far * t->way[a] - t->rise[a];
+        by[a] = t->search.base[a] + far * t->search.way[a] - t->rise[a];
     turn_by(s, by);
     t->turned++;
 }
@@ -705,15 +708,15 @@ begin_turn(struct rc_solver *s)
         find_stiffness(s);
     choose_way(s);
     for (size_t a = 0; a < 2; a++) {
-        t->base[a] = t->rise[a];
-        t->at_base[a] = t->moment[a];
+        t->search.base[a] = t->rise[a];
+        t->search.at_base[a] = t->moment[a];
     }
-    t->error_at_base = t->error;
-    t->low = 0;
-    t->moment_low = about_way(t, t->moment);
-    t->high = INFINITY;
-    t->trials = 0;
-    t->turning = true;
+    t->search.error_at_base = t->error;
+    t->search.low = 0;
+    t->search.moment_low = about_way(&t->search, t->moment);
+    t->search.high = INFINITY;
+    t->search.trials = 0;
+    t->search.on = true;
 }
 
 void
@@ -730,7 +733,7 @@ rc_tilt_begin(struct rc_solver *s)
             turn_by(s, c.rise);
     }
     t->placed = t->begun = true;
-    t->turning = false;
+    t->search.on = false;
     t->turned = 0;
     t->goal = s->load.tol;
     s->load.tol = fmax(loose, t->goal / 4);
@@ -766,7 +769,7 @@ enum rc_status
 rc_tilt_search(struct rc_solver *s)
 {
     struct rc_tilt *t = s->tilt;
-    double least = t->goal / 4, was = t->error_at_base, sure;
+    double least = t->goal / 4, was = t->search.error_at_base, sure;
 
     measure(s);
     /* the error of a contact that still gives the sign of the next turn */
@@ -782,17 +785,18 @@ rc_tilt_search(struct rc_solver *s)
         measure(s);
         if (t->error <= least)
             return RC_OK;
-        t->turning = false;
+        t->search.on = false;
     }
     if (t->turned >= TURNS)
         return RC_SHORT;
-    if (t->turning) {
-        if (fabs(about_way(t, t->moment)) > 0.3 * about_way(t, t->at_base) &&
+    if (t->search.on) {
+        if (fabs(about_way(&t->search, t->moment)) >
+                0.3 * about_way(&t->search, t->search.at_base) &&
             t->error > 0.5 * was) {
-            if (isinf(t->high) && t->trials >= FAR)
+            if (isinf(t->search.high) && t->search.trials >= FAR)
                 return RC_SHORT;
-            double far = next_length(t);
-            if (far > t->low * (1 + 1e-12)) {
+            double far = next_length(&t->search, t->moment);
+            if (far > t->search.low * (1 + 1e-12)) {
                 /* short turns change the moment by less than the error of a loosely solved contact */
                 s->load.tol = fmax(finest * least, s->load.tol / 2);
                 turn_to(s, far);
@@ -800,10 +804,10 @@ rc_tilt_search(struct rc_solver *s)
             }
         }
         learn(s);
-        t->known = t->known && t->trials == 0 && t->error <= 0.3 * was;
+        t->known = t->known && t->search.trials == 0 && t->error <= 0.3 * was;
     }
     begin_turn(s);
-    if (t->way[0] == 0 && t->way[1] == 0)
+    if (t->search.way[0] == 0 && t->search.way[1] == 0)
         return RC_SHORT;
     s->load.tol = fmin(loose, fmax(least, 0.1 * t->error));
     turn_to(s, 1);
