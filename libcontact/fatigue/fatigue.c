@@ -30,6 +30,16 @@ struct worst {
     size_t at;
 };
 
+/* The present depth. */
+struct here {
+    double at;
+    const double *const *residual;
+    double unloaded; /* sxx and syy of a layer without load */
+    size_t first, rows;
+    struct worst worst[RC_CRITERIA + 1][WORST];
+    size_t worsts[RC_CRITERIA + 1];
+};
+
 struct rc_fatigue {
     struct rc_store own; /* the arrays below */
     struct rc_fatigue_problem problem;
@@ -43,13 +53,7 @@ struct rc_fatigue {
     struct rc_history **work;   /* of each thread */
     int threads;
     double *layer; /* Pa: residual stress of each layer, and 0 of the body below; NULL: none */
-    /* of the present depth */
-    double at;
-    const double *const *residual;
-    double unloaded; /* sxx and syy of a layer without load */
-    size_t first, rows;
-    struct worst worst[RC_CRITERIA + 1][WORST];
-    size_t worsts[RC_CRITERIA + 1];
+    struct here here;
     double integral, before, depth_before; /* of the stressed volume */
     struct rc_fatigue_figures depth, all;
 };
@@ -254,14 +258,14 @@ slice_of(struct rc_fatigue *f, size_t t, struct rc_err *err)
         s[c] = f->map[c];
     if (p->cases > 1 && rc_stress_set_loads(f->stress, p->p[t], traction, err) != RC_OK)
         return RC_FAIL;
-    return rc_stress_slice(f->stress, f->at, s, err);
+    return rc_stress_slice(f->stress, f->here.at, s, err);
 }
 
 /* The stresses of all cases in the rows of the band. */
 static enum rc_status
 fill_band(struct rc_fatigue *f, struct rc_err *err)
 {
-    const size_t nx = f->shape.nx, n = f->rows * nx;
+    const size_t nx = f->shape.nx, n = f->here.rows * nx;
 
     for (size_t t = 0; t < f->problem.cases; t++) {
         if (slice_of(f, t, err) != RC_OK)
@@ -270,7 +274,7 @@ fill_band(struct rc_fatigue *f, struct rc_err *err)
         for (int c = 0; c < RC_COMPONENTS; c++) {
             float *to = f->store + (t * RC_COMPONENTS + (size_t)c) * f->band * nx;
             for (size_t k = 0; k < n; k++)
-                to[k] = (float)f->map[c][f->first * nx + k];
+                to[k] = (float)f->map[c][f->here.first * nx + k];
         }
     }
     return RC_OK;
@@ -280,13 +284,14 @@ fill_band(struct rc_fatigue *f, struct rc_err *err)
 
 /* Appends the unloaded state, and adds the residual stress, which depends on the line only. */
 static void
-finish_history(const struct rc_fatigue *f, struct rc_history *w, size_t n, size_t line)
+finish_history(const struct rc_fatigue_problem *problem, const struct here *here,
+               struct rc_history *w, size_t n, size_t line)
 {
-    w->n = n + unloaded_states(&f->problem);
+    w->n = n + unloaded_states(problem);
     for (int c = 0; c < RC_COMPONENTS; c++) {
-        const double *r = f->residual == NULL ? NULL : f->residual[c];
+        const double *r = here->residual == NULL ? NULL : here->residual[c];
         if (w->n > n)
-            w->s[c][n] = c == RC_SXX || c == RC_SYY ? f->unloaded : 0;
+            w->s[c][n] = c == RC_SXX || c == RC_SYY ? here->unloaded : 0;
         for (size_t t = 0; r != NULL && t < w->n; t++)
             w->s[c][t] += r[line];
     }
@@ -305,7 +310,7 @@ take_line(const struct rc_fatigue *f, struct rc_history *w, size_t line, size_t 
     for (size_t t = first; t < length; t += step, n++)
         for (int c = 0; c < RC_COMPONENTS; c++)
             w->s[c][n] = f->map[c][start + t * stride];
-    finish_history(f, w, n, line);
+    finish_history(&f->problem, &f->here, w, n, line);
 }
 
 /* The same for the cases at a node of the body. */
@@ -323,13 +328,13 @@ take_node(const struct rc_fatigue *f, struct rc_history *w, size_t row, size_t c
                          : column >= shift                 ? column - shift
                                                            : nx;
         const float *from =
-            f->store + (t * RC_COMPONENTS * f->band + row - f->first) * nx + (i < nx ? i : 0);
+            f->store + (t * RC_COMPONENTS * f->band + row - f->here.first) * nx + (i < nx ? i : 0);
         for (size_t c = 0; c < RC_COMPONENTS; c++)
             w->s[c][n] = i < nx                       ? (double)from[c * f->band * nx]
-                         : c == RC_SXX || c == RC_SYY ? f->unloaded
+                         : c == RC_SXX || c == RC_SYY ? f->here.unloaded
                                                       : 0;
     }
-    finish_history(f, w, n, row);
+    finish_history(&f->problem, &f->here, w, n, row);
 }
 
 static void
@@ -345,16 +350,15 @@ take(const struct rc_fatigue *f, struct rc_history *w, size_t point, size_t firs
 
 /* Largest distance of the contact between two states. */
 static double
-spacing(const struct rc_fatigue *f)
+spacing(const struct rc_fatigue_problem *p, const struct rc_shape *shape)
 {
-    const struct rc_fatigue_problem *p = &f->problem;
     double most = 0;
 
     if (p->pass != 0)
-        return p->pass == 'x' ? f->shape.dx : f->shape.dy;
+        return p->pass == 'x' ? shape->dx : shape->dy;
     for (size_t t = 1; p->column != NULL && t < p->cases; t++)
         most = fmax(most, fabs((double)p->column[t] - (double)p->column[t - 1]));
-    return most * f->shape.dx;
+    return most * shape->dx;
 }
 
 /* Keeps the points with the largest values of a depth, and measures their sampling error: the change if only
@@ -362,11 +366,11 @@ spacing(const struct rc_fatigue *f)
 static void
 keep_worst(struct rc_fatigue *f, const struct rc_fatigue_rule *rule, int c, size_t point)
 {
-    struct worst *worst = f->worst[c];
+    struct worst *worst = f->here.worst[c];
     const double value = f->value[c][point];
     struct rc_fatigue_rule only = *rule;
     struct rc_fatigue_values v;
-    size_t k = f->worsts[c], bound = k < WORST ? k : WORST - 1;
+    size_t k = f->here.worsts[c], bound = k < WORST ? k : WORST - 1;
     double error = 0;
 
     if (isnan(value) || (k == WORST && !(value > worst[WORST - 1].value)))
@@ -379,11 +383,11 @@ keep_worst(struct rc_fatigue *f, const struct rc_fatigue_rule *rule, int c, size
     }
     for (k = bound; k > 0 && value > worst[k - 1].value; k--)
         worst[k] = worst[k - 1];
-    error *= spacing(f) > f->at / 2 * (1 + 1e-9) ? caution_near : caution;
-    if (spacing(f) > f->at * (1 + 1e-9))
+    error *= spacing(&f->problem, &f->shape) > f->here.at / 2 * (1 + 1e-9) ? caution_near : caution;
+    if (spacing(&f->problem, &f->shape) > f->here.at * (1 + 1e-9))
         error = fmax(error, value);
     worst[k] = (struct worst){value, error / value, point};
-    f->worsts[c] = bound + 1;
+    f->here.worsts[c] = bound + 1;
 }
 
 /* The points of a band that may be among the largest, in their order. */
@@ -409,10 +413,10 @@ find_worst(struct rc_fatigue *f, const struct rc_fatigue_rule *rule, size_t from
             if (v[k] >= least[n - 1])
                 keep_worst(f, rule, c, k);
         /* what decides is asked again here, while the band is stored */
-        if (f->worsts[c] > 0 && f->worst[c][0].at >= from && f->worst[c][0].at < to &&
-            (c == RC_DANG_VAN || c == RC_FINDLEY)) {
+        if (f->here.worsts[c] > 0 && f->here.worst[c][0].at >= from &&
+            f->here.worst[c][0].at < to && (c == RC_DANG_VAN || c == RC_FINDLEY)) {
             struct rc_fatigue_values decisive;
-            take(f, f->work[0], f->worst[c][0].at, 0, 1);
+            take(f, f->work[0], f->here.worst[c][0].at, 0, 1);
             rc_history_values(f->work[0], rule, &decisive);
             if (c == RC_DANG_VAN) {
                 f->depth.dangvan_hydrostatic = decisive.decides;
@@ -429,7 +433,7 @@ place_of(const struct rc_fatigue *f, const struct worst *worst, size_t n)
 {
     const size_t nx = f->result.nx, point = worst[0].at;
     const double along = ((double)(point % nx) - (double)(nx - 1) / 2) * f->result.dx;
-    struct rc_fatigue_place at = {worst[0].value, NAN, NAN, f->at, 0};
+    struct rc_fatigue_place at = {worst[0].value, NAN, NAN, f->here.at, 0};
 
     for (size_t k = 0; k < n; k++)
         at.sampling_error = fmax(at.sampling_error, worst[k].error);
@@ -449,9 +453,9 @@ gather_figures(struct rc_fatigue *f)
     struct rc_fatigue_figures *d = &f->depth, *all = &f->all;
 
     for (int c = 0; c <= RC_CRITERIA; c++) {
-        if (f->worsts[c] > 0)
-            d->largest[c] = place_of(f, f->worst[c], f->worsts[c]);
-        if (f->worsts[c] > 0 && !(d->largest[c].value <= all->largest[c].value)) {
+        if (f->here.worsts[c] > 0)
+            d->largest[c] = place_of(f, f->here.worst[c], f->here.worsts[c]);
+        if (f->here.worsts[c] > 0 && !(d->largest[c].value <= all->largest[c].value)) {
             all->largest[c] = d->largest[c];
             if (c == RC_DANG_VAN)
                 all->dangvan_hydrostatic = d->dangvan_hydrostatic;
@@ -496,11 +500,12 @@ add_volume(struct rc_fatigue *f)
     for (size_t k = 0; k < f->result.nx * f->result.ny; k++)
         if (r[k] > p->threshold)
             sum += pow((r[k] - p->threshold) / 1e9, p->power);
-    f->integral = sum * cell * (p->depth_power == 0 ? 1 : pow(f->at, -p->depth_power));
+    f->integral = sum * cell * (p->depth_power == 0 ? 1 : pow(f->here.at, -p->depth_power));
     if (f->all.depths > 0)
-        f->all.stressed_volume += (f->integral + f->before) / 2 * fabs(f->at - f->depth_before);
+        f->all.stressed_volume +=
+            (f->integral + f->before) / 2 * fabs(f->here.at - f->depth_before);
     f->before = f->integral;
-    f->depth_before = f->at;
+    f->depth_before = f->here.at;
 }
 
 /* ---- a depth ---- */
@@ -535,10 +540,11 @@ compute(struct rc_fatigue *f, const struct rc_fatigue_rule *rule, size_t from, s
 static enum rc_status
 do_bands(struct rc_fatigue *f, const struct rc_fatigue_rule *rule, struct rc_err *err)
 {
-    for (f->first = 0; f->first < f->shape.ny; f->first += f->band) {
-        size_t from = f->first * f->result.nx, to;
-        f->rows = f->shape.ny - f->first < f->band ? f->shape.ny - f->first : f->band;
-        to = from + f->rows * f->result.nx;
+    for (f->here.first = 0; f->here.first < f->shape.ny; f->here.first += f->band) {
+        size_t from = f->here.first * f->result.nx, to;
+        f->here.rows =
+            f->shape.ny - f->here.first < f->band ? f->shape.ny - f->here.first : f->band;
+        to = from + f->here.rows * f->result.nx;
         if (f->problem.pass != 0) {
             if (slice_of(f, 0, err) != RC_OK)
                 return RC_FAIL;
@@ -566,11 +572,11 @@ rc_fatigue_depth(struct rc_fatigue *f, double depth, const struct rc_fatigue_lim
     if (p->depth_power != 0 && p->power > 0 && !(depth > 0))
         return rc_err_set(err, "depth %g m: a power of the depth needs depths above 0", depth);
     rule = rc_fatigue_rule_of(p->wanted, p->full, limits);
-    f->at = depth;
-    f->residual = residual;
-    f->unloaded = f->layer == NULL ? 0 : f->layer[rc_body_material(&p->stress.body, depth)];
+    f->here.at = depth;
+    f->here.residual = residual;
+    f->here.unloaded = f->layer == NULL ? 0 : f->layer[rc_body_material(&p->stress.body, depth)];
     f->depth = none;
-    memset(f->worsts, 0, sizeof f->worsts);
+    memset(f->here.worsts, 0, sizeof f->here.worsts);
     if (do_bands(f, &rule, err) != RC_OK)
         return RC_FAIL;
     add_volume(f);

@@ -14,6 +14,20 @@
 #include "libcontact/model/row.h"
 #include "solver.h"
 
+/* Own compliance of the nodes and of the rows. */
+struct soft {
+    double compliance;  /* m/Pa, of every node, times its part */
+    const double *part; /* the caller's array; NULL: 1 everywhere */
+    double along;       /* 1/Pa, of the rows */
+};
+
+/* Inside another model a contact is short, so that a state on the way has its start: the pressure, or `fresh`,
+ * the load (a guess if the approach is given) and the number of the method. */
+struct start {
+    double *p, load, number;
+    bool fresh;
+};
+
 struct elastic {
     struct rc_model base;
     struct rc_problem problem;
@@ -23,19 +37,14 @@ struct elastic {
     const double *given; /* undeformed heights: until the first go the caller's array, then h */
     double *h;           /* a copy of `given`; freed when the solver has its own copy */
     double *dent;        /* present minus undeformed heights; NULL: no dents */
-    double compliance;   /* m/Pa, own compliance of every node, times its part */
-    const double *part;  /* the caller's array; NULL: 1 everywhere */
-    double along;        /* 1/Pa, compliance of the rows */
-    double tol;          /* as given to the maker; problem.tol belongs to the next contact  */
+    struct soft soft;
+    double tol; /* as given to the maker; problem.tol belongs to the next contact  */
     /* m, N: error of the heights; error of the loads that made the dents */
     double height_error, off;
     double first_top, top;    /* m: highest node of the first shape, and of the present one   */
     struct rc_solver *solver; /* NULL: no load so far                                         */
     bool apart;               /* no load at this point */
-    /* Inside another model a contact is short, so that a state on the way has its start: the pressure, or
-     * `fresh`, the load (a guess if the approach is given) and the number of the method. */
-    double *start, start_load, start_number;
-    bool fresh;
+    struct start start;
     bool fresh_held;       /* rc_elastic_hold has convolved in double precision */
     bool again;            /* a state was read whose contact is solved: the next step returns */
     enum rc_status solved; /* this */
@@ -97,7 +106,8 @@ press(struct elastic *e, double load, double approach, struct rc_err *err)
     e->solver = rc_solver_new_along(&e->base.shape, e->given, &problem, e->compliant, err);
     if (e->solver == NULL)
         return RC_FAIL;
-    if (rc_solver_set_diagonal(e->solver, e->compliance, e->part, e->along, err) != RC_OK)
+    if (rc_solver_set_diagonal(e->solver, e->soft.compliance, e->soft.part, e->soft.along, err) !=
+        RC_OK)
         return RC_FAIL;
     e->solver->posed.dents = e->off;
     free(e->h); /* the solver has a copy */
@@ -146,14 +156,14 @@ keep_start(struct elastic *e, struct rc_err *err)
 
     if (!e->base.inside || e->apart)
         return RC_OK;
-    e->fresh = rc_nested_untouched(e->solver);
-    e->start_load = rc_solver_load(e->solver);
-    e->start_number = *rc_solver_lasting(e->solver, &none);
-    if (e->fresh)
+    e->start.fresh = rc_nested_untouched(e->solver);
+    e->start.load = rc_solver_load(e->solver);
+    e->start.number = *rc_solver_lasting(e->solver, &none);
+    if (e->start.fresh)
         return RC_OK;
-    if (!rc_store_need(&e->base.own, e->n, &e->start))
+    if (!rc_store_need(&e->base.own, e->n, &e->start.p))
         return rc_err_set(err, "out of memory for the start of a contact");
-    memcpy(e->start, rc_solver_pressure(e->solver), e->n * sizeof *e->start);
+    memcpy(e->start.p, rc_solver_pressure(e->solver), e->n * sizeof *e->start.p);
     return RC_OK;
 }
 
@@ -362,9 +372,9 @@ set_compliance(struct rc_model *m, double c, const double *part, double along, s
                               "part %g of the compliance at node %zu: it must be at least 0 "
                               "and finite",
                               part[k], k);
-    e->compliance = c;
-    e->part = part;
-    e->along = along;
+    e->soft.compliance = c;
+    e->soft.part = part;
+    e->soft.along = along;
     return e->solver != NULL ? rc_solver_set_diagonal(e->solver, c, part, along, err) : RC_OK;
 }
 
@@ -497,9 +507,9 @@ state(struct rc_model *m, struct rc_state *s)
     struct rc_err err;
 
     if (v != NULL) {
-        it.number = way ? e->start_number : *rc_solver_lasting(v, &it.number);
-        it.load = way ? e->start_load : rc_solver_load(v);
-        it.fresh = way ? e->fresh : rc_nested_untouched(v);
+        it.number = way ? e->start.number : *rc_solver_lasting(v, &it.number);
+        it.load = way ? e->start.load : rc_solver_load(v);
+        it.fresh = way ? e->start.fresh : rc_nested_untouched(v);
         it.error = v->it.error;
         it.top = v->posed.top;
         it.iterations = v->it.iterations;
@@ -516,7 +526,7 @@ state(struct rc_model *m, struct rc_state *s)
         if (dented)
             rc_state_map(s, e->n, e->dent);
         if (it.pressed && !(inside && it.fresh))
-            rc_state_map(s, e->n, way ? e->start : v->it.p);
+            rc_state_map(s, e->n, way ? e->start.p : v->it.p);
         if (it.pressed && inside && dented)
             rc_state_map(s, e->n, v->posed.h);
         return;
@@ -569,7 +579,7 @@ plan(const struct rc_model *m, const struct rc_point *most, struct rc_expected *
             e->n * (e->asks.conductivity[0] > 0 ? RC_CONDUCTANCE_BYTES : RC_STIFFNESS_BYTES);
     }
     if (m->inside)
-        expected->memory += e->n * sizeof *e->start;
+        expected->memory += e->n * sizeof *e->start.p;
     return RC_OK;
 }
 
