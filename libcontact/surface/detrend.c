@@ -41,34 +41,43 @@ struct term {
     size_t a, b;
 };
 
-struct fit {
-    const struct rc_shape *shape;
-    const double *h;
-    double mean; /* subtracted first, because a large constant would cost digits */
+/* The polynomials: products of one along x and one along y. */
+struct basis {
     size_t nx_terms, ny_terms, degree; /* polynomials along x, along y; largest total degree */
     size_t terms;
     struct term term[(RC_DEGREE_MAX + 1) * (RC_DEGREE_MAX + 2) / 2];
     size_t nx_orders, ny_orders; /* orders of the products of two polynomials */
-    int threads;
-    bool missing;
-    double *px, *py;         /* Chebyshev polynomials: px[a * nx + i], py[b * ny + j] */
-    double *c;               /* coefficients of the terms */
-    double *step;            /* their correction */
-    double *residual, reach; /* robust: h - mean - polynomial, for the weights; else NULL */
-    double *rows;            /* sums of ROWS rows: nx_orders sums of w px, nx_terms sums of w e
-                                px */
-    double *of_weights;      /* sums over the map of w T_k(x) T_l(y): at l nx_orders + k */
-    double *of_residuals;    /* sums of w e T_k(x) T_l(y): at l nx_terms + k */
-    double *lines;           /* memory for each thread: e, w and w e of a row */
+    double *px, *py;             /* Chebyshev polynomials: px[a * nx + i], py[b * ny + j] */
+};
+
+/* The normal equations. */
+struct system {
+    double *rows;         /* sums of ROWS rows: nx_orders sums of w px, nx_terms sums of w e px */
+    double *of_weights;   /* sums over the map of w T_k(x) T_l(y): at l nx_orders + k */
+    double *of_residuals; /* sums of w e T_k(x) T_l(y): at l nx_terms + k */
+    double *step;         /* correction of the coefficients */
     gsl_matrix *normal;
     gsl_vector *scale, *right;
+};
+
+struct fit {
+    const struct rc_shape *shape;
+    const double *h;
+    double mean; /* subtracted first, because a large constant would cost digits */
+    struct basis basis;
+    int threads;
+    bool missing;
+    double *c;               /* coefficients of the terms */
+    double *residual, reach; /* robust: h - mean - polynomial, for the weights; else NULL */
+    double *lines;           /* memory for each thread: e, w and w e of a row */
+    struct system system;
     struct rc_store own;
 };
 
 static size_t
-row_sums(const struct fit *f)
+row_sums(const struct basis *basis)
 {
-    return f->nx_orders + f->nx_terms;
+    return basis->nx_orders + basis->nx_terms;
 }
 
 struct rc_box
@@ -114,9 +123,9 @@ chebyshev(struct rc_store *own, size_t orders, size_t n, size_t first, size_t la
 static void
 fit_free(struct fit *f)
 {
-    gsl_matrix_free(f->normal);
-    gsl_vector_free(f->scale);
-    gsl_vector_free(f->right);
+    gsl_matrix_free(f->system.normal);
+    gsl_vector_free(f->system.scale);
+    gsl_vector_free(f->system.right);
     rc_store_free(&f->own);
 }
 
@@ -125,21 +134,23 @@ fit_allocate(struct fit *f, const struct rc_box *box, bool robust, struct rc_err
 {
     const struct rc_shape *s = f->shape;
 
-    f->px = chebyshev(&f->own, f->nx_orders, s->nx, box->left, box->right);
-    f->py = chebyshev(&f->own, f->ny_orders, s->ny, box->top, box->bottom);
-    f->c = rc_store_zeros(&f->own, 2 * f->terms, sizeof *f->c);
-    f->rows = rc_store_take(&f->own, ROWS, row_sums(f) * sizeof *f->rows);
-    f->of_weights = rc_store_take(&f->own, row_sums(f), f->ny_orders * sizeof *f->of_weights);
+    f->basis.px = chebyshev(&f->own, f->basis.nx_orders, s->nx, box->left, box->right);
+    f->basis.py = chebyshev(&f->own, f->basis.ny_orders, s->ny, box->top, box->bottom);
+    f->c = rc_store_zeros(&f->own, 2 * f->basis.terms, sizeof *f->c);
+    f->system.rows = rc_store_take(&f->own, ROWS, row_sums(&f->basis) * sizeof *f->system.rows);
+    f->system.of_weights = rc_store_take(&f->own, row_sums(&f->basis),
+                                         f->basis.ny_orders * sizeof *f->system.of_weights);
     f->lines = rc_store_take(&f->own, s->nx, 3 * (size_t)f->threads * sizeof *f->lines);
-    f->normal = gsl_matrix_alloc(f->terms, f->terms);
-    f->scale = gsl_vector_alloc(f->terms);
-    f->right = gsl_vector_alloc(f->terms);
+    f->system.normal = gsl_matrix_alloc(f->basis.terms, f->basis.terms);
+    f->system.scale = gsl_vector_alloc(f->basis.terms);
+    f->system.right = gsl_vector_alloc(f->basis.terms);
     if (robust)
         f->residual = rc_store_take(&f->own, s->nx * s->ny, sizeof *f->residual);
-    if (f->own.failed || f->normal == NULL || f->scale == NULL || f->right == NULL)
-        return rc_err_set(err, "out of memory for a polynomial of degree %zu", f->degree);
-    f->step = f->c + f->terms;
-    f->of_residuals = f->of_weights + f->nx_orders * f->ny_orders;
+    if (f->own.failed || f->system.normal == NULL || f->system.scale == NULL ||
+        f->system.right == NULL)
+        return rc_err_set(err, "out of memory for a polynomial of degree %zu", f->basis.degree);
+    f->system.step = f->c + f->basis.terms;
+    f->system.of_residuals = f->system.of_weights + f->basis.nx_orders * f->basis.ny_orders;
     return RC_OK;
 }
 
@@ -150,25 +161,26 @@ fit_new(struct fit *f, const struct rc_shape *shape, const struct rc_form *form,
     struct rc_statistics figures;
     struct rc_box box = rc_box_of(shape, h);
 
-    *f = (struct fit){.shape = shape, .h = h, .degree = form->degree};
-    if (f->degree > RC_DEGREE_MAX)
-        return rc_err_set(err, "a polynomial of degree %zu: at most %d", f->degree, RC_DEGREE_MAX);
-    f->nx_terms = shape->nx > 1 ? f->degree + 1 : 1;
-    f->ny_terms = shape->ny > 1 ? f->degree + 1 : 1;
-    f->nx_orders = 2 * f->nx_terms - 1;
-    f->ny_orders = 2 * f->ny_terms - 1;
-    for (size_t b = 0; b < f->ny_terms; b++)
-        for (size_t a = 0; a < f->nx_terms && a + b <= f->degree; a++)
-            f->term[f->terms++] = (struct term){a, b};
+    *f = (struct fit){.shape = shape, .h = h, .basis.degree = form->degree};
+    if (f->basis.degree > RC_DEGREE_MAX)
+        return rc_err_set(err, "a polynomial of degree %zu: at most %d", f->basis.degree,
+                          RC_DEGREE_MAX);
+    f->basis.nx_terms = shape->nx > 1 ? f->basis.degree + 1 : 1;
+    f->basis.ny_terms = shape->ny > 1 ? f->basis.degree + 1 : 1;
+    f->basis.nx_orders = 2 * f->basis.nx_terms - 1;
+    f->basis.ny_orders = 2 * f->basis.ny_terms - 1;
+    for (size_t b = 0; b < f->basis.ny_terms; b++)
+        for (size_t a = 0; a < f->basis.nx_terms && a + b <= f->basis.degree; a++)
+            f->basis.term[f->basis.terms++] = (struct term){a, b};
     f->threads = rc_useful_threads(shape, form->threads);
     f->missing = box.count < shape->nx * shape->ny;
     if (box.infinite > 0)
         return rc_err_set(err, "%zu infinite heights: no polynomial fits them", box.infinite);
-    if (box.count < f->terms)
+    if (box.count < f->basis.terms)
         return rc_err_set(err,
                           "a polynomial of degree %zu has %zu coefficients, and only %zu "
                           "points are there: take a lower degree",
-                          f->degree, f->terms, box.count);
+                          f->basis.degree, f->basis.terms, box.count);
     rc_measure(shape, h, &figures);
     f->mean = figures.mean;
     return fit_allocate(f, &box, form->robust, err);
@@ -209,10 +221,10 @@ residual_row(const struct fit *f, size_t j, double *to, double *scratch)
 {
     double in_x[RC_DEGREE_MAX + 1] = {0};
 
-    for (size_t t = 0; t < f->terms; t++)
-        in_x[f->term[t].a] += f->c[t] * f->py[f->term[t].b * f->shape->ny + j];
-    subtract_row(f->shape->nx, f->nx_terms, in_x, f->px, f->mean, f->h + j * f->shape->nx, to,
-                 scratch);
+    for (size_t t = 0; t < f->basis.terms; t++)
+        in_x[f->basis.term[t].a] += f->c[t] * f->basis.py[f->basis.term[t].b * f->shape->ny + j];
+    subtract_row(f->shape->nx, f->basis.nx_terms, in_x, f->basis.px, f->mean,
+                 f->h + j * f->shape->nx, to, scratch);
 }
 
 static double *
@@ -256,11 +268,12 @@ sum_rows(const struct fit *f, size_t first, size_t count, bool weights)
 
 #pragma omp parallel for schedule(static) num_threads(f->threads)
     for (size_t k = 0; k < count; k++) {
-        double *e = lines_of(f), *w = e + nx, *we = w + nx, *to = f->rows + k * row_sums(f);
+        double *e = lines_of(f), *w = e + nx, *we = w + nx,
+               *to = f->system.rows + k * row_sums(&f->basis);
         weigh_row(f, first + k, e, w, we);
         if (weights)
-            multiply_sum(nx, f->nx_orders, w, f->px, to);
-        multiply_sum(nx, f->nx_terms, we, f->px, to + f->nx_orders);
+            multiply_sum(nx, f->basis.nx_orders, w, f->basis.px, to);
+        multiply_sum(nx, f->basis.nx_terms, we, f->basis.px, to + f->basis.nx_orders);
     }
 }
 
@@ -270,7 +283,7 @@ add_row(const struct fit *f, size_t j, const double *row, size_t n, size_t order
 {
     for (size_t l = 0; l < orders; l++)
         for (size_t k = 0; k < n; k++)
-            to[l * n + k] += f->py[l * f->shape->ny + j] * row[k];
+            to[l * n + k] += f->basis.py[l * f->shape->ny + j] * row[k];
 }
 
 /* Sums over the map, with `weights` also those of the weights. Without missing points and with equal weights,
@@ -278,25 +291,28 @@ add_row(const struct fit *f, size_t j, const double *row, size_t n, size_t order
 static void
 sum_map(const struct fit *f, bool weights)
 {
-    size_t ny = f->shape->ny, orders = f->nx_orders;
+    size_t ny = f->shape->ny, orders = f->basis.nx_orders;
     bool alike = !f->missing && f->reach == 0;
     double first[2 * RC_DEGREE_MAX + 1];
 
     if (weights)
-        memset(f->of_weights, 0, orders * f->ny_orders * sizeof *f->of_weights);
-    memset(f->of_residuals, 0, f->nx_terms * f->ny_terms * sizeof *f->of_residuals);
+        memset(f->system.of_weights, 0, orders * f->basis.ny_orders * sizeof *f->system.of_weights);
+    memset(f->system.of_residuals, 0,
+           f->basis.nx_terms * f->basis.ny_terms * sizeof *f->system.of_residuals);
     if (weights && alike) {
         sum_rows(f, 0, 1, true);
-        memcpy(first, f->rows, orders * sizeof *first);
+        memcpy(first, f->system.rows, orders * sizeof *first);
     }
     for (size_t j = 0; j < ny; j += ROWS) {
         size_t count = ny - j < ROWS ? ny - j : ROWS;
         sum_rows(f, j, count, weights && !alike);
         for (size_t k = 0; k < count; k++) {
-            const double *row = f->rows + k * row_sums(f);
+            const double *row = f->system.rows + k * row_sums(&f->basis);
             if (weights)
-                add_row(f, j + k, alike ? first : row, orders, f->ny_orders, f->of_weights);
-            add_row(f, j + k, row + orders, f->nx_terms, f->ny_terms, f->of_residuals);
+                add_row(f, j + k, alike ? first : row, orders, f->basis.ny_orders,
+                        f->system.of_weights);
+            add_row(f, j + k, row + orders, f->basis.nx_terms, f->basis.ny_terms,
+                    f->system.of_residuals);
         }
     }
 }
@@ -311,31 +327,33 @@ apart(size_t a, size_t b)
 
 /* The sum of two terms over the map: T_a T_b = (T_(a+b) + T_|a-b|) / 2 */
 static double
-of_product(const struct fit *f, struct term s, struct term t)
+of_product(size_t orders, const double *of_weights, struct term s, struct term t)
 {
-    size_t n = f->nx_orders, more = s.a + t.a, less = apart(s.a, t.a);
-    const double *high = f->of_weights + (s.b + t.b) * n,
-                 *low = f->of_weights + apart(s.b, t.b) * n;
+    size_t n = orders, more = s.a + t.a, less = apart(s.a, t.a);
+    const double *high = of_weights + (s.b + t.b) * n, *low = of_weights + apart(s.b, t.b) * n;
 
     return 0.25 * (high[more] + high[less] + low[more] + low[less]);
 }
 
 static void
-set_normal(struct fit *f)
+set_normal(const struct basis *basis, struct system *system)
 {
-    for (size_t k = 0; k < f->terms; k++)
-        for (size_t l = 0; l < f->terms; l++)
-            gsl_matrix_set(f->normal, k, l, of_product(f, f->term[k], f->term[l]));
+    for (size_t k = 0; k < basis->terms; k++)
+        for (size_t l = 0; l < basis->terms; l++)
+            gsl_matrix_set(
+                system->normal, k, l,
+                of_product(basis->nx_orders, system->of_weights, basis->term[k], basis->term[l]));
 }
 
 /* Factors the normal equations; false when they are too badly conditioned. */
 static bool
-factor_normal(struct fit *f)
+factor_normal(struct system *system, size_t terms)
 {
-    gsl_vector *work = gsl_vector_alloc(3 * f->terms);
+    gsl_vector *work = gsl_vector_alloc(3 * terms);
     double rcond = 0;
-    bool good = work != NULL && gsl_linalg_cholesky_decomp2(f->normal, f->scale) == GSL_SUCCESS &&
-                gsl_linalg_cholesky_rcond(f->normal, &rcond, work) == GSL_SUCCESS &&
+    bool good = work != NULL &&
+                gsl_linalg_cholesky_decomp2(system->normal, system->scale) == GSL_SUCCESS &&
+                gsl_linalg_cholesky_rcond(system->normal, &rcond, work) == GSL_SUCCESS &&
                 rcond > too_squared;
 
     gsl_vector_free(work);
@@ -344,26 +362,27 @@ factor_normal(struct fit *f)
 
 /* Adds the step to the coefficients; returns its largest entry. */
 static double
-take_step(struct fit *f)
+take_step(double *c, const double *step, size_t terms)
 {
     double largest = 0;
 
-    for (size_t k = 0; k < f->terms; k++) {
-        f->c[k] += f->step[k];
-        largest = fmax(largest, fabs(f->step[k]));
+    for (size_t k = 0; k < terms; k++) {
+        c[k] += step[k];
+        largest = fmax(largest, fabs(step[k]));
     }
     return largest;
 }
 
 static double
-solve_normal(struct fit *f)
+solve_normal(const struct basis *basis, struct system *system, double *c)
 {
-    gsl_vector_view step = gsl_vector_view_array(f->step, f->terms);
+    gsl_vector_view step = gsl_vector_view_array(system->step, basis->terms);
 
-    for (size_t k = 0; k < f->terms; k++)
-        gsl_vector_set(f->right, k, f->of_residuals[f->term[k].b * f->nx_terms + f->term[k].a]);
-    gsl_linalg_cholesky_solve2(f->normal, f->scale, f->right, &step.vector);
-    return take_step(f);
+    for (size_t k = 0; k < basis->terms; k++)
+        gsl_vector_set(system->right, k,
+                       system->of_residuals[basis->term[k].b * basis->nx_terms + basis->term[k].a]);
+    gsl_linalg_cholesky_solve2(system->normal, system->scale, system->right, &step.vector);
+    return take_step(c, system->step, basis->terms);
 }
 
 /* ---- the factorisation of all equations ---- */
@@ -376,28 +395,28 @@ struct blocks {
 
 /* Equation k of a block, of the point (i, j), its residual e and its weight. */
 static void
-put_equation(const struct fit *f, struct blocks *q, size_t k, size_t i, size_t j, double e,
-             double w)
+put_equation(const struct basis *basis, const struct rc_shape *s, struct blocks *q, size_t k,
+             size_t i, size_t j, double e, double w)
 {
-    const struct rc_shape *s = f->shape;
     double *to = gsl_matrix_ptr(q->equations, k, 0);
 
-    for (size_t t = 0; t < f->terms; t++)
-        to[t] = sqrt(w) * f->px[f->term[t].a * s->nx + i] * f->py[f->term[t].b * s->ny + j];
+    for (size_t t = 0; t < basis->terms; t++)
+        to[t] = sqrt(w) * basis->px[basis->term[t].a * s->nx + i] *
+                basis->py[basis->term[t].b * s->ny + j];
     gsl_vector_set(q->heights, k, sqrt(w) * e);
 }
 
 /* Passes the first n equations of the block to GSL, which needs at least as many as there are terms. The
  * block is filled up with 0 = 0. */
 static int
-factor_block(struct fit *f, struct blocks *q, size_t n)
+factor_block(size_t terms, struct blocks *q, size_t n)
 {
-    size_t m = n < f->terms ? f->terms : n;
-    gsl_matrix_view equations = gsl_matrix_submatrix(q->equations, 0, 0, m, f->terms);
+    size_t m = n < terms ? terms : n;
+    gsl_matrix_view equations = gsl_matrix_submatrix(q->equations, 0, 0, m, terms);
     gsl_vector_view heights = gsl_vector_subvector(q->heights, 0, m);
 
     for (size_t k = n; k < m; k++) {
-        for (size_t term = 0; term < f->terms; term++)
+        for (size_t term = 0; term < terms; term++)
             gsl_matrix_set(q->equations, k, term, 0);
         gsl_vector_set(q->heights, k, 0);
     }
@@ -416,28 +435,28 @@ factor_all(struct fit *f, struct blocks *q)
         for (size_t i = 0; i < f->shape->nx && code == GSL_SUCCESS; i++) {
             if (!(w[i] > 0))
                 continue;
-            put_equation(f, q, n++, i, j, e[i], w[i]);
+            put_equation(&f->basis, f->shape, q, n++, i, j, e[i], w[i]);
             if (n == BLOCK) {
-                code = factor_block(f, q, n);
+                code = factor_block(f->basis.terms, q, n);
                 n = 0;
             }
         }
     }
-    return code == GSL_SUCCESS && n > 0 ? factor_block(f, q, n) : code;
+    return code == GSL_SUCCESS && n > 0 ? factor_block(f->basis.terms, q, n) : code;
 }
 
 static enum rc_status
 solve_blocks(struct fit *f, struct blocks *q, struct rc_err *err)
 {
-    gsl_vector_view step = gsl_vector_view_array(f->step, f->terms);
+    gsl_vector_view step = gsl_vector_view_array(f->system.step, f->basis.terms);
     double rcond = 0, residual, norm;
     int code;
 
-    q->equations = gsl_matrix_alloc(BLOCK, f->terms);
+    q->equations = gsl_matrix_alloc(BLOCK, f->basis.terms);
     q->heights = gsl_vector_alloc(BLOCK);
-    q->work = gsl_multilarge_linear_alloc(gsl_multilarge_linear_tsqr, f->terms);
+    q->work = gsl_multilarge_linear_alloc(gsl_multilarge_linear_tsqr, f->basis.terms);
     if (q->equations == NULL || q->heights == NULL || q->work == NULL)
-        return rc_err_set(err, "out of memory for a polynomial of degree %zu", f->degree);
+        return rc_err_set(err, "out of memory for a polynomial of degree %zu", f->basis.degree);
     if ((code = factor_all(f, q)) != GSL_SUCCESS)
         return rc_err_set(err, "the fit failed: %s", gsl_strerror(code));
     code = gsl_multilarge_linear_rcond(&rcond, q->work);
@@ -445,11 +464,11 @@ solve_blocks(struct fit *f, struct blocks *q, struct rc_err *err)
         return rc_err_set(err,
                           "the points that %s do not determine a polynomial of degree %zu: too few "
                           "rows or columns of them, or all on one curve; take a lower degree",
-                          f->reach > 0 ? "are left with weight" : "are there", f->degree);
+                          f->reach > 0 ? "are left with weight" : "are there", f->basis.degree);
     code = gsl_multilarge_linear_solve(0, &step.vector, &residual, &norm, q->work);
     if (code != GSL_SUCCESS)
         return rc_err_set(err, "the fit failed: %s", gsl_strerror(code));
-    take_step(f);
+    take_step(f->c, f->system.step, f->basis.terms);
     return RC_OK;
 }
 
@@ -474,13 +493,13 @@ solve(struct fit *f, struct rc_err *err)
     double first;
 
     sum_map(f, true);
-    set_normal(f);
-    if (!factor_normal(f))
+    set_normal(&f->basis, &f->system);
+    if (!factor_normal(&f->system, f->basis.terms))
         return solve_all(f, err);
-    first = solve_normal(f);
+    first = solve_normal(&f->basis, &f->system, f->c);
     for (size_t k = 0; k < CORRECTIONS && f->residual == NULL; k++) {
         sum_map(f, false);
-        if (!(solve_normal(f) > 1e-15 * first))
+        if (!(solve_normal(&f->basis, &f->system, f->c) > 1e-15 * first))
             break;
     }
     return RC_OK;
