@@ -61,6 +61,15 @@ struct wave {
     double complex half;  /* i tan(d/2)                                    */
 };
 
+struct course {
+    double tol;      /* of the present elastic contact                        */
+    double estimate; /* relative error of p in the norm of V, times cos d     */
+    size_t contacts, iterations;
+    double convolutions;
+    bool ended; /* the state that was read is that of a last contact     */
+    bool done;
+};
+
 struct slide {
     struct rc_model base;
     struct rc_problem problem;
@@ -79,12 +88,7 @@ struct slide {
     int threads;
     double steepest; /* largest tan d                                         */
     double lossy;    /* largest tan delta of the material                     */
-    double tol;      /* of the present elastic contact                        */
-    double estimate; /* relative error of p in the norm of V, times cos d     */
-    size_t contacts, iterations;
-    double convolutions;
-    bool ended; /* the state that was read is that of a last contact     */
-    bool done;
+    struct course course;
     struct rc_sliding_figures f;
 };
 
@@ -120,19 +124,20 @@ static const struct rc_frame_kind frames[] = {RC_CONTACT_FRAME_KINDS, {NULL, NUL
 
 /* J of column k, with the sign of the imaginary part for a positive speed. */
 static double complex
-compliance(const struct slide *s, size_t k, double speed)
+compliance(const struct rc_sliding_problem *law, const struct rc_shape *turned, size_t k,
+           double speed)
 {
-    const struct rc_relaxation *r = s->law.material;
-    const double first = 2 * RC_PI / ((double)s->turned.nx * s->turned.dx);
+    const struct rc_relaxation *r = law->material;
+    const double first = 2 * RC_PI / ((double)turned->nx * turned->dx);
     const double omega = first * (double)k * fabs(speed);
     double modulus[2], j[2];
 
-    if (k == 0 && !s->law.repeats)
-        return rc_relaxation_mean_compliance(r, first * fabs(speed) / 2) + s->law.compliance;
+    if (k == 0 && !law->repeats)
+        return rc_relaxation_mean_compliance(r, first * fabs(speed) / 2) + law->compliance;
     if (!(omega > 0))
-        return 1 / r->relaxed + s->law.compliance;
+        return 1 / r->relaxed + law->compliance;
     rc_relaxation_dynamic(r, omega, modulus, j);
-    return j[0] + s->law.compliance - I * (2 * k == s->turned.nx ? 0 : j[1]);
+    return j[0] + law->compliance - I * (2 * k == turned->nx ? 0 : j[1]);
 }
 
 static double
@@ -148,11 +153,11 @@ static void
 set_waves(struct slide *s, double speed)
 {
     /* about the waves of the roughness that the inner model takes for typical */
-    const double typical = cabs(compliance(s, (s->turned.nx + 3) / 4, speed));
+    const double typical = cabs(compliance(&s->law, &s->turned, (s->turned.nx + 3) / 4, speed));
 
     s->steepest = s->lossy = s->along.most = 0;
     for (size_t k = 0; k < s->columns; k++) {
-        const double complex j = compliance(s, k, speed);
+        const double complex j = compliance(&s->law, &s->turned, k, speed);
         const double d = copysign(carg(j), speed);
         s->wave[k] = (struct wave){cabs(j) / typical, cexp(I * d) - 1, I * tan(d / 2)};
         s->steepest = s->lossy = fmax(s->steepest, fabs(tan(d)));
@@ -209,19 +214,19 @@ filter_row(const struct slide *s, enum filter which, double *row)
 
 /* The derivative of a map that does not repeat, by central differences. */
 static void
-differentiate(const struct slide *s, double *map)
+differentiate(const struct rc_shape *shape, double *map)
 {
-    const long n = (long)s->turned.nx;
+    const long n = (long)shape->nx;
 
-    for (size_t j = 0; j < s->turned.ny; j++) {
-        double *row = map + j * s->turned.nx, last[3] = {row[0], row[0], row[0]};
+    for (size_t j = 0; j < shape->ny; j++) {
+        double *row = map + j * shape->nx, last[3] = {row[0], row[0], row[0]};
         for (long i = 0; i < n; i++) {
             const double here = row[i];
             double sum = 0;
             for (long k = 1; k <= 3; k++)
                 sum += (double[]){45, -9, 1}[k - 1] / 60 *
                        (row[i + k < n ? i + k : n - 1] - last[k - 1]);
-            row[i] = sum / s->turned.dx;
+            row[i] = sum / shape->dx;
             last[2] = last[1];
             last[1] = last[0];
             last[0] = here;
@@ -234,10 +239,10 @@ static void
 filter(struct slide *s, enum filter which, double *map)
 {
     if (s->problem.boundary == RC_FREE && which == SLOPE) {
-        differentiate(s, map);
+        differentiate(&s->turned, map);
         return;
     }
-    s->convolutions += s->wake != NULL ? of_wake : of_filter;
+    s->course.convolutions += s->wake != NULL ? of_wake : of_filter;
     if (s->wake != NULL) {
         if (!s->loaded)
             rc_wake_load(s->wake, rc_elastic_pressure(s->base.inner));
@@ -268,8 +273,8 @@ next_heights(struct slide *s)
     struct rc_elastic_heights heights = {s->room, 0};
     size_t iterations;
 
-    s->convolutions += rc_elastic_work(s->base.inner, &iterations);
-    s->iterations += iterations;
+    s->course.convolutions += rc_elastic_work(s->base.inner, &iterations);
+    s->course.iterations += iterations;
     if (rc_point_has(to, RC_APPROACH))
         heights.approach = fmax(to->at[RC_APPROACH] + rc_highest(s->room, s->n) - s->top,
                                 1e-12 * to->at[RC_APPROACH]);
@@ -277,9 +282,9 @@ next_heights(struct slide *s)
 }
 
 static double
-goal_of(const struct slide *s)
+goal_of(double tol, double steepest)
 {
-    return s->problem.tol / hypot(1, s->steepest);
+    return tol / hypot(1, steepest);
 }
 
 /* Judges the pressure in the sliding contact, from V p. Afterwards the inner model has the heights
@@ -294,7 +299,8 @@ judge(struct slide *s, const double *displacement, struct rc_err *err)
     for (size_t k = 0; k < s->n; k++)
         s->room[k] = s->h[k] - s->room[k];
     heights = next_heights(s);
-    return rc_elastic_judge(s->base.inner, &heights, goal_of(s), &s->estimate, err);
+    return rc_elastic_judge(s->base.inner, &heights, goal_of(s->problem.tol, s->steepest),
+                            &s->course.estimate, err);
 }
 
 static enum rc_status
@@ -302,11 +308,12 @@ next_contact(struct slide *s, struct rc_err *err)
 {
     struct rc_elastic_heights heights;
 
-    s->tol = fmin(loosest, of_error * s->estimate);
+    s->course.tol = fmin(loosest, of_error * s->course.estimate);
     for (size_t k = 0; k < s->n; k++)
         s->room[k] = s->h[k] - s->g[k];
     heights = next_heights(s);
-    return rc_elastic_resume(s->base.inner, &heights, s->tol, s->tol > single_floor, err) == RC_OK
+    return rc_elastic_resume(s->base.inner, &heights, s->course.tol, s->course.tol > single_floor,
+                             err) == RC_OK
                ? RC_MORE
                : RC_FAIL;
 }
@@ -320,11 +327,12 @@ conclude(struct slide *s, struct rc_err *err)
 
     if (judge(s, rc_elastic_hold(inner, true), err) != RC_OK)
         return RC_FAIL;
-    s->done = s->estimate <= goal_of(s) && rc_elastic_reached(inner);
-    if (!s->done && s->contacts < MOST_CONTACTS)
+    s->course.done =
+        s->course.estimate <= goal_of(s->problem.tol, s->steepest) && rc_elastic_reached(inner);
+    if (!s->course.done && s->course.contacts < MOST_CONTACTS)
         return next_contact(s, err);
-    rc_elastic_conclude(inner, s->estimate);
-    return s->done ? RC_OK : RC_SHORT;
+    rc_elastic_conclude(inner, s->course.estimate);
+    return s->course.done ? RC_OK : RC_SHORT;
 }
 
 /* After an elastic contact: RC_OK if its pressure solves the sliding contact; otherwise poses the next
@@ -339,9 +347,11 @@ advance(struct slide *s, struct rc_err *err)
     filter(s, HALF, s->g);
     if (judge(s, displacement, err) != RC_OK)
         return RC_FAIL;
-    s->contacts++;
-    return s->estimate <= goal_of(s) || s->contacts >= MOST_CONTACTS ? conclude(s, err)
-                                                                     : next_contact(s, err);
+    s->course.contacts++;
+    return s->course.estimate <= goal_of(s->problem.tol, s->steepest) ||
+                   s->course.contacts >= MOST_CONTACTS
+               ? conclude(s, err)
+               : next_contact(s, err);
 }
 
 /* ---- verbs ---- */
@@ -376,13 +386,13 @@ go(struct rc_model *m, struct rc_err *err)
                           speed, s->wake != NULL ? "wake" : "material", s->steepest,
                           s->wake != NULL ? "padded " : "", most_tan);
     memset(s->g, 0, s->n * sizeof *s->g);
-    s->contacts = s->iterations = 0;
-    s->convolutions = 0;
-    s->tol = loosest;
-    s->estimate = NAN;
-    s->done = s->ended = false;
+    s->course.contacts = s->course.iterations = 0;
+    s->course.convolutions = 0;
+    s->course.tol = loosest;
+    s->course.estimate = NAN;
+    s->course.done = s->course.ended = false;
     inner = rc_point_for(m->inner, &m->to);
-    rc_model_set_accuracy(m->inner, s->tol / s->problem.tol);
+    rc_model_set_accuracy(m->inner, s->course.tol / s->problem.tol);
     if (rc_model_go(m->inner, &inner, err) != RC_MORE)
         return RC_FAIL;
     rc_elastic_set_rough(m->inner, true);
@@ -396,8 +406,8 @@ step(struct rc_model *m, struct rc_err *err)
     enum rc_status status;
 
     s->loaded = false;
-    if (s->ended) {
-        s->ended = false;
+    if (s->course.ended) {
+        s->course.ended = false;
         return conclude(s, err);
     }
     status = rc_model_step(m->inner, err);
@@ -459,29 +469,29 @@ look(struct rc_model *m, struct rc_point *at, struct rc_err *err)
     struct slide *s = (struct slide *)m;
     struct rc_sliding_figures *f = &s->f;
     const struct rc_contact *c = &rc_elastic_result(m->inner)->contact;
-    const double spent = s->convolutions;
+    const double spent = s->course.convolutions;
     double force[2], steep;
     size_t iterations;
 
     if (m->looked)
         goto done;
     find_friction(s, force, &steep);
-    s->convolutions = spent;
+    s->course.convolutions = spent;
     f->dissipated_power = force[0] * fabs(s->base.to.at[RC_SPEED]);
     if (s->problem.boundary == RC_PERIODIC && find_power(s, &f->dissipated_power, err) != RC_OK)
         return RC_FAIL;
     f->speed = m->to.at[RC_SPEED];
     f->friction_force = force[0];
     f->friction = force[0] / c->load;
-    f->pressure_error = s->estimate * hypot(1, s->steepest);
+    f->pressure_error = s->course.estimate * hypot(1, s->steepest);
     f->friction_error = fabs(force[0] - force[1]) / c->load + f->pressure_error * steep;
     f->tan_delta_max = s->lossy;
     f->track = s->law.repeats ? "repeated" : "fresh";
     f->approach = c->approach - rc_elastic_top(m->inner) + s->top;
-    f->contacts = s->contacts;
-    f->iterations = s->iterations;
-    f->convolutions = s->convolutions + rc_elastic_work(m->inner, &iterations);
-    f->converged = s->done && c->converged;
+    f->contacts = s->course.contacts;
+    f->iterations = s->course.iterations;
+    f->convolutions = s->course.convolutions + rc_elastic_work(m->inner, &iterations);
+    f->converged = s->course.done && c->converged;
     f->elastic_energy = NAN;
 done:
     at->at[RC_LOAD] = c->load;
@@ -551,9 +561,9 @@ state(struct rc_model *m, struct rc_state *x)
 
     if (!m->moved)
         return;
-    rc_state_count(x, &s->contacts, MOST_CONTACTS);
-    rc_state_count(x, &s->iterations, (size_t)1 << 40);
-    RC_STATE_SIZES(x, &s->convolutions, &s->tol);
+    rc_state_count(x, &s->course.contacts, MOST_CONTACTS);
+    rc_state_count(x, &s->course.iterations, (size_t)1 << 40);
+    RC_STATE_SIZES(x, &s->course.convolutions, &s->course.tol);
     rc_state_map(x, s->n, s->g);
     if (rc_state_reads(x) && make_inner(s, m->to.at[RC_SPEED], &err) != RC_OK) {
         rc_state_refuse(x, err.text);
@@ -563,20 +573,20 @@ state(struct rc_model *m, struct rc_state *x)
         exchange_waves(s, x);
     if (!rc_state_reads(x))
         return;
-    s->done = false;
-    s->ended = m->status == RC_OK || m->status == RC_SHORT;
+    s->course.done = false;
+    s->course.ended = m->status == RC_OK || m->status == RC_SHORT;
     for (size_t k = 0; k < s->n; k++)
         s->room[k] = s->h[k] - s->g[k];
     if (rc_model_set_heights(m->inner, s->room, &err) != RC_OK)
         rc_state_refuse(x, err.text);
     else
-        rc_model_set_accuracy(m->inner, s->tol / s->problem.tol);
+        rc_model_set_accuracy(m->inner, s->course.tol / s->problem.tol);
 }
 
 static void
 progress(const struct rc_model *m, struct rc_loops *l)
 {
-    rc_loops_add(l, "contact", NULL, (double)((const struct slide *)m)->contacts + 1, NAN);
+    rc_loops_add(l, "contact", NULL, (double)((const struct slide *)m)->course.contacts + 1, NAN);
 }
 
 /* The error decreases in each contact by the factor tan(d/2). */
@@ -592,7 +602,7 @@ plan(const struct rc_model *m, const struct rc_point *most, struct rc_expected *
     if (rc_model_plan(m->inner, &inner, expected, err) != RC_OK)
         return RC_FAIL;
     for (size_t k = 1; k < s->columns; k++) {
-        const double complex j = compliance(s, k, most->at[RC_SPEED]);
+        const double complex j = compliance(&s->law, &s->turned, k, most->at[RC_SPEED]);
         steepest = fmax(steepest, cimag(j) / creal(j));
     }
     contacts = fmax(log(s->problem.tol / (start * steepest)) / log(tan(atan(steepest) / 2)), 0);
