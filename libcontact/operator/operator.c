@@ -103,7 +103,7 @@ set_inverse_near(struct own *s)
     };
     const struct rc_shape nodes = unit_of(&s->op.whole), *unit = &nodes;
     const double length = sqrt(s->op.whole.dx) * sqrt(s->op.whole.dy);
-    const double plus = s->op.plus / s->op.unit;
+    const double plus = s->op.soft.plus / s->op.unit;
     double a = RC_PI / unit->dx, b = RC_PI / unit->dy, d = hypot(a, b), sum[2][2] = {{0}};
 
     for (int l = 0; l < CELLS; l++)
@@ -120,7 +120,7 @@ set_inverse_near(struct own *s)
         sum[0][0] += (2 * d + a * a / b * asinh(b / a) + b * b / a * asinh(a / b)) / 12;
     for (int j = 0; j < 3; j++)
         for (int i = 0; i < 3; i++)
-            s->op.inverse_near[j][i] = sum[j != 1][i != 1];
+            s->op.near.inverse[j][i] = sum[j != 1][i != 1];
 }
 
 /* The inverse, (-Laplace)^(1/2) E* / 2, couples two nodes with the strength |x|^(-3) of their distance. */
@@ -130,7 +130,7 @@ set_neighbours(struct rc_operator *op, const struct rc_shape *unit)
     for (int b = -1; b <= 1; b++)
         for (int a = -1; a <= 1; a++) {
             double r = hypot(a * unit->dx, b * unit->dy);
-            op->neighbour[b + 1][a + 1] = r > 0 ? 1 / (r * r * r) : 0;
+            op->near.neighbour[b + 1][a + 1] = r > 0 ? 1 / (r * r * r) : 0;
         }
 }
 
@@ -267,7 +267,7 @@ rc_operator_free(struct rc_operator *op)
     rc_spectrum_free(s->inverse);
     rc_solids_free(&s->own);
     rc_store_free(&s->memory);
-    free(s->op.sunk);
+    free(s->op.soft.sunk);
     free(s);
 }
 
@@ -491,8 +491,8 @@ rc_operator_coarse(const struct rc_operator *op, const struct rc_ranks *ranks,
     if (plan(s, shape, &o, err) != RC_OK)
         return NULL;
     coarse->estar = op->estar;
-    return (op->plus == 0 && op->row == 0) ||
-                   rc_operator_set_diagonal(coarse, op->plus, NULL, op->row, err) == RC_OK
+    return (op->soft.plus == 0 && op->soft.row == 0) ||
+                   rc_operator_set_diagonal(coarse, op->soft.plus, NULL, op->soft.row, err) == RC_OK
                ? rc_give(&coarse)
                : NULL;
 }
@@ -528,8 +528,9 @@ rc_operator_seconds(const struct rc_shape *shape, const struct rc_operator_optio
 void
 rc_operator_own_range(const struct rc_operator *op, double *lowest, double *highest)
 {
-    const size_t n = op->part == NULL ? 0 : op->shape.nx * op->shape.ny;
-    double low = op->part == NULL ? op->plus : INFINITY, high = op->part == NULL ? op->plus : 0;
+    const size_t n = op->soft.part == NULL ? 0 : op->shape.nx * op->shape.ny;
+    double low = op->soft.part == NULL ? op->soft.plus : INFINITY,
+           high = op->soft.part == NULL ? op->soft.plus : 0;
 
     for (size_t k = 0; k < n; k++) {
         low = fmin(low, rc_operator_own(op, k));
@@ -546,26 +547,26 @@ rc_operator_set_diagonal(struct rc_operator *op, double plus, const double *part
     struct own *s = (struct own *)op;
     double lowest, highest;
 
-    op->plus = op->own = plus;
-    op->part = plus > 0 ? part : NULL;
-    if (op->part != NULL && make_rows(s, err) != RC_OK)
+    op->soft.plus = op->soft.own = plus;
+    op->soft.part = plus > 0 ? part : NULL;
+    if (op->soft.part != NULL && make_rows(s, err) != RC_OK)
         return RC_FAIL;
-    op->row = row;
-    free(op->sunk);
-    op->sunk = row > 0 ? rc_alloc(op->shape.ny, sizeof *op->sunk) : NULL;
-    if (row > 0 && op->sunk == NULL)
+    op->soft.row = row;
+    free(op->soft.sunk);
+    op->soft.sunk = row > 0 ? rc_alloc(op->shape.ny, sizeof *op->soft.sunk) : NULL;
+    if (row > 0 && op->soft.sunk == NULL)
         return rc_err_set(err, "out of memory for the motion of %zu rows", op->shape.ny);
     rc_operator_own_range(op, &lowest, &highest);
-    if (op->part != NULL)
-        op->plus =
+    if (op->soft.part != NULL)
+        op->soft.plus =
             sqrt(fmax(lowest, RC_LEAST_OWN * op->unit) * fmax(highest, RC_LEAST_OWN * op->unit));
     op->norm = s->bare.norm + highest + row * op->shape.dx * (double)op->shape.nx;
-    op->diagonal = s->bare.diagonal + op->plus + row * op->shape.dx;
+    op->diagonal = s->bare.diagonal + op->soft.plus + row * op->shape.dx;
     op->mean_free = op->boundary == RC_PERIODIC && plus == 0 && row == 0;
     op->edges = plus > 0 || row > 0 || (op->boundary == RC_FREE && !s->positive);
-    rc_spectrum_add(s->kernel, s->fft, false, op->part == NULL ? plus / op->unit : 0,
+    rc_spectrum_add(s->kernel, s->fft, false, op->soft.part == NULL ? plus / op->unit : 0,
                     row * op->shape.dx / op->unit);
-    rc_operator_set_inverse(op, op->plus);
+    rc_operator_set_inverse(op, op->soft.plus);
     set_inverse_near(s);
     return RC_OK;
 }
@@ -575,7 +576,8 @@ rc_operator_set_inverse(struct rc_operator *op, double plus)
 {
     struct own *s = (struct own *)op;
 
-    rc_spectrum_add(s->inverse, s->fft, true, plus / op->unit, op->row * op->shape.dx / op->unit);
+    rc_spectrum_add(s->inverse, s->fft, true, plus / op->unit,
+                    op->soft.row * op->shape.dx / op->unit);
 }
 
 /* ---- use ---- */
@@ -583,8 +585,8 @@ rc_operator_set_inverse(struct rc_operator *op, double plus)
 void
 rc_operator_sink(struct rc_operator *op, const double *p)
 {
-    for (size_t j = 0; j < op->shape.ny && op->sunk != NULL; j++)
-        op->sunk[j] = op->row * op->shape.dx * rc_sum(p + j * op->shape.nx, op->shape.nx);
+    for (size_t j = 0; j < op->shape.ny && op->soft.sunk != NULL; j++)
+        op->soft.sunk[j] = op->soft.row * op->shape.dx * rc_sum(p + j * op->shape.nx, op->shape.nx);
 }
 
 void
@@ -594,7 +596,7 @@ rc_operator_apply(struct rc_operator *op, const double *p, double *u)
     const size_t n = op->shape.nx * op->shape.ny;
 
     rc_conv_apply(s->conv, p, u);
-    if (op->plus == 0 && op->row == 0)
+    if (op->soft.plus == 0 && op->soft.row == 0)
         return;
     rc_operator_sink(op, p);
 #pragma omp parallel for num_threads(rc_useful_threads(&op->shape, op->threads)) schedule(static)
@@ -661,7 +663,7 @@ rc_operator_apply_rows(struct rc_operator *op, rc_row *in, rc_row *out, void *ct
     struct own *s = (struct own *)op;
     const struct rc_spectrum *factors[] = {s->kernel};
     struct beside beside = {s, in, out, ctx};
-    const bool by_node = op->part != NULL;
+    const bool by_node = op->soft.part != NULL;
     rc_row *rows[] = {by_node ? row_in : in, by_node ? row_out : out};
 
     if (s->p != NULL)
@@ -711,5 +713,5 @@ rc_operator_power(const struct rc_operator *op, double q)
         a = of_plane(s, q);
         inverse = rc_solids_modulus(s->bodies, q) * q / 2;
     }
-    return a / (1 + op->plus * inverse);
+    return a / (1 + op->soft.plus * inverse);
 }

@@ -16,6 +16,29 @@
 /* Constant after it is made. Pressures and displacements row by row are in single precision and in their own
  * units: u = unit K' p. K' is about 1, so that no decade of metres or pascals is lost. Lengths beside them
  * are in units of sqrt(dx dy). */
+/* The compliance beside that of the bodies. */
+struct rc_operator_soft {
+    /* m/Pa: D of the diagonal term, that of a typical node; K below is K + D. With `part` (else NULL, and all
+     * nodes have `plus`) node k has own part[k]. */
+    double plus, own;
+    const double *part;
+    /* 1/Pa: each row also moves by this times the integral of p along it, which is part of K below */
+    double row;
+    double *sunk; /* m: motion of each row held here, see rc_operator_sink; NULL: row is 0 */
+};
+
+/* Members of the inverse, in the units of rows. */
+struct rc_operator_near {
+    double
+        inverse[3]
+               [3]; /* the pressures on a node and its eight neighbours that move this node by 1 and
+                               no other node */
+    double
+        neighbour[3]
+                 [3]; /* the coupling of this node to each of the eight in smooth motions, up to a
+                               factor */
+};
+
 struct rc_operator {
     struct rc_shape whole, shape; /* shape of the whole map, and of the rows held here */
     struct rc_rows rows;          /* rows held here */
@@ -23,20 +46,10 @@ struct rc_operator {
     size_t threads;
     double unit;  /* m/Pa                                                             */
     double estar; /* Pa, if it is the same for all waves; NAN: it is not              */
-    /* m/Pa: D of the diagonal term, that of a typical node; K below is K + D. With `part` (else NULL, and all
-     * nodes have `plus`) node k has own part[k]. */
-    double plus, own;
-    const double *part;
-    /* 1/Pa: each row also moves by this times the integral of p along it, which is part of K below */
-    double row;
-    double *sunk;    /* m: motion of each row held here, see rc_operator_sink; NULL: row is 0 */
+    struct rc_operator_soft soft;
     double norm;     /* m/Pa: a bound of the largest eigenvalue                          */
     double diagonal; /* m/Pa: displacement of a node under unit pressure on its own cell */
-    /* Members of the inverse, in the units of rows. First: the pressures on a node and its eight neighbours
-     * that move this node by 1 and no other node. Second: the coupling of this node to each of the eight in
-     * smooth motions, up to a factor. */
-    double inverse_near[3][3];
-    double neighbour[3][3];
+    struct rc_operator_near near;
     struct rc_frame frame; /* nodes of the padding in rc_operator_chain_framed */
     /* a common shift of a set needs pressures of its own at the edges (see working_set.c): layers on a free
      * map */
@@ -95,13 +108,14 @@ void rc_operator_sink(struct rc_operator *op, const double *p);
 static inline double
 rc_operator_own(const struct rc_operator *op, size_t k)
 {
-    return op->part == NULL ? op->plus : op->own * op->part[k];
+    return op->soft.part == NULL ? op->soft.plus : op->soft.own * op->soft.part[k];
 }
 /* Motion of node k under the pressure p on it, m, without that of the bodies. */
 static inline double
 rc_operator_own_motion(const struct rc_operator *op, size_t k, double p)
 {
-    return rc_operator_own(op, k) * p + (op->sunk == NULL ? 0 : op->sunk[k / op->shape.nx]);
+    return rc_operator_own(op, k) * p +
+           (op->soft.sunk == NULL ? 0 : op->soft.sunk[k / op->shape.nx]);
 }
 /* The smallest and the largest D of all nodes, m/Pa. */
 void rc_operator_own_range(const struct rc_operator *op, double *lowest, double *highest);

@@ -219,7 +219,7 @@ rc_iterate_shift(struct rc_solver *s)
 double
 rc_iterate_stiffness(const struct rc_solver *s)
 {
-    return s->op->inverse_near[1][1] / (s->load.length * s->load.per_pressure);
+    return s->op->near.inverse[1][1] / (s->load.length * s->load.per_pressure);
 }
 
 /* Allowed relative error of the load for the balancing shift, which only selects a working set. At 1e-4

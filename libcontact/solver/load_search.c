@@ -148,7 +148,7 @@ rc_load_first(struct rc_solver *s, const struct rc_problem *problem, struct rc_e
     cut = rc_ranks_sum(s->posed.rows.ranks, cut);
     if (!(guess > 0))
         guess = s->posed.cell / s->op->unit * problem->approach * sqrt((double)cut) /
-                (1 + s->op->plus / (s->op->unit * sqrt((double)cut)));
+                (1 + s->op->soft.plus / (s->op->unit * sqrt((double)cut)));
     begin_search(s, problem->approach);
     if (!problem->tilt_free && check_approach(s, problem->approach, err) != RC_OK)
         return RC_FAIL;

@@ -313,7 +313,7 @@ start_from_springs(struct rc_solver *solver)
         least = fmin(least, solver->posed.h[k]);
     least = -rc_ranks_most(solver->posed.rows.ranks, -least);
     stiffness =
-        fmin(1 / (solver->op->unit + solver->op->plus),
+        fmin(1 / (solver->op->unit + solver->op->soft.plus),
              longest * fmin(rc_reach(&solver->posed.bounds, solver->load.sum), solver->load.sum) /
                  -least);
     for (size_t k = 0; k < solver->posed.n; k++)
@@ -697,7 +697,7 @@ static struct rc_found
 iterate(struct rc_solver *solver, struct pcg *s)
 {
     struct rc_found found = {0};
-    double mean = 0, alpha, short_wave = solver->op->unit + solver->op->plus;
+    double mean = 0, alpha, short_wave = solver->op->unit + solver->op->soft.plus;
     bool still;
 
     if (!solver->it.known && !rc_solver_hurried(solver))

@@ -203,7 +203,8 @@ base_of(const struct rc_shape *whole, enum rc_boundary boundary, struct rc_frame
 static bool
 splits(const struct rc_preconditioner *e)
 {
-    return e->op->row * e->op->shape.dx * sqrt((double)e->op->shape.nx) > shortest * e->op->unit;
+    return e->op->soft.row * e->op->shape.dx * sqrt((double)e->op->shape.nx) >
+           shortest * e->op->unit;
 }
 
 static enum rc_status
@@ -274,7 +275,7 @@ set_levels(struct rc_preconditioner *e, double *weight, struct rc_err *err)
 
     e->levels = 1;
     e->ratio = 1;
-    if (op->part == NULL)
+    if (op->soft.part == NULL)
         return RC_OK;
     rc_operator_own_range(op, &least, &most);
     e->first = fmax(least, floor);
@@ -308,7 +309,7 @@ rc_preconditioner_tune(struct rc_preconditioner *e, struct rc_err *err)
         return RC_FAIL;
     for (size_t l = 0; l < e->levels; l++)
         e->used[l] = e->levels == 1 || rc_ranks_most(e->op->rows.ranks, weight[l]) > 1e-3;
-    if (e->levels == 1 && e->op->part != NULL)
+    if (e->levels == 1 && e->op->soft.part != NULL)
         rc_operator_set_inverse(e->op, d_of(e, 0));
     rc_pyramid_tune(e->pyramid, power, e->op);
     return RC_OK;
@@ -565,8 +566,9 @@ join(const struct rc_preconditioner *e, size_t j, float *z)
     for (size_t i = 0; i < n; i++)
         count += e->w[j * n + i] != 0;
     if (count > 0)
-        more = e->mean[j] / (float)((op->plus + op->row * op->shape.dx * (double)count) / op->unit +
-                                    shortest * sqrt((double)count));
+        more = e->mean[j] /
+               (float)((op->soft.plus + op->soft.row * op->shape.dx * (double)count) / op->unit +
+                       shortest * sqrt((double)count));
     (void)level(n, e->w + j * n, z, more, z, &count);
 }
 

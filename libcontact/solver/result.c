@@ -115,7 +115,7 @@ spread_block(void *at, size_t first, size_t n, double *sums)
     const struct rc_solver *s = f->s;
     const struct rc_box box = rc_box(s, 0);
     const double shift = s->it.shift, mean_h = f->mean_h, mean_u = f->mean_u;
-    const bool own = s->op->plus > 0 || s->op->row > 0;
+    const bool own = s->op->soft.plus > 0 || s->op->soft.row > 0;
     double sum[RC_SUMS] = {0};
 
     for (size_t k = first; k < first + n; k++) {

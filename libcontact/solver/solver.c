@@ -455,7 +455,8 @@ enum rc_status
 rc_solver_set_diagonal(struct rc_solver *s, double plus, const double *part, double row,
                        struct rc_err *err)
 {
-    if (plus == s->op->own && part == NULL && s->op->part == NULL && row == s->op->row)
+    if (plus == s->op->soft.own && part == NULL && s->op->soft.part == NULL &&
+        row == s->op->soft.row)
         return RC_OK;
     if (rc_operator_set_diagonal(s->op, plus, part, row, err) != RC_OK ||
         rc_preconditioner_tune(s->preconditioner, err) != RC_OK)

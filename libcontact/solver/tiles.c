@@ -280,7 +280,7 @@ move_copy(struct rc_box box, struct copy *c, const struct place *t, const struct
 
     aim(box, m->alpha, m->mean, scale, c);
     if (c->out && c->sum > 0)
-        push_back(box, m->solver->op->inverse_near, most, c);
+        push_back(box, m->solver->op->near.inverse, most, c);
     else
         memset(c->push, 0, sizeof c->push);
     if (c->sum <= 0) /* the tile cannot carry its load, which is negative */

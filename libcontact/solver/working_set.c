@@ -222,7 +222,7 @@ sift_out(struct rc_solver *s, double *residual, double *count, double *changed)
 
     for (int b = 0; b < 3; b++)
         for (int a = 0; a < 3; a++)
-            c.weight[b][a] = (float)s->op->neighbour[b][a];
+            c.weight[b][a] = (float)s->op->near.neighbour[b][a];
     if (c.ahead) {
         rc_preconditioner_extend(s->preconditioner, s->set.w, s->set.r, s->z);
         rc_working_set_forget(s);
@@ -235,7 +235,7 @@ sift_out(struct rc_solver *s, double *residual, double *count, double *changed)
     *count -= total[OUT];
     *changed += total[CHANGED];
     s->set.saturated += total[SATURATED];
-    s->set.left_out = s->op->inverse_near[1][1] * total[SIZE];
+    s->set.left_out = s->op->near.inverse[1][1] * total[SIZE];
 }
 
 /* ---- the set and its residual ---- */
@@ -524,9 +524,9 @@ caution(const struct rc_solver *s)
         return 1 + 1 / fmax((double)s->it.elastic, 1);
     if (line)
         return 1.05 + 2 / fmax((double)s->it.elastic, 1);
-    if (s->op->row > 0)
+    if (s->op->soft.row > 0)
         return 1.5;
-    return s->op->part != NULL ? 3 : s->op->plus > 0 ? 1.01 : 1;
+    return s->op->soft.part != NULL ? 3 : s->op->soft.plus > 0 ? 1.01 : 1;
 }
 
 double
