@@ -344,7 +344,7 @@ def _one_of(word, known):
 
 
 def _help(row):
-    return row['help'].replace('%s', ', '.join(row['words']))
+    return row['help'].replace('%s', ', '.join(row['words'])) + '; ' * bool(row['rules']) + row['rules']
 
 
 def arguments(tool, given):

@@ -457,7 +457,7 @@ def built():
 
 
 def documented():
-    """Every option of --help is in the documentation and in the signature, and no other."""
+    """Every option of --help is in the documentation and in the signature, and no other; with its rules."""
     import inspect
     for name, command in built().items():
         help_ = tool(command, '--help')[1].decode()
@@ -470,6 +470,8 @@ def documented():
         assert set(rows) <= set(inspect.signature(function).parameters)
         for python in rows:
             assert '\n%s' % python in function.__doc__, (name, python)
+        for row in rows.values():
+            assert row['rules'] in function.__doc__, (name, row['rules'])
 
 
 def mutated(folder):

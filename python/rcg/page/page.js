@@ -64,18 +64,24 @@ function choice(title, words, act) {
 // ---- forms: a row for each option of a command ----
 
 const isFlag = row => row.argument === null && !row.words.length;
+// Whether two options never go together, by the rules in the tables.
+const plain = rule => rule.options.filter(({word}) => !word).map(({name}) => name);
+const excludes = (row, name) => row.against.some(rule => !rule.words.length && plain(rule).includes(name));
+const clash = (rows, a, b) => a !== b && rows.some(row => row.name === a && excludes(row, b) || row.name === b && excludes(row, a) ||
+  row.one_of.some(rule => plain(rule).includes(a) && plain(rule).includes(b)));
 const given = options => options.filter(([, value]) => value !== '' && value !== false);
 // changed() follows a new value, redo() another number of the options [[name, value], ...].
 function form(tool, options, changed, redo) {
   const rows = tables[tool].options, row = name => rows.find(other => other.name === name);
-  const free = rows.filter(({name, repeats}) => repeats || !options.some(option => option[0] === name));
+  const free = rows.filter(({name, repeats}) =>
+    options.every(([other]) => (repeats || name !== other) && !clash(rows, name, other)));
   const drop = option => { options.splice(options.indexOf(option), 1); redo(); };
   const enter = name => { options.push([name, isFlag(row(name)) || '']); redo(); };
   return make('div', {}, ...options.map(option => formRow(row(option[0]), option, changed, drop)),
     choice('Add an option of ' + tool, free.map(({name, help}) => [`${name}: ${help}`, name]), enter));
 }
 function formRow(row, option, changed, drop) {
-  const {name, words, units} = row, key = isFlag(row) ? 'checked' : 'value', id = 'field' + ++ids;
+  const {name, words, units, rules} = row, key = isFlag(row) ? 'checked' : 'value', id = 'field' + ++ids;
   const chosen = row.only_words && row.type === 'choice', type = isFlag(row) ? 'checkbox' : 'text';
   const field = chosen ? make('select', {id}, ...words.map(word => new Option(word)))
     : make('input', {id, type, spellcheck: false, autocomplete: 'off', placeholder: row.argument ?? ''});
@@ -85,7 +91,7 @@ function formRow(row, option, changed, drop) {
   const unit = units.length ? ` Units: ${units.join(', ')}; without a unit it is ${row.unit}.` : '';
   return make('div', {className: 'option'}, make('label', {htmlFor: id, textContent: name}), field,
     button('✕', () => drop(option), {'aria-label': 'Remove ' + name}),
-    hint(row.help.replace('%s', words.join(', ')) + '.' + unit));
+    hint(row.help.replace('%s', words.join(', ')) + (rules && '; ' + rules) + '.' + unit));
 }
 
 // ---- steps ----
