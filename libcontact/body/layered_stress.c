@@ -34,7 +34,9 @@ enum {
     PRESSURE = 4,     /* functions of the pressure           */
     FUNCTIONS = 4 + 7 /* functions of both loads             */
 };
-static const double far = 80; /* cells: beyond this means on a line of nodes */
+/* In cells: beyond this means on a line of nodes, whose next term is below 1e-13 of a load's stress, as
+ * in cell.c. */
+static const double far = 80;
 
 struct inside {
     struct rc_inside in;

@@ -309,7 +309,8 @@ rc_stack_inside(const struct rc_stack *s, size_t medium, double depth, double q,
 
 /* ---- at a distance ---- */
 
-/* q t above which a wave does not reach below the top layer. */
+/* The product q t above which a wave does not reach below the top layer: exp(-2 q t) = 2e-22 is far
+ * below rounding. */
 static const double thick = 25;
 
 static void

@@ -41,8 +41,9 @@ enum {
     STARTS = 4,      /* planes from which the search is refined */
     REFINEMENTS = 10 /* each halves the step                       */
 };
-/* Planes whose index is at least this part of the largest may be near another maximum that is larger; those
- * within 15 degrees of a better one belong to the same maximum. */
+/* Planes whose index is at least this part of the largest may be near another maximum that is larger;
+ * those within 15 degrees of a better one belong to the same maximum. The cosine of 15 degrees is
+ * 0.9659. */
 static const double near_best = 0.98, same_hill = 0.9659;
 
 /* Papadopoulos's mean: Gauss's points in the cosine of the normal's angle to z, on the half that is

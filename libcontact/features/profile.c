@@ -3,7 +3,8 @@
  */
 #include "libcontact/common.h"
 
-/* Share of Rz: a hill or dale that deviates less than this from the mean line does not count. */
+/* Share of Rz: a hill or dale that deviates less than this from the mean line does not count. The
+ * default of ISO 4287. */
 static const double discrimination = 0.1;
 
 /* ---- along a line ---- */

@@ -139,7 +139,9 @@ rc_friction_solver_set_displacement(struct rc_friction_solver *s, double dx, dou
 
 /* ---- an increment ---- */
 
-static const double grows = 1e-6; /* relative to the load: smaller changes are rounding */
+/* Relative to the load: smaller changes are rounding. A load that grew by rounding would move nodes
+ * before they touch. */
+static const double grows = 1e-6;
 
 /* Sets w and the start: the last tractions, and the change of the force in proportion to g. If the increment
  * was solved under another pressure, it starts from those tractions, with slipping nodes moved to their new
@@ -454,6 +456,7 @@ struct rc_friction_solver *
 rc_friction_solver_new(const struct rc_shape *shape, const struct rc_friction_law *p,
                        struct rc_err *err)
 {
+    /* Increments have errors of about 1e-2: the iteration adds little to them. */
     static const double usual = 1e-4;
     struct rc_shear shear, inside;
     struct rc_shape unit;

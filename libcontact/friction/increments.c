@@ -6,7 +6,8 @@
 
 #include <math.h>
 
-static const double straight = 1e-9; /* relative: smaller changes and angles are rounding */
+/* Relative: smaller changes and angles are rounding of the numbers that a user writes. */
+static const double straight = 1e-9;
 
 enum {
     LATE = 2,    /* for a straight leg */

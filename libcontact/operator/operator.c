@@ -280,7 +280,10 @@ rc_operator_free(struct rc_operator *op)
  * 0.005 of that half-space at the shortest waves. With these bounds the estimated error was down to half of
  * the error. */
 static const double least = 0.7, most = 1.5;
-static const double long_waves = 6; /* times half the smallest wave number of the padded map */
+/* Times half the smallest wave number of the padded map. Without bounds for these waves 320 estimates
+ * of 3600 random coatings were below the error, 0.53 of it at worst; with them 7 of 6000, 0.98 at
+ * worst. */
+static const double long_waves = 6;
 
 struct bounded {
     const struct own *s;
@@ -692,7 +695,8 @@ rc_operator_chain_framed(struct rc_operator *op, size_t n, const struct rc_spect
 static double
 of_plane(const struct own *s, double q)
 {
-    const double step = 1.05;
+    const double step =
+        1.05; /* of a central difference, whose error is of second order in log(step) */
     double below = rc_solids_modulus(s->bodies, q / step);
     double above = rc_solids_modulus(s->bodies, q * step);
 

@@ -19,9 +19,9 @@ double rc_median(const double *v, size_t n, double about, bool magnitude, int th
  * three standard deviations for Gaussian residuals. */
 static const double rc_biweight_reach = 4.4478;
 
-/* Reweighting stops when the relative change of the reach is below the first number. It also stops when the
- * reach over the heights is below the second, so that only rounding is left, or after RC_REWEIGHT_MAX
- * rounds. */
+/* Reweighting stops when the relative change of the reach is below the first number. It also stops when
+ * the reach over the heights is below the second, so that only rounding is left, or after
+ * RC_REWEIGHT_MAX rounds. A relative change of 1e-3 of the reach changes weights by as little. */
 static const double rc_reweight_tol = 1e-3;
 static const double rc_reweight_floor = 1e-13;
 enum {

@@ -16,6 +16,7 @@
 #include "libcontact/memory.h"
 #include "libcontact/transform/transform.h"
 
+/* The autocorrelation of Sal and Str (ISO 25178-2, default 0.2), and the rounding of it. */
 static const double fallen = 0.2, rounded = 1e-9;
 /* The largest angle over which the power of a wave is spread, to either side, radians. */
 static const double widest = 0.05;

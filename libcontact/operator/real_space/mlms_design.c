@@ -145,6 +145,7 @@ set_tiles(struct rc_mlms_axis *a)
 static bool
 halve(struct rc_mlms_axis axis[2], const struct rc_shape *shape, size_t t)
 {
+    /* Just above sqrt(2): after a halving the other direction is the larger one. */
     static const double alike = 1.42;
     double h[2] = {spacing(&axis[RC_X], shape->dx), spacing(&axis[RC_Y], shape->dy)};
     bool can[2];
