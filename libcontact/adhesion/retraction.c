@@ -23,26 +23,52 @@
 #include "libcontact/common.h"
 
 enum {
-    STATES = 600, /* at most          */
-    FINE = 3,     /* most fine stages */
-    VERTICES = 5, /* at most          */
-    HALVINGS = 8  /* most of the step with the last jump */
+    /* At most, so that a retraction ends. Half and double change no bit (27 runs of
+     * bench/constants.py). */
+    STATES = 600,
+    /* Most fine stages. Half and double change no bit (27 runs of bench/constants.py). */
+    FINE = 3,
+    /* Most vertices of parabolas. Half changes one of 27 runs, double none (bench/constants.py). */
+    VERTICES = 5,
+    /* Most halvings of the step with the last jump: 1/256 of it is left. Half and double change no bit
+     * (27 runs of bench/constants.py). */
+    HALVINGS = 8
 };
-static const double load_step = 0.3;  /* part of the attraction by which a step lowers the load */
-static const double growth = 1.5;     /* growth of a step over the last one while the load falls */
-static const double growth_after = 2; /* the same while the load rises */
-static const double fine_step = 0.05; /* fraction of the lowest load: a fine step may hide so
-                                          much */
-static const double settled = 1e-3;   /* fraction of the lowest load: smaller differences do not
-                                          count */
-static const double unsteady = 1.5;   /* change of the rate of attraction that counts as a jump */
-static const double convex = 1.1;     /* a larger growth of the slope means a jump */
-static const double stiffer = 2; /* a larger slope of the first step means that it was too long */
-static const double noise =
-    2e-4; /* error of the difference of two loads, relative to the lowest load */
-static const double least_step = 1e-6; /* relative to the range */
-/* If one neighbour of the lowest state is so many times as far as the other, the next state is in the longer
- * part, because parabolas with a far state approach their minimum from one side only. */
+/* Part of the attraction by which a step lowers the load. Half takes 1.6 times the convolutions, double
+ * 0.7 times; the pull-off load changes by less than 4e-4 (9 pull-offs of bench/constants.py). Maps with
+ * more spots need short steps: a longer step may pass over a whole valley of the load. */
+static const double load_step = 0.3;
+/* Growth of a step over the last one while the load falls. Double changes no bit; below 1 the steps
+ * would end (9 pull-offs of bench/constants.py). */
+static const double growth = 1.5;
+/* The same while the load rises. Half takes 6 % more convolutions, double 2 % (9 pull-offs of
+ * bench/constants.py). */
+static const double growth_after = 2;
+/* Fraction of the lowest load: a fine step may hide so much. Half changes the convolutions by less than
+ * 1 %, double takes 3 % more (9 pull-offs of bench/constants.py). */
+static const double fine_step = 0.05;
+/* Fraction of the lowest load: smaller differences do not count. Half takes 2 % more convolutions.
+ * Double takes 4 % fewer, and the pull-off load is up to 6e-4 off (9 pull-offs of
+ * bench/constants.py). */
+static const double settled = 1e-3;
+/* Change of the rate of attraction that counts as a jump. Half takes 1.8 times the convolutions; double
+ * changes no bit (9 pull-offs of bench/constants.py). */
+static const double unsteady = 1.5;
+/* A larger growth of the slope means a jump. Half takes 15 % more convolutions; double takes 1 % more,
+ * and one pull-off load is 1.5e-3 off (9 pull-offs of bench/constants.py). */
+static const double convex = 1.1;
+/* A larger slope of the first step means that it was too long. Half takes 15 % more convolutions,
+ * double 3 % fewer (9 pull-offs of bench/constants.py). */
+static const double stiffer = 2;
+/* Error of the difference of two loads, relative to the lowest load. Half and double change no bit (9
+ * pull-offs of bench/constants.py). */
+static const double noise = 2e-4;
+/* Relative to the range: shorter steps change the gap by rounding of single precision. Half and double
+ * change no bit (27 runs of bench/constants.py). */
+static const double least_step = 1e-6;
+/* If one neighbour of the lowest state is so many times as far as the other, the next state is in the
+ * longer part, because parabolas with a far state approach their minimum from one side only. The golden
+ * ratio gives 0.382 (Kiefer 1953). */
 static const double lopsided = 4, golden = 0.382;
 
 void
@@ -308,7 +334,8 @@ end(struct rc_retraction *r, double load, double at, double spread)
  * jumps: the fine stage follows. */
 static const double places[RC_RETRACTION_CHECKS] = {1,     -0.618, -1.5, 0.382,
                                                     0.854, -0.236, -1.1, 0.56};
-static const double leap = 0.05; /* relative to the lowest load */
+/* Relative to the lowest load. Half and double change no bit (27 runs of bench/constants.py). */
+static const double leap = 0.05;
 enum {
     FIRST = 2
 };
