@@ -1,6 +1,7 @@
 #include "common.h"
 
 #include <omp.h>
+#include <stdio.h>
 #include <string.h>
 
 #include "memory.h"
@@ -27,6 +28,23 @@ rc_useful_threads(const struct rc_shape *s, size_t threads)
     if (threads == 0)
         threads = rc_threads_available();
     return (int)(threads < most ? threads : most);
+}
+
+enum rc_status
+rc_err_choices(struct rc_err *err, const char *(*row)(const void *of, size_t k), const void *of)
+{
+    const char *name;
+
+    for (size_t k = 0; err != NULL && (name = row(of, k)) != NULL; k++) {
+        const size_t n = strlen(err->text);
+        size_t first = 0;
+        while (strcmp(row(of, first), name) != 0)
+            first++;
+        if (first == k)
+            snprintf(err->text + n, sizeof err->text - n, "%s%s", k == 0 ? ": take one of " : ", ",
+                     name);
+    }
+    return RC_FAIL;
 }
 
 bool

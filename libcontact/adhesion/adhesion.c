@@ -35,6 +35,13 @@ rc_adhesion_law_info(size_t k)
     return k < LAWS ? &laws[k]->info : NULL;
 }
 
+static const char *
+law_name(const void *of, size_t k)
+{
+    (void)of;
+    return k < LAWS ? laws[k]->info.name : NULL;
+}
+
 const struct rc_adhesion_law *
 rc_adhesion_law_named(const char *name)
 {
@@ -211,8 +218,10 @@ refuse(const struct rc_shape *shape, const struct rc_adhesion_problem *problem, 
     if (!(problem->work > 0) || isinf(problem->work))
         return rc_err_set(err, "work of adhesion %g J/m2: it must be positive and finite",
                           problem->work);
-    if (law == NULL)
-        return rc_err_set(err, "there is no law of adhesion '%s'", problem->law);
+    if (law == NULL) {
+        rc_err_set(err, "there is no law of adhesion '%s'", problem->law);
+        return rc_err_choices(err, law_name, NULL);
+    }
     if (!(problem->range >= 0) || isinf(problem->range))
         return rc_err_set(err, "range of adhesion %g m: it must be positive and finite",
                           problem->range);
@@ -242,7 +251,7 @@ refuse_ways(const struct rc_problem *c, struct rc_err *err)
     if (c->engine != NULL && strcmp(c->engine, "auto") != 0) {
         const struct rc_engine *engine = rc_engine_named(c->engine, NULL);
         if (engine == NULL)
-            return rc_err_set(err, "there is no engine '%s'", c->engine);
+            return rc_engine_absent(c->engine, err);
         if (!engine->transforms)
             return rc_err_set(err,
                               "contact with adhesion needs the inverse of K, which engine '%s' "

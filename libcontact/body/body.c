@@ -66,6 +66,9 @@ rc_pair_check(const struct rc_pair *p, struct rc_err *err)
         if (!unsaid(&p->one) || !unsaid(&p->two))
             return rc_err_set(err, "E* = %g Pa and the bodies are given: give one or the other",
                               p->estar);
+        if (p->estar == 0)
+            return rc_err_set(err, "E* and the Young's moduli of both bodies are 0: give E*, or E "
+                                   "and nu of the bodies");
         if (!(p->estar > 0) || isinf(p->estar))
             return rc_err_set(err, "E* = %g Pa: it must be positive and finite", p->estar);
         return RC_OK;

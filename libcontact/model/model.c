@@ -336,6 +336,14 @@ rc_model_frame_kind(const struct rc_model *m, size_t k)
     return NULL;
 }
 
+static const char *
+frame_name(const void *of, size_t k)
+{
+    const struct rc_frame_kind *f = rc_model_frame_kind(of, k);
+
+    return f == NULL ? NULL : f->name;
+}
+
 enum rc_status
 rc_model_frame(struct rc_model *m, const char *name, double *to, struct rc_err *err)
 {
@@ -344,7 +352,8 @@ rc_model_frame(struct rc_model *m, const char *name, double *to, struct rc_err *
             if (strcmp(at->row->frame[k].name, name) == 0)
                 return m->looked ? at->row->fill(at, k, to, err)
                                  : rc_err_set(err, "call rc_model_look before reading a frame");
-    return rc_err_set(err, "the %s model has no frame '%s'", m->row->name, name);
+    rc_err_set(err, "the %s model has no frame '%s'", m->row->name, name);
+    return rc_err_choices(err, frame_name, m);
 }
 
 /* ---- before and during an iteration ---- */

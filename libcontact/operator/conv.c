@@ -63,6 +63,20 @@ rc_engine_info(size_t k)
     return NULL;
 }
 
+static const char *
+engine_name(const void *of, size_t k)
+{
+    (void)of;
+    return k == 0 ? "auto" : rc_engine_info(k - 1) == NULL ? NULL : rc_engine_info(k - 1)->name;
+}
+
+enum rc_status
+rc_engine_absent(const char *name, struct rc_err *err)
+{
+    rc_err_set(err, "there is no engine '%s'", name);
+    return rc_err_choices(err, engine_name, NULL);
+}
+
 const struct rc_engine *
 rc_engine_named(const char *name, bool *precise)
 {
@@ -167,7 +181,7 @@ find(struct rc_sum *sum, const struct rc_conv_options *o, bool *precise, const c
     *reason = "asked for";
     engine = rc_engine_named(o->engine, precise);
     if (engine == NULL)
-        return rc_err_null(err, "there is no engine '%s'", o->engine);
+        return (void)rc_engine_absent(o->engine, err), NULL;
     sum->precise |= *precise;
     return rc_engine_serves(engine, o->engine, sum->boundary, sum->ranks, err) == RC_OK ? engine
                                                                                         : NULL;

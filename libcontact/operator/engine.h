@@ -49,6 +49,8 @@ struct rc_engine {
 
 /* The engine of that name, or NULL; *precise (may be NULL): whether the name demands double precision. */
 const struct rc_engine *rc_engine_named(const char *name, bool *precise);
+/* The message that there is no engine of this name. */
+enum rc_status rc_engine_absent(const char *name, struct rc_err *err);
 
 /* The first engine that sums by Fourier transforms of maps. */
 const struct rc_engine *rc_engine_of_transforms(void);

@@ -28,6 +28,13 @@ rc_method_info(size_t k)
     return k < METHODS ? &methods[k]->info : NULL;
 }
 
+static const char *
+method_name(const void *of, size_t k)
+{
+    (void)of;
+    return k == 0 ? "auto" : k <= METHODS ? methods[k - 1]->info.name : NULL;
+}
+
 static const struct rc_method *
 choose(const char *name, struct rc_err *err)
 {
@@ -37,6 +44,7 @@ choose(const char *name, struct rc_err *err)
         if (strcmp(methods[k]->info.name, name) == 0)
             return methods[k];
     rc_err_set(err, "there is no method '%s'", name);
+    rc_err_choices(err, method_name, NULL);
     return NULL;
 }
 

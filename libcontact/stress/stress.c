@@ -74,7 +74,7 @@ rc_stress_check(const struct rc_shape *shape, const struct rc_stress_options *o,
     if (o->section != 0 && !(fabs(o->at) <= half))
         return rc_err_set(err, "section %c = %g m: the map ends at %g m", o->section, o->at, half);
     if (engine == NULL)
-        return rc_err_set(err, "there is no engine '%s'", o->engine);
+        return rc_engine_absent(o->engine, err);
     if (rc_ranks_count(o->ranks) > 1 && o->section != 0)
         return rc_err_set(
             err, "a section is computed by one process, which holds the whole map: take maps "

@@ -249,7 +249,7 @@ static const struct {
     double value;
     const char *words, *rule;
 } numbers[] = {
-    {FIELD(pair.estar), 0, "E* = 0 Pa", "positive"},
+    {FIELD(pair.estar), 0, "Young's moduli of both bodies are 0", "give E*, or E and nu"},
     {FIELD(pair.estar), -1, "E* = -1 Pa", "positive"},
     {FIELD(pair.estar), NAN, "E* = nan Pa", "positive"},
     {FIELD(pair.estar), INFINITY, "E* = inf Pa", "finite"},
@@ -269,8 +269,8 @@ static const struct {
     size_t at;
     const char *value, *words;
 } names[] = {
-    {FIELD(method), "guess", "there is no method 'guess'"},
-    {FIELD(engine), "guess", "there is no engine 'guess'"},
+    {FIELD(method), "guess", "there is no method 'guess': take one of auto, pcg, pk99"},
+    {FIELD(engine), "guess", "there is no engine 'guess': take one of auto, fft, fft64, mlms, direct"},
 };
 static const struct {
     struct rc_shape shape;

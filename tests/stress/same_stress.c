@@ -153,7 +153,8 @@ engines_refused(void **state)
 
     (void)state;
     assert_null(rc_stress_new(&s.shape, s.p, &o, &err));
-    assert_string_equal(err.text, "there is no engine 'fftw'");
+    assert_string_equal(err.text,
+                        "there is no engine 'fftw': take one of auto, fft, fft64, mlms, direct");
     o.engine = "mlms";
     o.section = 'y';
     assert_null(rc_stress_new(&s.shape, s.p, &o, &err));
