@@ -417,6 +417,8 @@ const struct rc_figure rc_figures_friction[] = {
      .says = "of the increments before", .role = RC_FIGURE_ERROR, .by = "tol"},
     {AS("contact_error_estimate", contact_error), NULL, "Error of the contacts",
      .role = RC_FIGURE_ERROR, .by = "tol"},
+    {AS("increment_error_estimate", increment_error), NULL, "Error of the increments",
+     .says = "of too few increments", .role = RC_FIGURE_ERROR, .by = "increments"},
     {0},
 };
 

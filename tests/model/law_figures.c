@@ -50,6 +50,12 @@ rows(void **state)
         }
         assert_true(f > table + 1);
     }
+    /* each error of an increment has a row: friction's too */
+    for (const struct rc_figure *f = rc_figures("friction");; f++) {
+        assert_non_null(f->name);
+        if (f->at == offsetof(struct rc_friction_figures, increment_error))
+            break;
+    }
     assert_null(rc_figures("no such table"));
     assert_null(rc_figure_find("no such figure"));
 }
