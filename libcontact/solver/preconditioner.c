@@ -14,7 +14,7 @@ enum {
 /* Ratio of two of them, at most, unless that needs more. The wear runs of bench/constants.py have one
  * level. */
 static const double apart = 8;
-/* Stiffness of the bodies for waves of two nodes, in dx/E*: 2/pi = 0.64 for a uniform body. Where rows
+/* Compliance of the bodies for waves of two nodes, in dx/E*: 2/pi = 0.64 for a uniform body. Where rows
  * move by more than this under the load of sqrt(nx) nodes, they are split off, see preconditioner.h.
  * Half and double change the convolutions of 26 runs of wear by at most 3 % (bench/constants.py). */
 static const double shortest = 0.6;
