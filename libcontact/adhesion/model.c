@@ -370,6 +370,7 @@ rc_adhesion_new(const struct rc_shape *shape, const double *h,
         return NULL;
     a = (struct adhesion *)m;
     a->problem = *problem;
+    m->boundary = problem->contact.boundary;
     a->n = shape->nx * shape->ny;
     a->h = rc_store_copy(&m->own, a->n, sizeof *h, h);
     return rc_model_room(m, err) == RC_OK ? rc_give(&m) : NULL;

@@ -804,7 +804,8 @@ make(struct friction *f, const double *h, struct rc_err *err)
     f->way->inner = f->base.inner;
     for (size_t j = 1; j <= RC_FEWER; j++)
         f->way[j].inner = o->inner_of_fewer[j - 1];
-    if (rc_pair_shear(&o->law.pair, o->law.nu, &shear, err) != RC_OK)
+    if (rc_pair_shear(&o->law.pair, o->law.nu, &shear, err) != RC_OK ||
+        rc_model_same_boundary(&f->base, o->law.boundary, err) != RC_OK)
         return RC_FAIL;
     f->alternates = o->coupling == RC_COUPLING_FULL && shear.beta != 0;
     if (o->fewer > RC_FEWER)

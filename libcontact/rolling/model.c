@@ -945,7 +945,8 @@ make(struct rolling *f, struct rc_err *err)
 {
     struct rc_friction_law *o = &f->problem.law;
 
-    if (rc_friction_solver_check(&f->base.shape, o, &f->shear, err) != RC_OK)
+    if (rc_friction_solver_check(&f->base.shape, o, &f->shear, err) != RC_OK ||
+        rc_model_same_boundary(&f->base, o->boundary, err) != RC_OK)
         return RC_FAIL;
     if (o->boundary != RC_FREE && !f->problem.path)
         return rc_err_set(

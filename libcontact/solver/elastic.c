@@ -731,6 +731,7 @@ rc_elastic_new(const struct rc_shape *shape, const double *h, const struct rc_pr
     e->tol = problem->tol;
     e->n = rc_rows_of(problem->ranks, shape).n * shape->nx;
     e->given = h;
+    m->boundary = problem->boundary;
     return m;
 }
 

@@ -707,6 +707,7 @@ rc_sliding_new(const struct rc_shape *shape, const double *h, const struct rc_pr
         (m = rc_model_make(&rc_model_sliding, sizeof *s, shape, err)) == NULL)
         return NULL;
     s = (struct slide *)m;
+    m->boundary = problem->boundary;
     s->problem = *problem;
     s->problem.hurry = NULL;
     s->law = *law;

@@ -828,6 +828,7 @@ rc_yield_new(const struct rc_shape *shape, const double *h, const struct rc_yiel
         return NULL;
     y = (struct yield *)m;
     y->problem = *problem;
+    m->boundary = problem->contact.boundary;
     y->n = shape->nx * shape->ny;
     y->h = rc_store_copy(&m->own, y->n, sizeof *h, h);
     if (rc_model_room(m, err) != RC_OK)
