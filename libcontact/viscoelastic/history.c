@@ -666,7 +666,7 @@ plan(const struct rc_model *m, const struct rc_point *most, struct rc_expected *
                              RC_CREEP_STEP * steps_of(&v->problem, v->material.quickest, part);
     expected->seconds = expected->convolutions * one;
     /* with the copy of the state at the last kept point */
-    expected->memory += v->n * (2 * maps + MAPS + RUNS + 3) * sizeof(double);
+    expected->memory += v->n * (2 * maps + MAPS + RUNS + 4) * sizeof(double);
     return RC_OK;
 }
 
@@ -721,7 +721,7 @@ make(struct viscoelastic *v, const double *h, const struct rc_viscoelastic_probl
     for (size_t k = 0; k < v->n; k++)
         if (!isfinite(h[k]))
             return rc_err_set(err, "height %zu is not a finite number", k);
-    v->h = h;
+    v->h = rc_store_copy(&v->base.own, v->n, sizeof *h, h);
     v->top = rc_highest(h, v->n);
     v->good = true;
     v->leg.slope = INFINITY;
