@@ -1,5 +1,5 @@
-# cmake -D SOURCE=... -D OUT=... -D VERSION=... -P html.cmake: writes the manual as a folder of linked pages
-# with an index. Links to other pages lead to the site of mandoc's manual.
+# cmake -D SOURCE=... -D LIBRARY_PAGE=... -D OUT=... -D VERSION=... -P html.cmake: writes the manual as a folder of
+# linked pages with an index. Links to other pages lead to the site of mandoc's manual.
 get_filename_component(OUT "${OUT}" ABSOLUTE)
 get_filename_component(SOURCE "${SOURCE}" ABSOLUTE)
 find_program(MANDOC mandoc REQUIRED)
@@ -25,11 +25,17 @@ set(body "")
 foreach(section title IN ZIP_LISTS sections titles)
     string(APPEND body "<h2>${title}</h2>\n<dl>\n")
     file(GLOB names RELATIVE ${SOURCE}/man ${SOURCE}/man/*.${section})
+    if(section EQUAL 3)
+        set(names libcontact.3)
+    endif()
     list(TRANSFORM names REPLACE "\\.${section}$" "") # contact comes before contact-theory
     list(SORT names)
     foreach(name IN LISTS names)
         set(file ${name}.${section})
         set(page ${SOURCE}/man/${file})
+        if(section EQUAL 3)
+            set(page ${LIBRARY_PAGE})
+        endif()
         execute_process(COMMAND ${MANDOC} -Thtml
             "-Ostyle=style.css,man=%N.%S.html\\;https://man.openbsd.org/%N.%S" ${page}
             WORKING_DIRECTORY ${SOURCE}/man # where mandoc searches for the pages of this manual

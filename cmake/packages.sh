@@ -13,7 +13,7 @@ need_packages() {
     if ! command -v dpkg-query >/dev/null || ! command -v apt-get >/dev/null; then
         cat <<'EOT'
 This is neither Debian nor Ubuntu: please see that these are installed, with their headers:
-  a C17 compiler with OpenMP, make, CMake 3.20 or later, pkg-config
+  a C17 compiler with OpenMP, make, CMake 3.20 or later, pkg-config, awk
   FFTW 3.3.5 or later (double and single precision, with threads), GSL 2.2 or later, libpng,
   libxml2, libzip, zlib, libzstd, libdeflate, libhdf5, libtiff, libmd, libseccomp (Linux), Pango with cairo, and a sans serif font that
   fontconfig finds, such as DejaVu Sans

@@ -1,24 +1,87 @@
 /*
- * The verbs of libcontact: contact of rough surfaces on elastic half-spaces.
+ * libcontact: contact of rough surfaces on elastic half-spaces.
  *
- * Physics on arrays: nothing here reads or writes files, prints, or keeps state between calls, except the
- * memory budget of grid.h. Arrays hold nx*ny doubles in the layout of grid.h. Everything is SI: metres,
- * pascals, newtons. Pressure is positive in compression, displacement positive into the body, height positive
- * towards the other body, stress positive in tension, depth positive below the surface. On the free
- * (non-periodic) half-space a pressure value is constant in its cell.
+ * A map of heights is pressed against a flat; two rough surfaces are one map, the sum of both (rc_add). The
+ * library finds where the bodies touch, at what pressure and with what gap. Models add yield, adhesion,
+ * friction, rolling, wear, travel and viscoelasticity. From the result it computes leakage, temperatures,
+ * stresses and fatigue. It works on arrays: it reads no files and prints nothing.
  *
- * On failure makers return NULL and other functions RC_FAIL; *err then holds the reason in one sentence.
- * "*_check" and "*_expect" fail as the maker would, except for short memory.
+ *     #include <libcontact/contact.h>
+ *     #include <stdio.h>
  *
- * In a struct of options 0, or NULL, is the default of every field, so that
+ *     static double h[129 * 129], p[129 * 129];
+ *
+ *     int
+ *     main(void)
+ *     {
+ *         struct rc_shape shape = {129, 129, 5.3e-6, 5.3e-6};
+ *         struct rc_problem problem = {.pair.estar = 114e9, .tol = 1e-6};
+ *         struct rc_point to = {0};
+ *         struct rc_err err;
+ *
+ *         rc_synth_sphere(&shape, 7.5e-3, h);
+ *         struct rc_model *m = rc_elastic_new(&shape, h, &problem, NULL, &err);
+ *         rc_point_set(&to, RC_LOAD, 240);
+ *         if (m == NULL || rc_model_run(m, &to, &err) == RC_FAIL ||
+ *             rc_model_look(m, &to, &err) == RC_FAIL ||
+ *             rc_model_frame(m, "pressure", p, &err) == RC_FAIL)
+ *             return fprintf(stderr, "%s\n", err.text), 1;
+ *         printf("approach %g m, contact area %g m2, largest pressure %g Pa\n",
+ *                to.at[RC_APPROACH], rc_model_number(m, "contact_area"),
+ *                p[64 * 129 + 64]);
+ *         rc_model_free(m);
+ *     }
+ *
+ * A model (model.h) has a history; one set of functions drives all models, and an outer model, such as wear,
+ * drives an inner one. A handle, such as struct rc_solver, is a single problem with functions of its own.
+ *
+ * Units and signs. Everything is SI: metres, pascals, newtons. Height is positive towards the other body,
+ * pressure in compression, displacement into the body, stress in tension, depth below the surface. Body 1 is
+ * the one that stresses, plasticity and fatigue analyse.
+ *
+ * Maps. A map is an array of nx ny doubles in the layout of grid.h: value (i, j) is v[j * nx + i] and belongs
+ * to the cell about x = (i - (nx - 1)/2) dx, y = (j - (ny - 1)/2) dy. On the free half-space the pressure is
+ * constant in its cell, on a periodic map it is band-limited.
+ *
+ * Options. In a struct of options 0, or NULL, is the default of every member, so that
  *
  *     struct rc_problem problem = {.pair.estar = 114e9, .load = 240};
  *
- * is complete, and remains so when fields are added. Unknown figures are NAN. The caller owns all arrays; the
- * library copies what it needs after a call, except where a comment says that the caller keeps it.
+ * is complete, and remains so when members are added. Results that are unknown are NAN.
  *
- * Order in each section: structs of options and results, functions that need no object (choice, cost,
- * memory), maker, setters, step, results, free.
+ * Errors. A maker (rc_..._new) returns NULL, other functions return RC_FAIL, and the struct rc_err of the
+ * caller, or NULL, then holds one sentence: what is wrong, with the value, and what to do. A function that
+ * needs another one before it fails in this way, too. A check (rc_..._check) and a forecast (rc_..._expect)
+ * fail as the maker would, except for short memory. RC_MORE is an unfinished iteration. RC_SHORT is one that
+ * cannot reach the accuracy: its result is the best so far, and there is no sentence. Results say so with
+ * `converged`. All functions that free an object take NULL.
+ *
+ * Ownership. The caller owns its arrays, and all that the members of a struct of options point to.
+ *
+ *   - Arguments: a function copies what it needs later. Keep the heights of a model until its first
+ *     rc_model_go or rc_model_restore has returned, and the pressure and tractions of rc_stress_new until
+ *     rc_stress_free or rc_stress_set_loads.
+ *   - Members of options: keep what they point to, unchanged, until the object is freed.
+ *   - Inner models: the maker of an outer model owns the inner model from the call on, also when it fails. An
+ *     inner model NULL makes it fail with the message of that one, so that makers can be nested. rc_model_free
+ *     of the outermost model frees all.
+ *   - Results: what a returned pointer points to belongs to the object, until the next call that changes it.
+ *
+ * Tolerance. `tol` bounds the estimated error of the object that has it. An outer model does not divide its
+ * tolerance: the caller, who makes the inner model, gives that one a part of it:
+ *
+ *     wear              1/100; 1/1000 with `part`
+ *     friction          1/4 if RC_COUPLING_FULL couples dissimilar bodies,
+ *                       otherwise 1; 1/40 for `inner_of_fewer`
+ *     viscoelastic      1/8
+ *     travel, rolling   1
+ *
+ * Threads. The member `threads` sets the number of threads of one object; it changes no bit of a result. Two
+ * threads of the caller may use two objects at the same time, but not the same object; a model, its inner
+ * models and its solver are one object. The library has no state between calls except the memory budget
+ * (rc_memory_budget), which holds for the process. It switches on the lock of FFTW's planner when it is
+ * loaded, so that the caller's threads may plan transforms too; with libfftw3_omp they may not. While
+ * rc_synth_selfaffine or rc_detrend_form runs, GSL's error handler is off in all threads.
  */
 #ifndef RC_CONTACT_H
 #define RC_CONTACT_H
@@ -26,10 +89,10 @@
 #include <signal.h>
 #include <stdbool.h>
 #include <stddef.h>
-#include <stdint.h>
 
 #include "grid.h"
 #include "model.h"
+#include "surface.h"
 
 #ifdef __cplusplus
 extern "C" {
@@ -37,23 +100,13 @@ extern "C" {
 
 /* ---- handles ---- */
 
-struct rc_conv;    /* displacements under a pressure: one kernel on one grid, u = K p */
+struct rc_conv;    /* displacements under a pressure: u = K p */
 struct rc_solver;  /* elastic contact, with or without a hardness                     */
 struct rc_leak;    /* flow through a gap                                              */
 struct rc_stress;  /* stresses below the surface                                      */
 struct rc_fatigue; /* fatigue under the stresses below the surface                    */
 struct rc_heat;    /* temperatures of the contact                                     */
-struct rc_ranks;   /* processes that share a map: contact_mpi.h; NULL: none           */
-
-/* struct rc_model (model.h) drives several of them with the same verbs. */
-
-/* Messages of all processes that share maps, in total. */
-struct rc_sent {
-    size_t exchanges;       /* exchanges of whole maps between rows and columns */
-    double messages, bytes; /* messages and bytes of these exchanges */
-    double other_bytes;     /* bytes of sums, neighbouring rows, coarser grids        */
-    double seconds;         /* seconds in exchanges, of the slowest process */
-};
+struct rc_ranks;   /* processes that share a map: contact_mpi.h           */
 
 /* Version of the library, "0.1.0". */
 RC_API const char *rc_version(void);
@@ -65,422 +118,44 @@ RC_API size_t rc_threads_available(void);
 /* Smaller errors than this need double precision; single precision gives some 1e-6 of the largest |u|. */
 #define RC_SINGLE_FLOOR 1e-5
 
-/* Row k = 0, 1, ... of a table; NULL past the last. Options take their words from these tables. */
-struct rc_engine_info { /* a way to sum displacements */
+/* An engine: a way to sum displacements. */
+struct rc_engine_info {
     const char *name, *summary;
-    bool periodic; /* works for periodic boundaries too */
-    bool mixed;    /* methods may iterate with it in single precision             */
-    bool precise;  /* the engine of the row before in double precision throughout */
-    int order;     /* its time grows as this power of the number of nodes         */
+    /* works for periodic boundaries too */
+    bool periodic;
+    /* methods may iterate with it in single precision */
+    bool mixed;
+    /* the engine of the row before in double precision throughout */
+    bool precise;
+    /* its time grows as this power of the number of nodes */
+    int order;
     /* Bytes for each node, on free and periodic maps. First: a sum, beside p and u, in single
-     * precision if the engine is mixed. Then: a solver. Measured on 1024 x 1024 nodes; smaller maps
-     * need a few percent more. */
+     * precision if the engine is mixed. Then: a solver. Measured on 1024 x 1024 nodes; smaller
+     * maps need a few percent more. */
     double sum_bytes[2], contact_bytes[2];
 };
-struct rc_method_info { /* an iteration of the contact; "auto" is the first */
+/* A method: an iteration of the contact. "auto" is the first one. */
+struct rc_method_info {
     const char *name, *summary;
     bool mixed;   /* iterates in single precision if the engine permits it */
     double bytes; /* bytes a node in addition to those of "auto" */
 };
+/* Row k = 0, 1, ... of a table; NULL past the last. Options take their words from these tables. */
 RC_API const struct rc_engine_info *rc_engine_info(size_t k);
 RC_API const struct rc_method_info *rc_method_info(size_t k);
-
-/* ---- synthetic surfaces ---- */
-
-/* Heights of a sphere of radius R (m): the parabola -r^2 / 2R about the middle of the map, as in Hertz's
- * theory. */
-RC_API void rc_synth_sphere(const struct rc_shape *shape, double radius, double *h);
-
-/* A position, m from the middle of the map, y down the picture: apex of an indenter, end of a profile. */
-struct rc_place {
-    double x, y;
-};
-
-/* The height is -s^2 / 2 radius_1 - t^2 / 2 radius_2 about the apex (m). s runs along `direction`, in degrees
- * counterclockwise from x with row 0 at the top, and t across it. A radius of INFINITY makes a cylinder with
- * its axis along that direction. */
-RC_API void rc_synth_paraboloid(const struct rc_shape *shape, struct rc_place apex, double radius_1,
-                                double radius_2, double direction, double *h);
-/* -slope r about the apex. */
-RC_API void rc_synth_cone(const struct rc_shape *shape, struct rc_place apex, double slope,
-                          double *h);
-/* A flat circular end of this radius at height 0, surrounded by -height (m). With an edge (m, > 0) the flank
- * begins as -(r - radius)^2 / 2 edge. Nodes on the rim belong to the end. */
-RC_API void rc_synth_punch(const struct rc_shape *shape, struct rc_place apex, double radius,
-                           double edge, double height, double *h);
-
-/* amplitude * cos(2 pi x / wavelength_x) * cos(2 pi y / wavelength_y), with a crest at the middle of the map.
- * A wavelength of INFINITY omits its factor. Metres. */
-RC_API void rc_synth_wave(const struct rc_shape *shape, double amplitude, double wavelength_x,
-                          double wavelength_y, double *h);
-
-/* Self-affine random roughness, periodic over nx dx by ny dy. */
-struct rc_selfaffine {
-    /* above 0, at most 1: the spectrum decreases as q^(-2-2H) on maps, q^(-1-2H) on profiles */
-    double hurst;
-    double rms_height; /* wanted RMS about the mean, m; 0 if rms_slope is given                  */
-    double rms_slope;  /* wanted RMS of the magnitude of the gradient; 0 if rms_height is given  */
-    double long_cut;   /* longest wavelength, m; 0: the size of the map                          */
-    double rolloff;    /* flat spectrum above this wavelength, m; 0: no flat part                */
-    double short_cut;  /* shortest wavelength, m, at least two nodes; 0: 2 max(dx, dy)           */
-    uint64_t seed;     /* the same seed gives the same waves on every grid of the same size in m */
-    /* ratio of the wavelengths along and across the lay that have equal power, at least 1; 0: 1 */
-    double anisotropy;
-    double direction; /* direction of the lay, degrees counterclockwise from x, row 0 at the top */
-    /* skewness of a gamma distribution of heights, at most RC_SKEWNESS_MAX in magnitude; 0: Gaussian */
-    double skewness;
-    /* heights of a Weibull distribution of this shape, from RC_WEIBULL_MIN to RC_WEIBULL_MAX; 0: Gaussian */
-    double weibull;
-};
-#define RC_SKEWNESS_MAX 3.0
-#define RC_WEIBULL_MIN 0.75
-#define RC_WEIBULL_MAX 100.0
-/* Gaussian Fourier amplitudes with random phases, drawn once for each wave vector, without waves of exactly
- * two nodes. The mean is 0. The gradient comes from the waves, not from differences of nodes. A
- * distribution that is not Gaussian replaces the heights by rank; the amplitudes of the waves then stay
- * nearly Gaussian (Perez-Rafols and Almqvist 2019). RC_FAIL when a value is out of range, no wave of the map
- * lies between the cut-offs, or memory is short. Switches off GSL's error handler, which belongs to the
- * process, during the call. */
-RC_API enum rc_status rc_synth_selfaffine(const struct rc_shape *shape,
-                                          const struct rc_selfaffine *what, double *h,
-                                          struct rc_err *err);
-
-/* ---- surfaces: forms, filters, outliers, holes ---- */
-
-enum {
-    RC_DEGREE_MAX = 20
-};
-enum rc_form_kind {
-    /* a polynomial of total degree `degree` in x and y; on a profile, in the coordinate along it */
-    RC_POLYNOMIAL,
-    RC_SPHERE,  /* exact, of either sign, with its apex anywhere; on a profile a circle    */
-    RC_CYLINDER /* exact, of either sign, in any direction and tilt; on a profile a circle */
-};
-struct rc_form {
-    enum rc_form_kind kind;
-    size_t degree; /* at most RC_DEGREE_MAX */
-    /* weights (1 - (r/c)^2)^2 of the residuals r, c = 4.4478 times the median of |r|, iterated until c
-     * converges (Beaton and Tukey 1974; ISO 16610-31) */
-    bool robust;
-    size_t threads; /* 0: all */
-};
-/* Subtracts the form that fits the measured points (not NaN) best, by least squares in z. The radius of a
- * sphere or a cylinder, m, is positive for a bump and negative for a hollow, NAN for a polynomial; radius may
- * be NULL. RC_FAIL when there are fewer points than unknowns, or their positions do not determine the form.
- * Also when no sphere or cylinder covers them all, one is infinite, or memory is short. h is then unchanged.
- * Switches off GSL's error handler, which belongs to the process, during the call. */
-RC_API enum rc_status rc_detrend_form(const struct rc_shape *shape, const struct rc_form *form,
-                                      double *h, double *radius, struct rc_err *err);
-
-/* Levels each row separately, for scan lines. Degree 0 subtracts the median of the row; 1 or 2 subtract its
- * best straight line or parabola. The fit is by least squares, or with the weights of struct rc_form if
- * `robust`. A row with fewer than twice as many points as coefficients is levelled by its median, an empty
- * row is not changed. RC_FAIL when the degree is above 2, a height is infinite, or memory is short: some rows
- * may then be levelled. */
-RC_API enum rc_status rc_detrend_rows(const struct rc_shape *shape, size_t degree, bool robust,
-                                      double *h, struct rc_err *err);
-
-/* The Gaussian regression filter of order 0 over the measured points: ISO 16610-61, for profiles 16610-21. A
- * missing point stays missing and has no weight; a map that is not periodic ends at its edges. */
-struct rc_filter {
-    double cutoff; /* m, wavelength with 50 % transmission   */
-    bool high;     /* high-pass: the input minus its low-pass */
-    /* ISO 16610-71, 16610-31: weights (1 - (r/c)^2)^2 of the residuals r, c = 4.4478 times the median of |r|,
-     * iterated until c converges */
-    bool robust;
-    bool periodic;  /* the map repeats */
-    size_t threads; /* 0: all          */
-};
-/* RC_FAIL when the cut-off is below two nodes or longer than the map. Also when no point is measured, a
- * height is infinite, or memory is short. h is then unchanged. */
-RC_API enum rc_status rc_filter(const struct rc_shape *shape, const struct rc_filter *what,
-                                double *h, struct rc_err *err);
-
-/* Sets a point to missing if it differs too much from the median of the others in the 5 x 5 nodes around it.
- * The limit is `times` times the spread. *count is the number of such points. The spread is 1.4826 times the
- * median absolute deviation of all such differences, which is the standard deviation for Gaussian noise.
- * Missing neighbours and, unless the map is periodic, those beyond its edges do not count; a point without
- * neighbours is kept. RC_FAIL when `times` is not positive, a height is infinite, or memory is short; h is
- * then unchanged. */
-RC_API enum rc_status rc_outliers(const struct rc_shape *shape, double times, bool periodic,
-                                  size_t threads, double *h, size_t *count, struct rc_err *err);
-
-/* Blends the outer `width` (m) of the map into the mean of all heights. In each direction it multiplies the
- * difference from the mean by (1 - cos(pi s / width)) / 2, s the distance of the node from the edge. The map
- * can then be repeated without a step. RC_FAIL when the width is below a node or above half of the map. Also
- * when no height is measured, one is infinite, or memory is short. h is then unchanged. */
-RC_API enum rc_status rc_taper(const struct rc_shape *shape, double width, double *h,
-                               struct rc_err *err);
-/* Columns and rows on each side that a taper of this width (m) changes. */
-RC_API void rc_taper_frame(const struct rc_shape *shape, double width, size_t *columns,
-                           size_t *rows);
-
-/* Replaces missing values (NaN) by the solution of Laplace's equation. Boundary values are the measured
- * values around them, with zero slope across the edge of the map. *filled is the number of replaced values.
- * RC_FAIL when no value is measured, one is infinite, or memory is short. */
-RC_API enum rc_status rc_inpaint(const struct rc_shape *shape, double *h, size_t *filled,
-                                 struct rc_err *err);
-
-/* Width of the widest hole in m: twice the largest distance, node to node, of a missing value (NaN) from the
- * nearest measured one. A single missing node has 2 min(dx, dy), a disc its diameter. A hole at the edge of
- * the map counts as if it continued as far beyond the edge. 0 where nothing is missing, INFINITY where
- * everything is. Exact but for rounding; takes 4 bytes a node. RC_FAIL when memory is short. */
-RC_API enum rc_status rc_hole_width(const struct rc_shape *shape, const double *h, double *width,
-                                    struct rc_err *err);
-
-/* ---- surfaces: resampling, cutting, adding ---- */
-
-/* Relative difference below which spacings count as equal. */
-#define RC_SAME_SPACING 1e-6
-
-/* Computes means of v, which is constant in the cells of `from`, over the cells of `to`. This grid has any
- * other number of nodes on the same area; the spacings are ignored. The integral is preserved. It brings
- * heights to a coarser grid, and pressures back. If v is partly missing (NaN), the mean is over the rest of
- * the cell; a cell is missing if less than half of it is measured. v and out do not overlap. */
-RC_API void rc_resample_means(const struct rc_shape *from, const double *v,
-                              const struct rc_shape *to, double *out);
-
-/* The grid of spacings dx, dy (m) for rc_resample: as many whole cells as fit in the map, with the same
- * middle. An axis whose spacing does not change keeps its nodes; a single row stays one, of the new width.
- * RC_FAIL when a spacing is not positive or wider than the map, or there are too many nodes. */
-RC_API enum rc_status rc_resample_shape(const struct rc_shape *from, double dx, double dy,
-                                        struct rc_shape *to, struct rc_err *err);
-/* Whether the cells of `to` cover the map `from` completely, within RC_SAME_SPACING; a periodic map then
- * stays periodic. */
-RC_API bool rc_resample_covers(const struct rc_shape *from, const struct rc_shape *to);
-/* v on the grid `to`, with the same middle. Along an axis with larger cells: means over their area, missing
- * (NaN) where less than half of it is measured. Along an axis with smaller cells it is cubic convolution with
- * six nodes (Keys 1981), exact for cubic polynomials and smooth to the first derivative. It wraps if
- * `periodic`; otherwise a parabola extrapolates the map. Near a missing value it is bilinear, closer constant
- * in the old cell, and missing in a missing cell. Equal cells are copied. v and out do not overlap. RC_FAIL
- * when `to` exceeds the map or memory is short. It needs another map if one axis becomes coarser and the
- * other finer, else a few rows. */
-RC_API enum rc_status rc_resample(const struct rc_shape *from, const double *v, bool periodic,
-                                  const struct rc_shape *to, double *out, struct rc_err *err);
-
-/* The to->nx by to->ny values from column `left` and row `top` on; out may be v. RC_FAIL when they exceed the
- * map. */
-RC_API enum rc_status rc_crop(const struct rc_shape *from, const double *v, size_t left, size_t top,
-                              const struct rc_shape *to, double *out, struct rc_err *err);
-/* Reverses left and right (axis 'x') or top and bottom ('y'), in place. */
-RC_API void rc_mirror(const struct rc_shape *shape, char axis, double *v);
-/* Reflection: the upper left quarter holds the map, the others its images about the right and the lower edge.
- * This is a period without steps. A side of one node is not reflected. Rotation: quarter turns
- * counterclockwise, row 0 at the top. *_shape: the resulting shape (an odd number of turns exchanges rows and
- * columns). v and out do not overlap. */
-RC_API struct rc_shape rc_reflect_shape(const struct rc_shape *from);
-RC_API void rc_reflect(const struct rc_shape *from, const double *v, double *out);
-RC_API struct rc_shape rc_rotate_shape(const struct rc_shape *from, size_t quarters);
-RC_API void rc_rotate(const struct rc_shape *from, const double *v, size_t quarters, double *out);
-
-/* The overlap of two maps placed with equal middles, with the spacings of a. RC_FAIL when spacings differ by
- * more than RC_SAME_SPACING. */
-RC_API enum rc_status rc_add_shape(const struct rc_shape *a, const struct rc_shape *b,
-                                   struct rc_shape *sum, struct rc_err *err);
-/* Two facing surfaces on their overlap (m): ha + hb, b mirrored left to right as seen from a. The larger map
- * is cut evenly; of an odd number of columns or rows one more at its own right or bottom. NaN where either
- * is. out may be ha. RC_FAIL as rc_add_shape. */
-RC_API enum rc_status rc_add(const struct rc_shape *a, const double *ha, const struct rc_shape *b,
-                             const double *hb, double *out, struct rc_err *err);
-/* ha - hb, b not mirrored: the change of a surface. */
-RC_API enum rc_status rc_subtract(const struct rc_shape *a, const double *ha,
-                                  const struct rc_shape *b, const double *hb, double *out,
-                                  struct rc_err *err);
-
-/* ---- figures and sums of maps ---- */
-
-struct rc_statistics {
-    size_t missing;                /* NaN                                            */
-    size_t infinite;               /* +-inf, left out of all other figures, like NaN */
-    double minimum, maximum, mean; /* NAN when all values are missing                */
-    double rms;                    /* deviation from the mean (for heights: Sq) */
-    /* magnitude of the gradient (Sdq), by forward differences between measured neighbours */
-    double rms_slope;
-    double sum; /* compensated */
-};
-/* Figures of the measured values, in the unit of v; rms_slope in that unit per metre. */
-RC_API void rc_measure(const struct rc_shape *shape, const double *v, struct rc_statistics *result);
-
-/* Sum of n doubles with the compensation of Neumaier 1974: its error does not grow with n. */
-RC_API double rc_sum(const double *v, size_t n);
-
-/* RMS of the gradient's magnitude of the heights h (m) over the nodes in contact, by differences to the next
- * node along each side of the map. rc_in_contact decides from p, a pressure or a map of 1 and 0; p NULL: all
- * nodes. NAN when there is none. Among ranks (NULL: none) h and p are the rows held here. */
-RC_API double rc_measure_contact_slope(const struct rc_ranks *ranks, const struct rc_shape *shape,
-                                       const double *h, const double *p);
-
-/* RMS of the steps between neighbours along x, [0], and along y, [1]. The first pair is inside the map; the
- * second is across the edge, from its last line to its first. NAN along a side of one node. In the unit of v,
- * which holds no NaN. Among ranks (NULL: none) v is the rows held here. */
-struct rc_seam {
-    double inside[2], across[2];
-};
-RC_API void rc_measure_seam(const struct rc_ranks *ranks, const struct rc_shape *shape,
-                            const double *v, struct rc_seam *seam);
-
-/* ---- contact patches ---- */
-
-enum rc_boundary {
-    RC_FREE,    /* a half-space whose surface extends, without load, beyond the map */
-    RC_PERIODIC /* the map repeats without end                                      */
-};
-
-struct rc_patch_options {
-    enum rc_boundary boundary;    /* periodic: patches continue across the edges of the map */
-    bool each;                    /* fill the list of patches                               */
-    size_t threads;               /* 0: all                                                 */
-    const struct rc_ranks *ranks; /* processes that share the map; NULL: none               */
-};
-
-struct rc_patch {
-    size_t nodes;
-    double area, perimeter; /* m^2, m */
-};
-
-/* Nodes in contact (rc_in_contact of p, a pressure or a map of 1 and 0), joined through their four
- * neighbours. The perimeter is the sum of the edges between a node in contact and one out of contact, without
- * the border of a free map. The corrected area is smaller by (pi - 1 + ln 2)/24 dx dy for each such edge
- * (Yastrebov, Anciaux and Molinari 2017). The reason: a grid counts every node that the edge of the contact
- * crosses. */
-struct rc_patches {
-    size_t count, contact_nodes;
-    double contact_area, contact_area_corrected, perimeter; /* m^2, m^2, m */
-    struct rc_patch *patch; /* `count` of them, the largest first; NULL if not requested */
-};
-/* RC_FAIL when memory is short. Call rc_patches_free in either case. */
-RC_API enum rc_status rc_patches_find(const struct rc_shape *shape, const double *p,
-                                      const struct rc_patch_options *options,
-                                      struct rc_patches *patches, struct rc_err *err);
-RC_API void rc_patches_free(struct rc_patches *patches);
-
-/* ---- surface parameters: areal, features, profiles, spectra ---- */
-
-struct rc_surface_options {
-    enum rc_boundary boundary; /* periodic: waves and correlations continue across the edges */
-    size_t threads;            /* 0: all                                                     */
-};
-
-/* Parameters of ISO 25178-2 (for a profile of ISO 21920-2 over its whole length), about the mean of the
- * measured points. NAN: undefined. A node stands for its cell. */
-struct rc_areal {
-    double sq, sa;     /* m: RMS, mean magnitude                                                 */
-    double ssk, sku;   /* skewness, kurtosis; undefined for a flat                               */
-    double sp, sv, sz; /* m: highest peak, deepest pit (both positive), and their sum            */
-    double sdq;        /* RMS gradient from differences of neighbours, each direction separately */
-    /* developed area over its projection, less 1: mean of the triangles along both diagonals of each four
-     * nodes */
-    double sdr;
-    double sal; /* m: shortest offset with a correlation of 0.2 */
-    /* sal over the longest such offset; NAN where the correlation does not fall to 0.2 in some direction
-     * within half the map, and for a profile */
-    double str;
-    /* degrees, 0 <= std < 180: direction of the strongest waves, from x counterclockwise in the picture; NAN
-     * for a profile */
-    double std;
-    double sk, spk, svk; /* m: core height, reduced peak and pit height             */
-    double smr1, smr2;   /* material ratios, as fractions, above and below the core */
-    double vmp, vmc;     /* m, that is m^3/m^2: material volume of peaks and core   */
-    double vvc, vvv;     /* and void volume of core and pits; core: 10 % to 80 %    */
-    double sxp;          /* m: height between 2.5 % and 50 % material ratio         */
-    /* 1/m: RMS of the mean curvature, half the sum of both second differences (for a profile the second
-     * difference itself), over nodes with measured neighbours */
-    double rms_curvature;
-};
-/* h in m; values that are not finite are missing. The line of the material ratio curve is the least-squares
- * line over the 40 % of smallest secant slope (ISO 25178-2, ISO 13565-2). Of equal slopes it is the first.
- * RC_FAIL when a side is too long for a Fourier transform, or memory is short. */
-RC_API enum rc_status rc_areal(const struct rc_shape *shape, const double *h,
-                               const struct rc_surface_options *options, struct rc_areal *areal,
-                               struct rc_err *err);
-
-/* Feature parameters of ISO 25178-2: watershed over eight neighbours, pruned by Wolf's rule at 5 % of Sz,
- * about the mean of the measured points. NAN: undefined, as for a flat, for a map of less than 3 nodes a
- * side, and s5p, s5v for fewer than five. */
-struct rc_features {
-    /* 1/m^2: peaks and pits, without those at an edge or next to a missing point */
-    double spd, svd;
-    double spc; /* 1/m: mean curvature of these peaks, half the sum of both second differences */
-    /* m: mean height of the five highest peaks, depth of the five deepest pits, sum */
-    double s5p, s5v, s10z;
-    /* m^2: mean area of the hills and dales that touch no edge and no missing point */
-    double sha, sda;
-};
-/* h in m; values that are not finite are missing. RC_FAIL when memory is short. */
-RC_API enum rc_status rc_features(const struct rc_shape *shape, const double *h,
-                                  const struct rc_surface_options *options,
-                                  struct rc_features *features, struct rc_err *err);
-
-/* Parameters of ISO 21920-2, about the mean. NAN: undefined. */
-struct rc_profile {
-    double ra, rq, rsk, rku; /* m, m, skewness and kurtosis                                    */
-    double rpt, rvt, rt;     /* m: highest peak, deepest pit, their sum, over the whole length */
-    double rp, rv, rz;       /* m: the same in each section, then means over the sections      */
-    /* m: mean spacing and height of the elements. An element is a hill and the following dale, each at least
-     * 10 % of rz, from one rising crossing of the mean line to the next. NAN: none is complete */
-    double rsm, rc;
-    double rdq; /* RMS slope by the seven-point formula; NAN: fewer points */
-    size_t elements;
-};
-/* Takes n heights z (m), a step (m) apart, in this number of sections (usually 5). RC_FAIL when one is
- * missing or there are fewer heights than sections. */
-RC_API enum rc_status rc_profile_measure(size_t n, double step, const double *z, size_t sections,
-                                         struct rc_profile *profile, struct rc_err *err);
-/* n heights along the line between two positions on a map, both included, by cubics through the nodes; NAN
- * where a needed node is missing. Beyond the map the heights of its edge continue. */
-RC_API void rc_profile_along(const struct rc_shape *shape, const double *h, struct rc_place from,
-                             struct rc_place to, size_t n, double *z);
-
-struct rc_psd_options {
-    enum rc_boundary boundary;
-    const char *window; /* a name of rc_window_name; NULL: none for a periodic map, else hann */
-    /* m: range of the fit of the Hurst exponent; both 0: where the spectrum follows a power law */
-    double shortest, longest;
-    /* NULL, or nx ny values: the spectrum itself, m^4, wave number 0 at node (nx/2, ny/2), 2 pi/(nx dx) rad/m
-     * from column to column */
-    double *map;
-    size_t threads; /* 0: all */
-};
-
-/* Power spectral density |FFT|^2 dx dy/(nx ny), averaged over rings of wave numbers. A ring is as wide as the
- * lowest wave number (Persson et al. 2005, J. Phys. Condens. Matter 17, R1; Jacobs, Junge and Pastewka 2017,
- * Surf. Topogr. 5, 013001: C^iso, for a profile C^1D), without the mean. Its sum over all waves, over the
- * area of the map, is Sq^2. With a window w it is |FFT(w h)|^2 dx dy/(nx ny)/mean(w^2), as in Gwyddion and
- * SurfaceTopography. Its sum is then the mean square in the window: Sq^2 on average for statistically
- * homogeneous surfaces. The window is applied along each side, to heights less their mean weighted with
- * it. */
-struct rc_psd {
-    size_t rings;
-    double *q;          /* rad/m: mean over the waves of a ring                                */
-    double *c;          /* m^4; for a profile m^3                                              */
-    size_t *modes;      /* number of waves in a ring, opposite ones both counted: at least one */
-    const char *window; /* its name                                                            */
-    double sum;         /* m^2: sum of c over all waves, over the area of the map */
-    double mean_square; /* m^2: Sq^2, of the heights themselves                                */
-    double hurst;       /* H of c ~ q^(-2-2H), for a profile q^(-1-2H); NAN: no power law      */
-    double hurst_error; /* its standard error                                                  */
-    double shortest, longest; /* m: the range of its fit; NAN: none */
-};
-/* Name of window k = 0, 1, ...: none, hann, hamming, blackman; NULL past the last. */
-RC_API const char *rc_window_name(size_t k);
-/* NULL when a height is missing or infinite, or the range is invalid or holds too few waves. Also when a side
- * is too long for a Fourier transform, or memory is short. */
-RC_API struct rc_psd *rc_psd_new(const struct rc_shape *shape, const double *h,
-                                 const struct rc_psd_options *options, struct rc_err *err);
-RC_API void rc_psd_free(struct rc_psd *psd); /* NULL is allowed */
 
 /* ---- bodies ---- */
 
 /* A layer of isotropic material, bonded to the material below. */
 struct rc_layer {
-    double thickness; /* m, > 0                                                              */
+    double thickness; /* m, > 0 */
     double e, nu;     /* Young's modulus, Pa, > 0; Poisson's ratio, above -1 and at most 0.5 */
 };
 /* An elastic half-space, uniform or under layers. */
 struct rc_body {
     double e, nu;                 /* moduli of the half-space; e INFINITY: rigid */
-    size_t layers;                /* 0: uniform                                  */
-    const struct rc_layer *layer; /* the top layer first                         */
+    size_t layers;                /* 0: uniform */
+    const struct rc_layer *layer; /* the top layer first */
 };
 /* Index of the material at a depth (m): 0 the top layer, `layers` the half-space. An interface belongs to the
  * material above it. */
@@ -488,9 +163,12 @@ RC_API size_t rc_body_material(const struct rc_body *body, double depth);
 
 /* The two bodies in contact, or E* alone for uniform bodies. */
 struct rc_pair {
-    struct rc_body one; /* body 1, which stress and plasticity analyse */
-    struct rc_body two; /* e 0: rigid                                  */
-    /* Pa, 1/E* = (1 - nu1^2)/E1 + (1 - nu2^2)/E2, if `one` and `two` are left out; 0: computed from them */
+    /* body 1, which stress and plasticity analyse */
+    struct rc_body one;
+    /* e 0: rigid */
+    struct rc_body two;
+    /* Pa, 1/E* = (1 - nu1^2)/E1 + (1 - nu2^2)/E2, if `one` and `two` are left out; 0: computed
+     * from them */
     double estar;
 };
 
@@ -498,14 +176,22 @@ struct rc_pair {
 
 struct rc_conv_options {
     enum rc_boundary boundary;
-    const char *engine;       /* a row of engines.list, or NULL or "auto"                         */
-    double tol;               /* asked error of u, relative to the sum of |K| |p|; 0: rounding    */
-    bool precise;             /* in double precision throughout, even where tol permits less      */
-    size_t order, correction; /* t, m_c of the engine mlms, both or none                          */
-    size_t memory;            /* bytes that "auto" may use; 0: any                                */
-    double loaded;            /* expected fraction of nodes with pressure, for "auto"; 0: unknown */
-    size_t threads;           /* 0: all                                                           */
-    const struct rc_ranks *ranks; /* processes that share the map; NULL: none */
+    /* a row of engines.list, or NULL or "auto" */
+    const char *engine;
+    /* asked error of u, relative to the sum of |K| |p|; 0: rounding */
+    double tol;
+    /* in double precision throughout, even where tol permits less */
+    bool precise;
+    /* t, m_c of the engine mlms, both or none */
+    size_t order, correction;
+    /* bytes that "auto" may use; 0: any */
+    size_t memory;
+    /* expected fraction of nodes with pressure, for "auto"; 0: unknown */
+    double loaded;
+    /* 0: all */
+    size_t threads;
+    /* processes that share the map; NULL: none */
+    const struct rc_ranks *ranks;
 };
 
 /* The engine that such a plan would use, and the reason; "" when there is none of that name. */
@@ -533,36 +219,47 @@ RC_API void rc_conv_free(struct rc_conv *conv);
 
 struct rc_problem {
     enum rc_boundary boundary;
-    struct rc_pair pair; /* the bodies; layers are copied                              */
-    double load;         /* total normal force, N, > 0; with an approach a guess, or 0 */
+    /* the bodies */
+    struct rc_pair pair;
+    /* total normal force, N, > 0; with an approach a guess, or 0 */
+    double load;
     /* m, > 0: approach from first touch, for which the load is found; 0: the load is given */
     double approach;
-    double hardness; /* upper bound of the pressure, Pa; 0 or INFINITY: none */
-    /* Pa, nx ny, copied: hardness of each node, NAN or INFINITY for none; NULL: `hardness` holds for all
+    /* upper bound of the pressure, Pa; 0 or INFINITY: none */
+    double hardness;
+    /* Pa, nx ny: hardness of each node, NAN or INFINITY for none; NULL: `hardness` holds for all
      * nodes */
     const double *hardness_map;
-    /* m: error of the heights, as the shape_error of the solution that made them; only affects which nodes
-     * count as yielded */
+    /* m: error of the heights, as the shape_error of the solution that made them; only affects
+     * which nodes count as yielded */
     double height_error;
-    /* the counter body tilts until the pressures have no moment about the point where the load acts; not with
-     * RC_PERIODIC */
+    /* the counter body tilts until the pressures have no moment about the point where the load
+     * acts; not with RC_PERIODIC */
     bool tilt_free;
-    double force_at[2]; /* m: that point, x and y from the middle of the map */
-    double tol; /* asked relative L1 error of the pressure; 0: (nx ny)^(-3/4), at most 1e-3 */
+    /* m: that point, x and y from the middle of the map */
+    double force_at[2];
+    /* asked relative L1 error of the pressure; 0: (nx ny)^(-3/4), at most 1e-3 */
+    double tol;
     /* fraction of tol for a yielding load of a history, whose error stays in the shape; 0: 1 */
     double history_part;
-    const char *engine;    /* NULL: auto                                                    */
-    const char *method;    /* NULL: auto                                                    */
-    size_t max_iterations; /* 0: 100 + 10 sqrt(nx ny)                                       */
-    size_t threads;        /* 0: all                                                        */
-    bool discretization;   /* estimate the discretization error; also solves a coarser grid */
-    const struct rc_ranks *ranks; /* processes that share the map; NULL: none */
-    /* If this is not 0 (a signal handler may set it), the caller cannot wait. A step ends early, also within
-     * a convolution, and rc_solver_result uses gap and displacement of the last step, in single precision if
-     * its convolutions were. If the step has changed the pressure, or none was finished on this grid, the gap
-     * costs a convolution in single precision. Without a hardness it is made only for displacement or gap;
-     * else the figures of the gap are NAN. NULL: never. Ignored with ranks, and where a contact is
-     * part of another problem. */
+    /* NULL: auto */
+    const char *engine;
+    /* NULL: auto */
+    const char *method;
+    /* 0: 100 + 10 sqrt(nx ny) */
+    size_t max_iterations;
+    /* 0: all */
+    size_t threads;
+    /* estimate the discretization error; also solves a coarser grid */
+    bool discretization;
+    /* processes that share the map; NULL: none */
+    const struct rc_ranks *ranks;
+    /* If this is not 0 (a signal handler may set it), the caller cannot wait. A step ends early,
+     * also within a convolution, and rc_solver_result uses gap and displacement of the last
+     * step, in single precision if its convolutions were. If the step has changed the pressure,
+     * or none was finished on this grid, the gap costs a convolution in single precision.
+     * Without a hardness it is made only for displacement or gap; else the figures of the gap
+     * are NAN. NULL: never. Ignored with ranks, and where a contact is part of another problem. */
     const volatile sig_atomic_t *hurry;
 };
 
@@ -574,58 +271,73 @@ struct rc_discretization {
 /* The figures of a solution, after rc_solver_step returns RC_OK or RC_SHORT, or after any earlier
  * iteration. */
 struct rc_contact {
-    double load, mean_pressure, max_pressure; /* N, Pa, Pa: summed from the pressure itself */
-    size_t contact_nodes, plastic_nodes;      /* p > 0; p = hardness                        */
-    /* p = hardness, and a gap that is negative by more than four times the error of gap and heights: nodes
-     * that yield under this load */
+    /* N, Pa, Pa: summed from the pressure itself */
+    double load, mean_pressure, max_pressure;
+    /* p > 0; p = hardness */
+    size_t contact_nodes, plastic_nodes;
+    /* p = hardness, and a gap that is negative by more than four times the error of gap and
+     * heights: nodes that yield under this load */
     size_t yielded_nodes;
-    double contact_area, contact_fraction; /* m^2, -                           */
-    double plastic_area, yielded_area;     /* m^2                              */
-    double edge_load_fraction;             /* load on the outer 2 % of the map */
-    /* m, from first touch; NAN when no node is elastic, unless the approach was given and suits the contact.
-     * With a free tilt: at the point where the load acts, from the position where a rigid body would rest. */
+    /* m^2, - */
+    double contact_area, contact_fraction;
+    /* m^2 */
+    double plastic_area, yielded_area;
+    /* load on the outer 2 % of the map */
+    double edge_load_fraction;
+    /* m, from first touch, that of the highest node; NAN when no node is elastic, unless the
+     * approach was given and suits the contact. With a free tilt: at the point where the load
+     * acts, from the position where a rigid body would rest. */
     double approach;
-    double tilt[2];  /* slope of the counter body along x and y   */
-    double mean_gap; /* m, mean of max(gap, 0) over the whole map */
-    /* J, of both bodies: the integral of p u / 2. On a periodic map without the energy of the mean pressure,
-     * which depends on the thickness of the bodies */
+    /* slope of the counter body along x and y */
+    double tilt[2];
+    /* m, mean of max(gap, 0) over the whole map */
+    double mean_gap;
+    /* J, of both bodies: the integral of p u / 2. On a periodic map without the energy of the
+     * mean pressure, which depends on the thickness of the bodies */
     double elastic_energy;
-    /* m: the largest violation of gap >= 0 where p = 0, gap = 0 where elastic, gap <= 0 at the hardness, from
-     * a fresh convolution */
+    /* m: the largest violation of gap >= 0 where p = 0, gap = 0 where elastic, gap <= 0 at the
+     * hardness, from a fresh convolution */
     double gap_error;
-    double shape_error; /* m: error of the heights of rc_solver_plastic */
-    /* gap_error over max(std h, std u); for equal heights over the largest displacement due to the mean
-     * pressure */
+    /* m: error of the heights of rc_solver_plastic */
+    double shape_error;
+    /* gap_error over max(std h, std u); for equal heights over the largest displacement due to
+     * the mean pressure */
     double kkt_residual;
-    /* estimated relative L1 error of the pressure; NAN when stopped on a coarser grid; the part of it from
-     * earlier loads of a history, through the shape */
+    /* estimated relative L1 error of the pressure; NAN when stopped on a coarser grid; the part
+     * of it from earlier loads of a history, through the shape */
     double pressure_error, inherited_error;
     size_t iterations;
-    double convolutions;                     /* equivalents on the finest grid  */
-    struct rc_discretization discretization; /* estimated discretization errors */
-    bool converged;       /* pressure_error <= tol, at the given load or approach */
-    bool hardness_active; /* some node is at the hardness                         */
+    /* equivalents on the finest grid */
+    double convolutions;
+    /* estimated discretization errors */
+    struct rc_discretization discretization;
+    /* pressure_error <= tol, at the given load or approach */
+    bool converged;
+    /* some node is at the hardness */
+    bool hardness_active;
 };
 
 /* The engine that such a solver would use, and the reason; "" when there is none of that name. */
 RC_API const char *rc_solver_choice(const struct rc_shape *shape, const struct rc_problem *problem,
                                     const char **reason);
-/* Expected cost of such a solver, from benchmark fits: convolutions (equivalents) and seconds, both NAN where
- * unknown, and bytes. RC_FAIL when rc_solver_new would refuse the problem, except for short memory. Examples:
- * no such engine or method, none for the boundary or the ranks, no solution under the load. */
+/* The cost of a computation, before it begins. */
 struct rc_expected {
     double convolutions, seconds;
     size_t memory; /* bytes of a rank, without the caller's arrays, code, and FFTW's plans */
 };
-enum { /* further bytes a node of these calls while they run */
+/* Further bytes a node of rc_solver_stiffness and rc_solver_conductance while they run. */
+enum {
     RC_STIFFNESS_BYTES = 12,
     RC_CONDUCTANCE_BYTES = 20
 };
+/* Expected cost of such a solver, from benchmark fits: convolutions (equivalents) and seconds, both NAN where
+ * unknown, and bytes. RC_FAIL when rc_solver_new would refuse the problem, except for short memory. Examples:
+ * no such engine or method, none for the boundary or the ranks, no solution under the load. */
 RC_API enum rc_status rc_solver_expect(const struct rc_shape *shape,
                                        const struct rc_problem *problem,
                                        struct rc_expected *expected, struct rc_err *err);
-/* `h` (finite) is copied. NULL if the load exceeds hardness * area, or the sum of the hardness map times the
- * cell (the message has both numbers). NULL also if the problem is invalid or memory is short. */
+/* The heights h are finite. NULL if the load exceeds hardness * area, or the sum of the hardness map times
+ * the cell (the message has both numbers). NULL also if the problem is invalid or memory is short. */
 RC_API struct rc_solver *rc_solver_new(const struct rc_shape *shape, const double *h,
                                        const struct rc_problem *problem, struct rc_err *err);
 /* Starts another first loading of the same surface. Its target is a load in N or, with approach > 0, an
@@ -636,8 +348,8 @@ RC_API enum rc_status rc_solver_set_load(struct rc_solver *solver, double load, 
 /* Another asked relative L1 error of the pressure, > 0, from the next load on. The engine keeps the tolerance
  * of rc_solver_new, which should not be far above this one. */
 RC_API void rc_solver_set_tol(struct rc_solver *solver, double tol);
-/* Other heights (nx ny m, copied), under the present load or approach: same plan and memory, no new tables;
- * the last pressure is the start. Resets the counts. RC_FAIL when a height is not finite (nothing has then
+/* Other heights (nx ny m), under the present load or approach: same plan and memory, no new tables; the
+ * last pressure is the start. Resets the counts. RC_FAIL when a height is not finite (nothing has then
  * changed), and as in rc_solver_set_load. */
 RC_API enum rc_status rc_solver_set_heights(struct rc_solver *solver, const double *h,
                                             struct rc_err *err);
@@ -650,14 +362,14 @@ RC_API enum rc_status rc_solver_warm_start(struct rc_solver *solver, double load
 /* One iteration, on coarser grids first: RC_MORE, RC_OK when the estimated error is below tol, RC_SHORT when
  * it cannot get there (iteration limit, rounding). */
 RC_API enum rc_status rc_solver_step(struct rc_solver *solver);
-/* Progress: the grid of the present iterations (a coarser one at first), the number of iterations on it, and
- * two errors. These are the last estimated error there (NAN before the first) and the error asked for. */
 struct rc_progress {
     struct rc_shape grid;
     bool coarser; /* than the map's own grid, whose start it computes */
     size_t iterations;
     double error, tol;
 };
+/* Progress: the grid of the present iterations (a coarser one at first), the number of iterations on it, and
+ * two errors. These are the last estimated error there (NAN before the first) and the error asked for. */
 RC_API void rc_solver_progress(const struct rc_solver *solver, struct rc_progress *progress);
 /* Convolutions so far, in equivalents of one in double precision on this grid; those on coarser grids and in
  * single precision count with their share. */
@@ -697,9 +409,12 @@ RC_API enum rc_status rc_solver_stiffness(struct rc_solver *solver, double *stif
  * potentials far away. On a periodic map the potentials are the means over each surface.
  * Only the contact conducts, and it has no film. */
 struct rc_conductance {
-    double stiffness; /* N/m: S; equals rc_solver_stiffness if no node is at the hardness */
-    double value;     /* W/K with k1, k2 in W/(m K); S with S/m                           */
-    double lower; /* lower bound for these nodes; its difference from `value` shows the accuracy */
+    /* N/m: S; equals rc_solver_stiffness if no node is at the hardness */
+    double stiffness;
+    /* W/K with k1, k2 in W/(m K); S with S/m */
+    double value;
+    /* lower bound for these nodes; its difference from `value` shows the accuracy */
+    double lower;
 };
 /* Call it at the solution, after rc_solver_result. NAN for layered bodies, to which the analogy does not
  * apply, and where a periodic surface is in complete contact. Takes 10 to 20 convolutions; RC_FAIL when a
@@ -712,7 +427,7 @@ RC_API const char *rc_solver_engine_reason(const struct rc_solver *solver);
 RC_API const char *rc_solver_method(const struct rc_solver *solver);
 RC_API void rc_solver_free(struct rc_solver *solver);
 
-/* ---- the elastic model ---- */
+/* ---- elastic contact as a model ---- */
 
 /* Optional figures, which cost convolutions. */
 struct rc_elastic_asks {
@@ -722,17 +437,20 @@ struct rc_elastic_asks {
 };
 struct rc_elastic_figures {
     struct rc_contact contact;
-    double stiffness, conductance, conductance_lower; /* NAN: not requested */
-    /* m, both from the first touch of the first shape: the approach now, and the approach at which the
-     * present shape first touches, after a keep */
+    /* NAN: not requested */
+    double stiffness, conductance, conductance_lower;
+    /* m, both from the first touch of the first shape: the approach now, and the approach at
+     * which the present shape first touches, after a keep */
     double indentation, residual_indentation;
-    double tilt_x, tilt_y;       /* rad; NAN: no free tilt */
-    const char *kernel, *method; /* NULL: no load so far   */
+    /* rad; NAN: no free tilt */
+    double tilt_x, tilt_y;
+    /* NULL: no load so far */
+    const char *kernel, *method;
 };
 /* A model (model.h) of elastic bodies, with or without a hardness. It takes a load or an approach; load 0:
- * the bodies are separated. Keeping a point adds its plastic dents to the shape. The caller keeps `h` until
- * the first go or restore, and everything that `problem` points to. The load and approach of the problem are
- * ignored. asks NULL: no optional figures. */
+ * the bodies are separated. Keeping a point adds its plastic dents to the shape. Frame: plastic, the
+ * heights after unloading (m). The load and approach of the problem are ignored. asks NULL: no optional
+ * figures. */
 RC_API struct rc_model *rc_elastic_new(const struct rc_shape *shape, const double *h,
                                        const struct rc_problem *problem,
                                        const struct rc_elastic_asks *asks, struct rc_err *err);
@@ -740,15 +458,19 @@ RC_API struct rc_model *rc_elastic_new(const struct rc_shape *shape, const doubl
  * other models. */
 RC_API const struct rc_elastic_figures *rc_elastic_result(const struct rc_model *model);
 
-/* ---- plasticity in the volume ---- */
+/* ---- yield: plasticity in the volume ---- */
 
 /* Von Mises plasticity with isotropic hardening. The yield stress grows with the equivalent plastic strain
- * linearly, or by a table of points, which the caller keeps. */
+ * linearly, or by a table of points. */
 struct rc_yield_law {
-    double stress;  /* Pa, > 0: initial yield stress                      */
-    double modulus; /* Pa, >= 0: slope over the equivalent plastic strain */
-    size_t points;  /* points of the table; 0: linear law */
-    /* strains from 0, increasing; stresses in Pa, not decreasing. Extrapolated beyond the last point */
+    /* Pa, > 0: initial yield stress */
+    double stress;
+    /* Pa, >= 0: slope over the equivalent plastic strain */
+    double modulus;
+    /* points of the table; 0: linear law */
+    size_t points;
+    /* strains from 0, increasing; stresses in Pa, not decreasing. Extrapolated beyond the last
+     * point */
     const double *strain_at, *stress_at;
 };
 
@@ -756,35 +478,52 @@ struct rc_yield_law {
 RC_API double rc_yield_law_stress(const struct rc_yield_law *law, double strain);
 
 struct rc_yield_problem {
-    /* pair.one is the body that yields, with e and nu; no hardness; load and approach are ignored */
+    /* pair.one is the body that yields, with e and nu; no hardness; load and approach are
+     * ignored */
     struct rc_problem contact;
     struct rc_yield_law law;
-    size_t slabs;            /* slabs that may yield, from the surface down; 0: chosen */
-    const double *thickness; /* m, of each; NULL: chosen                               */
-    size_t increments;       /* increments of each load; 0: chosen                     */
-    bool companion;          /* a second run with half the increments estimates their error */
-    /* tolerance of the stress: its lag behind the yield condition (RMS) over the yield stress; 0: chosen */
+    /* slabs that may yield, from the surface down; 0: chosen */
+    size_t slabs;
+    /* m, of each; NULL: chosen */
+    const double *thickness;
+    /* increments of each load; 0: chosen */
+    size_t increments;
+    /* a second run with half the increments estimates their error */
+    bool companion;
+    /* tolerance of the stress: its lag behind the yield condition (RMS) over the yield stress;
+     * 0: chosen */
     double lag;
-    bool precise; /* strains and stresses in double precision: twice the memory */
+    /* strains and stresses in double precision: twice the memory */
+    bool precise;
 };
 
 /* Results of one load; lengths in m. */
 struct rc_yield_load {
-    size_t increments;    /* increments of this load: 1 without or almost without further yield */
-    size_t applications;  /* applications of the volume operator, in all runs of this load */
-    size_t voxels;        /* voxels (a node and a slab) that have yielded                        */
-    double depth, volume; /* bottom of the deepest yielded voxel; m^3                            */
-    double max_strain;    /* largest equivalent plastic strain                                   */
-    double work;          /* J, plastic work of all loads so far                                 */
-    /* Pa: largest mean over 2 x 2 nodes, because without hardening the pressure alternates from node to
-     * node */
+    /* increments of this load: 1 without or almost without further yield */
+    size_t increments;
+    /* applications of the volume operator, in all runs of this load */
+    size_t applications;
+    /* voxels (a node and a slab) that have yielded */
+    size_t voxels;
+    /* bottom of the deepest yielded voxel; m^3 */
+    double depth, volume;
+    /* largest equivalent plastic strain */
+    double max_strain;
+    /* J, plastic work of all loads so far */
+    double work;
+    /* Pa: largest mean over 2 x 2 nodes, because without hardening the pressure alternates from
+     * node to node */
     double max_pressure_mean4;
-    double lag; /* the lag that was reached */
-    /* Estimated relative L1 error of the pressure, the sum of its parts. The parts are: from the increments
-     * of this load (NAN for fewer than 8); from the increments of earlier loads (NAN where one had fewer).
-     * Then: from the iteration; from the tolerance of the contacts; from the images of a free map. */
-    double error, increment_error, inherited_error, iteration_error, contact_error, image_error;
-    double strained; /* m^3: the integral of the equivalent strain over the volume */
+    /* the lag that was reached */
+    double lag;
+    /* Estimated relative L1 error of the pressure, the sum of its parts. The parts are: from the
+     * increments of this load (NAN for fewer than 8); from the increments of earlier loads (NAN
+     * where one had fewer). Then: from the iteration; from the tolerance of the contacts; from
+     * the images of a free map. */
+    double error, increment_error, inherited_error;
+    double iteration_error, contact_error, image_error;
+    /* m^3: the integral of the equivalent strain over the volume */
+    double strained;
 };
 
 enum {
@@ -792,30 +531,34 @@ enum {
     RC_YIELD_STRAINS
 };
 
-/* ---- yield as a model: elastic until the first yield ---- */
-
 enum {
     RC_YIELD_INCREMENTS = 512 /* most increments of a load */
 };
 struct rc_yield_figures {
     struct rc_contact contact;
-    struct rc_yield_load last;    /* all 0: no voxel has yielded */
-    bool yielded;                 /* true: the body has yielded; false: the solution is
-                                          elastic */
-    size_t slabs;                 /* slabs in use; 0: no voxel has yielded */
-    const double *thickness;      /* m, of each                                             */
-    size_t increment, increments; /* reached, and of the load, as tried                     */
-    double max_mises_over_yield, max_mises_depth; /* elastic contact: largest Mises stress over the
-                                                     yield stress, and its depth in m; NAN: unknown */
-    double indentation, residual_indentation;     /* as in rc_elastic_figures                */
+    /* all 0: no voxel has yielded */
+    struct rc_yield_load last;
+    /* true: the body has yielded; false: the solution is elastic */
+    bool yielded;
+    /* slabs in use; 0: no voxel has yielded */
+    size_t slabs;
+    /* m, of each */
+    const double *thickness;
+    /* reached, and of the load, as tried */
+    size_t increment, increments;
+    /* elastic contact: largest Mises stress over the yield stress, and its depth in m; NAN:
+     * unknown */
+    double max_mises_over_yield, max_mises_depth;
+    /* as in rc_elastic_figures */
+    double indentation, residual_indentation;
 };
-/* A model (model.h) of a body that may yield, along a history of loads; its heights cannot change. As long as
- * no stress reaches the yield stress, the elastic contact is the solution. In the problem, thickness NULL
- * lets this function choose so many slabs. 0: as many as needed, from half the spacing at the surface, each a
- * quarter thicker than the last. increments 0: it chooses their number for each load, so that the estimated
- * error is at most contact.tol (0: 1e-2). lag 0: it chooses a value that suits this. The heights h (nx ny m)
- * are copied; the caller keeps everything that the problem points to. NULL when the problem is invalid, or
- * memory is short. */
+/* A model (model.h) of a body that may yield, along a history of loads; its heights cannot change. As long
+ * as no stress reaches the yield stress, the elastic contact is the solution. In the problem, thickness
+ * NULL lets this function choose so many slabs. 0: as many as needed, from half the spacing at the
+ * surface, each a quarter thicker than the last. increments 0: it chooses their number for each load, so
+ * that the estimated error is at most contact.tol (0: 1e-2). lag 0: it chooses a value that suits this.
+ * Frames: residual, the residual displacement (m), and plastic, as for elastic bodies. NULL when the
+ * problem is invalid, or memory is short. */
 RC_API struct rc_model *rc_yield_new(const struct rc_shape *shape, const double *h,
                                      const struct rc_yield_problem *problem, struct rc_err *err);
 /* Announces this number of loads, N the largest: slabs are chosen for the largest, and increments also for
@@ -828,34 +571,41 @@ RC_API const struct rc_yield_figures *rc_yield_result(const struct rc_model *mod
 RC_API bool rc_yield_strain(const struct rc_model *model, size_t slab,
                             double *const e[RC_YIELD_STRAINS]);
 
-/* ---- adhesion ---- */
+/* ---- adhesion as a model ---- */
 
-/* Row k = 0, 1, ... of the table of laws; NULL past the last. */
 struct rc_adhesion_law_info {
     const char *name, *summary;
     bool ranged; /* true: the caller may choose its range; false: the grid determines it */
 };
+/* Row k = 0, 1, ... of the table of laws; NULL past the last. */
 RC_API const struct rc_adhesion_law_info *rc_adhesion_law_info(size_t k);
 
 /* Bodies that attract each other: a traction sigma(g) >= 0 pulls where the gap is g >= 0. */
 struct rc_adhesion_problem {
-    /* Used: bodies, boundary, hardness (of p + sigma), tol (at most 1e-3), max_iterations and threads.
-     * Ignored: load and approach. engine, method: NULL or "auto", or an engine with transforms */
+    /* Used: bodies, boundary, hardness (of p + sigma), tol (at most 1e-3), max_iterations and
+     * threads. Ignored: load and approach. engine, method: NULL or "auto", or an engine with
+     * transforms */
     struct rc_problem contact;
-    double work;     /* J/m^2, > 0: work to separate a unit area, the integral of sigma */
-    const char *law; /* a row of the table; NULL: the first                             */
-    /* m: exponential, the length over which sigma decreases to 1/e; dugdale, work/sigma(0); compact, where
-     * sigma ends. 0: a cohesive length of two nodes */
+    /* J/m^2, > 0: work to separate a unit area, the integral of sigma */
+    double work;
+    /* a row of the table; NULL: the first */
+    const char *law;
+    /* m: exponential, the length over which sigma decreases to 1/e; dugdale, work/sigma(0);
+     * compact, where sigma ends. 0: a cohesive length of two nodes */
     double range;
 };
 
 /* The law on this grid. */
 struct rc_adhesion_scales {
     const char *law;
-    double range;           /* m                                              */
-    double strength;        /* Pa: sigma(0)                                   */
-    double steepest;        /* Pa/m: the largest -sigma'                      */
-    double cohesive_length; /* m: E* (for waves of two nodes) / `steepest`    */
+    /* m */
+    double range;
+    /* Pa: sigma(0) */
+    double strength;
+    /* Pa/m: the largest -sigma' */
+    double steepest;
+    /* m: E* (for waves of two nodes) / `steepest` */
+    double cohesive_length;
     /* cohesive_length over the larger of dx, dy: below 1.5 the grid itself causes hysteresis */
     double cohesive_nodes;
 };
@@ -867,100 +617,597 @@ RC_API enum rc_status rc_adhesion_check(const struct rc_shape *shape,
 /* The current state of the path. Loads are positive when the bodies are pressed together; all pressures but
  * `repulsive_load` are net, p of the contact less sigma. NAN: unknown. */
 struct rc_adhesion_state {
-    double load, mean_pressure; /* N, Pa                                                        */
-    double approach;            /* m: 0 at first touch of the undeformed bodies, negative apart */
-    double mean_gap;            /* m, over the map                                              */
-    double attractive_load, repulsive_load; /* N, both positive: sums of sigma and of p + sigma */
-    double attractive_area;                 /* m^2: where sigma > sigma(0)/100                  */
-    size_t contact_nodes;                   /* nodes with gap 0, or negative at the hardness    */
-    double contact_area, contact_fraction;  /* m^2, -                                           */
-    size_t plastic_nodes;                   /* nodes with a negative gap: p + sigma = hardness  */
-    double plastic_area;                    /* m^2                                              */
-    double max_pressure, min_pressure;      /* Pa                                               */
-    double edge_traction; /* largest sigma over sigma(0) at the edge of a free map; else 0 */
-    /* The smallest eigenvalue of A - D on the nodes off contact, A = 1/K and D = -sigma', in units of A as
-     * the contact leaves it. Above 0 the state is stable under the control in use; below 0 it is a saddle */
+    /* N, Pa */
+    double load, mean_pressure;
+    /* m: 0 at first touch of the undeformed bodies, negative apart */
+    double approach;
+    /* m, over the map */
+    double mean_gap;
+    /* N, both positive: sums of sigma and of p + sigma */
+    double attractive_load, repulsive_load;
+    /* m^2: where sigma > sigma(0)/100 */
+    double attractive_area;
+    /* nodes with gap 0, or negative at the hardness */
+    size_t contact_nodes;
+    /* m^2, - */
+    double contact_area, contact_fraction;
+    /* nodes with a negative gap: p + sigma = hardness */
+    size_t plastic_nodes;
+    /* m^2 */
+    double plastic_area;
+    /* Pa */
+    double max_pressure, min_pressure;
+    /* largest sigma over sigma(0) at the edge of a free map; else 0 */
+    double edge_traction;
+    /* The smallest eigenvalue of A - D on the nodes off contact, A = 1/K and D = -sigma', in
+     * units of A as the contact leaves it. Above 0 the state is stable under the control in use;
+     * below 0 it is a saddle */
     double stability;
-    bool stable;    /* stability > 0, to the accuracy of the iteration                  */
-    bool separated; /* under this load the bodies separate, and no stable state is left */
-    /* Number of points between the last state and this one where the path of stable states ended. Found by
-     * the curvatures during the iteration; several in a row may count as one */
+    /* stability > 0, to the accuracy of the iteration */
+    bool stable;
+    /* under this load the bodies separate, and no stable state is left */
+    bool separated;
+    /* Number of points between the last state and this one where the path of stable states
+     * ended. Found by the curvatures during the iteration; several in a row may count as one */
     size_t jumps;
-    /* The lowest load of a retraction, N, its approach, m, and the error of the
-     * load. This is twice the misfit of a parabola through neighbouring states, or the error that a jump
-     * hides */
+    /* The lowest load of a retraction, N, its approach, m, and the error of the load. This is
+     * twice the misfit of a parabola through neighbouring states, or the error that a jump hides */
     double pull_off_load, pull_off_approach, pull_off_spread;
-    bool pull_off_at_start; /* the lowest load is at the first state of the retraction */
-    size_t states;          /* states of this retraction, otherwise 1 */
-    size_t iterations;      /* steps in the gap                     */
-    size_t eigen_steps;     /* steps for the stability              */
-    double convolutions; /* equivalents of one in double precision on this grid, padded if free */
-    double gap_error;    /* m: the largest correction K r of the gap still to come              */
+    /* the lowest load is at the first state of the retraction */
+    bool pull_off_at_start;
+    /* states of this retraction, otherwise 1 */
+    size_t states;
+    /* steps in the gap */
+    size_t iterations;
+    /* steps for the stability */
+    size_t eigen_steps;
+    /* equivalents of one in double precision on this grid, padded if free */
+    double convolutions;
+    /* m: the largest correction K r of the gap still to come */
+    double gap_error;
     /* largest |p + sigma| off contact, or -(p + sigma) in contact, over sigma(0) */
     double kkt_residual;
     /* estimated relative L1 error of p; the part of it from the plastic dents of earlier states */
     double pressure_error;
     double inherited_error;
-    bool converged; /* pressure_error <= tol, and stable */
+    /* pressure_error <= tol, and stable */
+    bool converged;
 };
 
 /* Expected cost of a state of a path. Fails as rc_adhesion_check. */
 RC_API enum rc_status rc_adhesion_expect(const struct rc_shape *shape,
                                          const struct rc_adhesion_problem *problem,
                                          struct rc_expected *expected, struct rc_err *err);
-/* The model (model.h) of such bodies. It takes a load or an approach; the approach -INFINITY, which is no
- * first point, retracts the bodies until they separate, and finds the lowest load on the way. Under a tensile
- * load the next stable state of lower energy is found, if there is one: see `separated`. Keeping a point adds
- * its plastic dents to the shape. The caller keeps everything that `problem` points to. NULL when the problem
- * is invalid, among ranks, when the engine or method does not suit it, or memory is short. */
 struct rc_adhesion_figures {
     struct rc_contact contact; /* the figures that all contacts have */
     struct rc_adhesion_state state;
 };
+/* The model (model.h) of such bodies. It takes a load or an approach; the approach -INFINITY, which is no
+ * first point, retracts the bodies until they separate, and finds the lowest load on the way. Under a
+ * tensile load the next stable state of lower energy is found, if there is one: see `separated`. Keeping a
+ * point adds its plastic dents to the shape. Frames: adhesion, the attraction (Pa), and plastic, as for
+ * elastic bodies. NULL when the problem is invalid, among ranks, when the engine or method does not suit
+ * it, or memory is short. */
 RC_API struct rc_model *rc_adhesion_new(const struct rc_shape *shape, const double *h,
                                         const struct rc_adhesion_problem *problem,
                                         struct rc_err *err);
 /* The figures after a look. NULL: neither the model nor its inner model has adhesion. */
 RC_API const struct rc_adhesion_figures *rc_adhesion_result(const struct rc_model *model);
 
+/* ---- friction as a model ---- */
+
+/* Coulomb's law at each node, with history. A node sticks while its traction is below mu times its pressure,
+ * or slips against the traction at this limit. Given are the pressure and the tangential motion, in
+ * increments. Tractions act on body 1, and the force is their sum. Body 2 pulls body 1 along, and has
+ * moved over it by the displacement (on a periodic map their mean planes). Slip is the motion of body 1 over
+ * body 2, opposite to the traction. */
+struct rc_friction_law {
+    enum rc_boundary boundary;
+    /* uniform bodies, those of the inner model */
+    struct rc_pair pair;
+    /* Poisson's ratio of both, if only E* of the pair is known */
+    double nu;
+    /* coefficient of friction, > 0 */
+    double mu;
+    /* Pa: upper bound of the traction (Tresca); 0 or INFINITY: none */
+    double tau_max;
+    /* for dissimilar bodies: pressure causes no tangential displacement */
+    bool uncoupled;
+    /* asked relative L1 error of the tractions; 0: 1e-4 */
+    double tol;
+    /* most steps of an increment; 0: 200 */
+    size_t max_steps;
+    /* 0: all */
+    size_t threads;
+    /* must be NULL: friction cannot be shared among processes */
+    const struct rc_ranks *ranks;
+};
+
+/* Figures of an increment. */
+struct rc_friction_increment {
+    /* N, normal */
+    double load;
+    /* N: largest force that friction can carry, at most mu times the load */
+    double limit;
+    /* N, along x and y */
+    double force[2];
+    /* m, of body 2 over body 1 since first touch */
+    double displacement[2];
+    /* numbers of nodes among those with a load */
+    size_t stick_nodes, slip_nodes;
+    /* m^2 */
+    double stick_area, slip_area;
+    /* share of the nodes that carry load; NAN: none */
+    double stick_fraction;
+    /* N/m: |force| over |displacement|; NAN where one is 0 */
+    double stiffness;
+    /* J, in this increment */
+    double dissipated;
+    /* m, in this increment */
+    double largest_slip;
+    /* m: largest slip where nodes stick, or across the traction */
+    double slip_error;
+    /* estimated relative L1 error of the tractions, of this increment alone */
+    double traction_error;
+    size_t steps;
+    /* so far, in equivalents of a single map in double precision */
+    double convolutions;
+    /* traction_error <= tol */
+    bool converged;
+};
+
+/* Coupling of pressure and tractions of dissimilar bodies. */
+enum rc_coupling {
+    /* both ways: solved alternately, pass by pass */
+    RC_COUPLING_FULL,
+    /* pressure causes tangential displacement, tractions do not change the pressure */
+    RC_COUPLING_GOODMAN,
+    /* neither way */
+    RC_COUPLING_NONE
+};
+
+enum {
+    RC_FEWER = 2 /* most solutions with fewer increments */
+};
+struct rc_friction_problem {
+    /* `coupling` sets `uncoupled`; tol: the tolerance of an increment */
+    struct rc_friction_law law;
+    enum rc_coupling coupling;
+    /* from point to point, in which all axes change in proportion; 0: chosen */
+    size_t increments;
+    /* passes of pressure and tractions in an increment; 0: 50 */
+    size_t max_passes;
+    /* A known contact: its load (N; 0: none), pressure (Pa) and gap (m; NULL: unknown), nx ny.
+     * It is not solved where tractions do not change the pressure. */
+    double known_load;
+    const double *known_p, *known_gap;
+    /* Further solutions with half of the increments (1) and a quarter (2), which tell the error
+     * of the increments; 0: it is unknown. If tractions change the pressure, each needs a model
+     * like the inner one, which the model of friction owns from then on. Otherwise NULL. */
+    size_t fewer;
+    struct rc_model *inner_of_fewer[RC_FEWER];
+    /* the model has a frame `dissipation`, J/m2: its energy since the last kept point */
+    bool dissipation;
+};
+
+struct rc_friction_figures {
+    /* figures of the last increment; dissipated: since the last kept point */
+    struct rc_friction_increment last;
+    /* since the last point kept: pressures passed to friction */
+    size_t passes;
+    /* relative L1, of the last pass; 0: only one pass is needed */
+    double pressure_change, traction_change;
+    /* Estimated relative L1 errors of the tractions. First: of the last increment, with the
+     * change by further passes. Then: of the iteration of earlier increments; of the contacts of
+     * this and earlier increments; of too few increments (NAN: unknown) */
+    double traction_error, inherited_error, contact_error, increment_error;
+    /* m, as in rc_contact; NAN: unknown */
+    double approach;
+    /* convolutions of friction and contacts, since the last point kept */
+    double convolutions;
+    /* all contacts, tractions and passes since the last point kept */
+    bool converged;
+};
+
+/* How the error of the increments to a point, and to earlier points, is known. */
+enum rc_told {
+    RC_TOLD_EXACT,  /* there is none */
+    RC_TOLD_MANY,   /* enough increments: the estimate is near the error */
+    RC_TOLD_SOME,   /* larger factors of safety, as where the load changes */
+    RC_TOLD_FEW,    /* the largest factor */
+    RC_TOLD_UNKNOWN /* fewer than 4 increments, or 8 where the load changes */
+};
+/* The leg from one point to the next. */
+struct rc_leg {
+    size_t increments;
+    enum rc_told told;
+    bool carries; /* tractions, at its end */
+    bool late;    /* one increment, or two with a large first one */
+    bool falls;   /* the load falls */
+};
+/* The leg that the model takes from a point to the next; before: the leg to `from`. The first leg begins
+ * with a point and a leg of zeros. */
+RC_API struct rc_leg rc_friction_leg(const struct rc_friction_problem *problem,
+                                     const struct rc_leg *before, const struct rc_point *from,
+                                     const struct rc_point *to);
+/* A model (model.h) of friction over an inner one of the same bodies and boundary. In addition to the axes
+ * of the inner model it takes two forces or two displacements along the surface; the first point has both.
+ * h: the undeformed heights. NULL: they are unknown, and only the known contact is possible. Where
+ * dissimilar bodies are coupled the inner model must allow other heights. Frames: pressure, traction-x,
+ * traction-y (Pa), slip-x, slip-y (m, since first touch), state (0: the node carries no load, 1: it
+ * sticks, 2: it slips). RC_FAIL during a path when friction cannot carry the force. */
+RC_API struct rc_model *rc_friction_new(struct rc_model *inner, const double *h,
+                                        const struct rc_friction_problem *problem,
+                                        struct rc_err *err);
+/* The figures of this model, after rc_model_look; NULL: it has no friction. */
+RC_API const struct rc_friction_figures *rc_friction_result(const struct rc_model *model);
+
+/* ---- rolling as a model ---- */
+
+/* A contact that is not solved, in a map with its middle at x, m, where RC_POSITION is counted. */
+struct rc_rolling_contact {
+    const double *p; /* pressure, nx ny Pa */
+    double x;
+};
+/* The contact rolls towards +x. Body 2 moves over body 1 by (creep_x - spin y, creep_y + spin x) per
+ * length rolled, with x and y from the middle of the contact. The middle is at RC_POSITION (0 if it is
+ * never given), in the middle row; on a periodic map that of the nearest period. This is minus the
+ * creepage of railway textbooks, where body 1 moves over body 2. In a steady state, tractions and slip
+ * at each place of the contact do not change with time. On a path, the bodies are pressed together at
+ * the first point, and each further point is a step of rolling from the last point kept. */
+struct rc_rolling_problem {
+    /* Friction and bodies. A steady state needs the free boundary. Pressure moves dissimilar
+     * bodies along each other, unless `uncoupled`; tractions do not change the pressure. tol 0
+     * is 1e-3, on a path 1e-2. max_steps holds for each grid. */
+    struct rc_friction_law law;
+    /* points give RC_TANGENTIAL_X, RC_TANGENTIAL_Y, and RC_CREEP_X, RC_CREEP_Y are found */
+    bool force;
+    /* each point is a step; else a steady state, whatever comes before */
+    bool path;
+    /* NULL: the inner model solves the contact. The caller may change it from point to point. On
+     * a path the map moves by whole columns. */
+    const struct rc_rolling_contact *known;
+};
+struct rc_rolling_figures {
+    /* N: normal; the largest that friction can carry */
+    double load, limit;
+    /* creepage per length rolled, and spin in rad/m. NAN: not yet */
+    double creep[2], spin;
+    /* N, on body 1; N m, about the middle of the contact, NAN where a contact on a periodic map
+     * reaches half a period from there */
+    double force[2], moment;
+    /* numbers of the nodes that carry load */
+    size_t stick_nodes, slip_nodes;
+    /* share of the nodes that carry load */
+    double stick_fraction;
+    /* J/m: force times creepage, moment times spin */
+    double power;
+    /* J/m: friction energy, the sum of the frame `dissipation`: the mean traction of a step
+     * times its slip. It is `power` in a steady state of similar bodies; on a path elastic
+     * energy is the difference. */
+    double power_slip;
+    /* Extrapolated from the two finest grids to a spacing of 0; NAN: too few nodes along x, or a
+     * path. */
+    double extrapolated_creep[2];
+    double extrapolated_force[2], extrapolated_moment;
+    /* N: Kalker's linear theory for the ellipse of the same area and second moments; NAN: its
+     * semi-axes have a ratio beyond 0.1 to 10. */
+    double kalker_force[2];
+    /* Estimated relative errors. First: L1 error of the tractions on this grid. Second: error of
+     * the force due to the spacing, or of the creepage if the force is given (NAN: unknown). */
+    double traction_error, discretization_error;
+    /* steps of Newton's method; steps in time, where it fails */
+    size_t steps, fallbacks;
+    /* with those of the contact */
+    double convolutions;
+    /* traction_error <= tol */
+    bool converged;
+};
+/* A model (model.h) of rolling over an inner model of the same bodies and boundary. Beside the axes of the
+ * inner model it takes RC_CREEP_X and RC_CREEP_Y, or two forces, and RC_SPIN and RC_POSITION. The position
+ * may not fall on a path. Frames: pressure, traction-x, traction-y (Pa), slip-x, slip-y (per length
+ * rolled), state (as for friction), dissipation (J/m3: energy per area and length rolled), slip (per
+ * length rolled: dissipation over the largest traction). RC_FAIL during a path if no node is in contact,
+ * friction cannot carry the force, or a contact with spin reaches half a period from its middle. RC_FAIL
+ * too if the contact reaches the last column (the leading edge), or a column that comes in. Sources:
+ * Kalker 1990, Three-dimensional elastic bodies in rolling contact; Newton's method as in
+ * libcontact/rolling/steady.c. */
+RC_API struct rc_model *rc_rolling_new(struct rc_model *inner,
+                                       const struct rc_rolling_problem *problem,
+                                       struct rc_err *err);
+/* The figures of this model, after rc_model_look; NULL: it does not roll. */
+RC_API const struct rc_rolling_figures *rc_rolling_result(const struct rc_model *model);
+
+/* ---- wear as a model ---- */
+
+struct rc_wear_problem {
+    /* 1/Pa: depth that bodies 1 and 2 lose per pressure and sliding distance, both >= 0 */
+    double k[2];
+    /* Pa, > 0, of the bodies: for the first step and the forecast */
+    double estar;
+    /* bound of the estimated relative error of the worn depth; 0: 0.1 */
+    double tol;
+    /* nx ny numbers from 0 to 1, by which k is multiplied at each node, the largest 1; NULL: 1
+     * everywhere. */
+    const double *part;
+    /* m: body 1 stays in contact and body 2 passes it along x, on a track of this length. It
+     * wears each point of the track once per this distance; 0: the same points of both bodies
+     * stay in contact */
+    double track;
+    /* Two rough bodies slide over each other along x, on a map that repeats: h gives the heights
+     * of body 1, and h2 those of body 2, nx ny m, face to face (NULL: body 2 is smooth). Each
+     * wears by the mean pressure of all alignments. */
+    bool two_bodies;
+    const double *h2;
+    /* nx ny J/m2: a friction energy at each node per unit of the distance, which then is a
+     * number of cycles. A node loses k times this energy, whatever its pressure is; NULL: k p
+     * per sliding distance. There is no part, track, two_bodies or condition beside it. */
+    const double *energy;
+    /* A leg ends early when one of these three is reached (0: no such condition). First: contact
+     * fraction */
+    double until_area;
+    /* m: largest worn depth */
+    double until_depth;
+    /* spread of the pressure, from above */
+    double until_spread;
+};
+struct rc_wear_figures {
+    /* m; NAN with an energy */
+    double distance;
+    /* m3, of both bodies and of each */
+    double wear_volume, wear_volume_1, wear_volume_2;
+    /* m, of both bodies together */
+    double max_wear_depth, mean_wear_depth;
+    /* standard deviation in contact over the mean */
+    double pressure_spread;
+    size_t steps, rejected, contacts;
+    double convolutions;
+    /* Estimated: L1 norm of the error of the worn depth over the worn volume; relative L1 error
+     * of the pressure. Of a worn pressure the true ones are usually 10 to 30 times smaller. */
+    double wear_error, pressure_error;
+    /* both are at most tol */
+    bool converged;
+};
+/* A model (model.h) of bodies that wear at every node by k p per sliding distance. The inner model must
+ * allow other heights and a compliance. In addition to the load it takes the distance. h: the heights at
+ * the start. Its frame `height` is the worn height, `wear` the depth that both bodies have lost. If two
+ * bodies slide over each other, the frames show the alignment of the start, and only the error of the worn
+ * depth decides whether a point has converged. Source: Archard 1953 (J. Appl. Phys. 24, 981); steps as in
+ * libcontact/wear. */
+RC_API struct rc_model *rc_wear_new(struct rc_model *inner, const double *h,
+                                    const struct rc_wear_problem *problem, struct rc_err *err);
+/* The figures of this model, after rc_model_look; NULL: it does not wear. */
+RC_API const struct rc_wear_figures *rc_wear_result(const struct rc_model *model);
+
+/* ---- travel as a model ---- */
+
+/* Heights in m. */
+struct rc_travel_problem {
+    /* map of body 1, with the spacings of the inner model */
+    struct rc_shape track;
+    const double *h1;
+    /* the map of body 1 is periodic along x */
+    bool repeats;
+    /* map of body 2, with the same rows as body 1 */
+    struct rc_shape counter;
+    /* NULL: smooth */
+    const double *h2;
+    bool counter_repeats;
+    /* travel of the heights of body 2 per travel of the contact; 0: it rolls */
+    double ratio;
+    /* m, of the ball that travels; 0: none */
+    double radius;
+};
+struct rc_travel_figures {
+    /* m: x of the middle of the contact on the map of body 1, from the middle of that map */
+    double position;
+    /* m: height of body 2, the highest node less the approach, in a datum that stays with body 1 */
+    double height;
+    /* m: x of the middle of the window on that map; 0 for the whole map */
+    double window_x;
+};
+/* A model (model.h) of a contact that travels along x over body 1. The inner model must allow other
+ * heights. In addition to the load it takes the position. The inner model has the map of body 1, or a
+ * window with fewer columns or rows, which moves with the contact by whole nodes. The numbers of rows of
+ * both maps and of the window are all even or all odd, so that their middle rows agree. In a window each
+ * position is a first contact; on the whole map the inner model keeps its history. The frame `height`
+ * holds the heights of both bodies at the position. The heights of body 2 between nodes are interpolated
+ * by cubic polynomials. RC_FAIL when the window leaves the map of a body. */
+RC_API struct rc_model *rc_travel_new(struct rc_model *inner,
+                                      const struct rc_travel_problem *problem, struct rc_err *err);
+/* The figures of this model, after rc_model_look; NULL: it does not travel. */
+RC_API const struct rc_travel_figures *rc_travel_result(const struct rc_model *model);
+
+/* ---- viscoelastic materials ---- */
+
+/* A relaxation modulus, which is a Prony series, and the creep compliance of the same material:
+ *
+ *     E(t) = relaxed + sum over k of modulus[k] exp(-t/time[k])
+ *     J(t) = instant + sum over j of compliance[j] (1 - exp(-t/retardation[j]))
+ *            + fluidity t
+ *
+ * A strain of 1 from t = 0 on needs the stress E(t); a stress of 1 from t = 0 on causes the strain J(t). Any
+ * modulus has such a compliance, with a factor that is constant in time: for a contact, E/(1 - nu^2). */
+struct rc_relaxation {
+    double relaxed;                   /* Pa */
+    size_t terms;                     /* terms with a modulus of 0 are left out */
+    double *modulus, *time;           /* Pa, s; the times rise */
+    double instant, fluidity;         /* 1/Pa, 1/(Pa s); fluidity > 0 if relaxed = 0 */
+    size_t creep_terms;               /* terms, or terms - 1 with a fluidity */
+    double *compliance, *retardation; /* 1/Pa, s; the times rise */
+};
+/* From `terms` moduli (Pa, >= 0) and relaxation times (s, > 0, all different), in any order, and the relaxed
+ * modulus (Pa, >= 0; 0: a fluid). The compliance is exact to rounding, also over 20 decades (Gross 1953,
+ * Mathematical structure of the theories of viscoelasticity). NULL when a number is out of range, when all
+ * moduli are 0, or when memory is short. */
+RC_API struct rc_relaxation *rc_relaxation_new(double relaxed, size_t terms, const double *modulus,
+                                               const double *time, struct rc_err *err);
+/* Fits a master curve: storage and loss moduli (Pa, > 0) at n >= 4 different angular frequencies (rad/s,
+ * above 0). The relaxation times are even in the logarithm, with `per_decade` times a decade (0: 1.5), from
+ * the inverse of the highest frequency to the inverse of the lowest one. The moduli, >= 0, give the least sum
+ * of squares of the relative errors (Lawson and Hanson 1974). *misfit: the RMS of these errors; above 0.05
+ * the two columns contradict each other. NULL when a number is out of range or memory is short. */
+RC_API struct rc_relaxation *rc_relaxation_fit(size_t n, const double *omega, const double *storage,
+                                               const double *loss, double per_decade,
+                                               double *misfit, struct rc_err *err);
+/* E(t), Pa. */
+RC_API double rc_relaxation_modulus(const struct rc_relaxation *r, double t);
+/* J(t), 1/Pa. */
+RC_API double rc_relaxation_compliance(const struct rc_relaxation *r, double t);
+/* The complex modulus E(i omega), Pa, and the complex compliance J(i omega) = 1/E(i omega), 1/Pa: real and
+ * imaginary parts, for exp(i omega t) with omega > 0, rad/s. */
+RC_API void rc_relaxation_dynamic(const struct rc_relaxation *r, double omega, double modulus[2],
+                                  double compliance[2]);
+RC_API void rc_relaxation_free(struct rc_relaxation *r);
+
+/* ---- viscoelastic bodies as a model ---- */
+
+struct rc_viscoelastic_problem {
+    /* of the body that relaxes */
+    const struct rc_relaxation *material;
+    /* part of this body in the compliance 1/E* of both bodies at once, from above 0 to 1; the
+     * other body is elastic, or rigid: 1 */
+    double share;
+    /* s: shortest time between two points, and time of the last one, for which terms of the
+     * material are left out; 0: all terms are kept */
+    double shortest, longest;
+    /* of the history, for the expected cost; 0: 1 */
+    size_t points;
+    /* steps from point to point, at least 2; 0: chosen, 20 to 320; see below */
+    size_t increments;
+    /* of the error of the increments, relative L1 of the pressure; 0: 0.01 */
+    double tol;
+};
+struct rc_viscoelastic_figures {
+    /* pressure_error holds all errors; elastic_energy NAN */
+    struct rc_contact contact;
+    /* s */
+    double time;
+    /* steps from the previous point */
+    size_t increments;
+    /* relative L1 error of the pressure due to the steps, from a second run with half as many */
+    double increment_error;
+    /* N: load with the same contact on bodies that keep their instantaneous moduli, as long as
+     * this load has only risen: the integral of J(t - s)/J(0) dP(s) */
+    double equivalent_load;
+    /* m: approach; approach at first touch right after the load is removed */
+    double indentation, residual_indentation;
+};
+/* A model (model.h) of viscoelastic bodies in time. The inner model must be elastic, without a hardness,
+ * with the instantaneous moduli of the bodies. Poisson's ratio is constant in time, and all of the
+ * viscoelastic body relaxes alike. h: the heights of the inner model. Points need the time beside the load
+ * or the approach. The load acts suddenly at the first point, and then changes in proportion to the time;
+ * two points at the same time are a jump. A load of 0 separates the bodies. After a corner of the load the
+ * first step is the shortest time of the material over the increments. Steps then grow with the time since
+ * the corner, 1.2 times the increments in a decade. The longest one is the time between the points over
+ * the increments. */
+RC_API struct rc_model *rc_viscoelastic_new(struct rc_model *inner, const double *h,
+                                            const struct rc_viscoelastic_problem *problem,
+                                            struct rc_err *err);
+/* The figures of this model, after rc_model_look; NULL: it is not viscoelastic. */
+RC_API const struct rc_viscoelastic_figures *rc_viscoelastic_result(const struct rc_model *model);
+
+/* ---- steady sliding over a viscoelastic body as a model ---- */
+
+struct rc_sliding_problem {
+    /* E/(1 - nu^2) of body 1 */
+    const struct rc_relaxation *material;
+    /* 1/Pa, (1 - nu^2)/E of body 2, which is elastic; 0: it is rigid */
+    double compliance;
+    /* body 2 slides along +y; false: along +x */
+    bool along_y;
+    /* it meets its own grooves after one period of the map; false: a fresh track */
+    bool repeats;
+};
+struct rc_sliding_figures {
+    /* m/s */
+    double speed;
+    /* Coefficient of friction and force (N) against the motion, by the losses in the material:
+     * the integral of -p du/dx. friction_error: its difference to the integral of -p dh/dx, an
+     * error of the grid, and the error of pressure times the largest slope in contact. */
+    double friction, friction_force, friction_error;
+    /* W, the losses of all waves: friction_force |speed| */
+    double dissipated_power;
+    /* largest ratio of loss and storage of the waves along the motion */
+    double tan_delta_max;
+    /* "fresh" or "repeated" */
+    const char *track;
+    /* elastic contacts of the iteration, and steps in all of them */
+    size_t contacts, iterations;
+    /* equivalents */
+    double convolutions;
+    /* m, from first touch */
+    double approach;
+    /* estimated, relative L1 */
+    double pressure_error;
+    /* NAN: not defined here */
+    double elastic_energy;
+    bool converged;
+};
+/* A model (model.h) of the steady state in which body 2, which has the heights h, slides at a speed over
+ * the smooth viscoelastic body 1. It takes the load or the approach, and the speed, which may be negative.
+ * The bodies of `problem` are not used. NULL when a number is out of range, memory is short, or the
+ * material flows without end. A point fails if tan delta exceeds 3 among the waves of the map. The
+ * material keeps J(-i qx v) (Persson 2001, J. Chem. Phys. 115, 3840; Carbone and Putignano 2013, J. Mech.
+ * Phys. Solids 61, 1822); the iteration is described in libcontact/viscoelastic/sliding.c. */
+RC_API struct rc_model *rc_sliding_new(const struct rc_shape *shape, const double *h,
+                                       const struct rc_problem *problem,
+                                       const struct rc_sliding_problem *law, struct rc_err *err);
+/* The figures of this model, after rc_model_look; NULL: it does not slide. */
+RC_API const struct rc_sliding_figures *rc_sliding_result(const struct rc_model *model);
+
 /* ---- leakage ---- */
 
 struct rc_leak_options {
     /* 'x': from the first column to the last; 'y': from the first row to the last; 0: 'x' */
     char direction;
-    bool around;    /* true: the sides along the flow join, as on a periodic map; false: they are
-                       walls */
-    size_t threads; /* 0: all                                                                   */
+    /* true: the sides along the flow join, as on a periodic map; false: they are walls */
+    bool around;
+    /* 0: all */
+    size_t threads;
 };
 
 /* Flow through the gap between two edges of the map under a pressure difference of 1, by Reynolds'
  * equation, div(g^3 grad P) = 0. With a viscosity eta and a difference dp the rate is
  * conductance dp/(12 eta). */
 struct rc_leak_figures {
-    double conductance; /* m^3; exactly 0 if no path percolates */
+    /* m^3; exactly 0 if no path percolates */
+    double conductance;
     /* the same with a gap that varies linearly between nodes; its error has the opposite sign */
     double conductance_linear;
-    /* half their difference over the first: estimated relative discretization error; NAN: no flow */
+    /* half their difference over the first: estimated relative discretization error; NAN: no
+     * flow */
     double error;
-    double lower, upper; /* m^3, rigorous bounds of `conductance` on this grid, to rounding */
-    double flow_factor;  /* factor of Patir and Cheng: conductance relative to two flats at
-                            the mean gap */
-    /* factors of Patir and Cheng for sliding along the flow, the rough body at rest: the flow per width
-     * without a pressure difference is U/2 (mean_gap + gap_rms shear_flow_factor); NAN: an even gap */
+    /* m^3, rigorous bounds of `conductance` on this grid, to rounding */
+    double lower, upper;
+    /* factor of Patir and Cheng: conductance relative to two flats at the mean gap */
+    double flow_factor;
+    /* factors of Patir and Cheng for sliding along the flow, the rough body at rest: the flow
+     * per width without a pressure difference is U/2 (mean_gap + gap_rms shear_flow_factor);
+     * NAN: an even gap */
     double shear_flow_factor;
     /* of the pressure term of the shear stress: the flow due to this term, over U/2 mean_gap */
     double shear_stress_factor;
-    double mean_gap; /* m: over all nodes, 0 in contact                                        */
-    double gap_rms;  /* m: RMS deviation from mean_gap over all nodes                          */
-    double slope;    /* RMS of the gap's gradient where fluid flows; NAN: nowhere              */
-    bool percolates; /* through the edges of cells                                             */
-    bool percolates_diagonal; /* through their corners too */
+    /* m: over all nodes, 0 in contact */
+    double mean_gap;
+    /* m: RMS deviation from mean_gap over all nodes */
+    double gap_rms;
+    /* RMS of the gap's gradient where fluid flows; NAN: nowhere */
+    double slope;
+    /* through the edges of cells */
+    bool percolates;
+    /* through their corners too */
+    bool percolates_diagonal;
     /* m: critical constriction, the smallest gap of the widest path; 0: no path */
     double critical_gap;
-    double critical_x, critical_y; /* m: its position; NAN: nowhere                               */
-    size_t throat_nodes;           /* fluid nodes across it: below 3 the grid does not resolve it */
-    size_t fluid_nodes, dead_nodes; /* dead: fluid at rest      */
-    size_t unknowns;                /* nodes with flowing fluid */
+    /* m: its position; NAN: nowhere */
+    double critical_x, critical_y;
+    /* fluid nodes across it: below 3 the grid does not resolve it */
+    size_t throat_nodes;
+    /* dead: fluid at rest */
+    size_t fluid_nodes, dead_nodes;
+    /* nodes with flowing fluid */
+    size_t unknowns;
 };
 
 /* Fluid is where the bodies are not in contact and the gap g (m) is positive; gaps below 1e-30 of the largest
@@ -988,468 +1235,80 @@ RC_API void rc_leak_pressure(const struct rc_leak *leak, double *pressure);
 RC_API void rc_leak_flux(const struct rc_leak *leak, double *flux);
 /* 0 in contact, 1 where fluid is at rest (dead ends, enclosed), 2 where it flows. */
 RC_API void rc_leak_channel(const struct rc_leak *leak, double *channel);
-RC_API void rc_leak_free(struct rc_leak *leak); /* NULL is allowed */
-
-/* ---- friction in the contact ---- */
-
-/* Coulomb's law at each node, with history. A node sticks while its traction is below mu times its pressure,
- * or slips against the traction at this limit. Given are the pressure and the tangential motion, in
- * increments. Tractions act on body 1, and the force is their sum. Body 2 pulls body 1 along, and has
- * moved over it by the displacement (on a periodic map their mean planes). Slip is the motion of body 1 over
- * body 2, opposite to the traction. */
-struct rc_friction_law {
-    enum rc_boundary boundary;
-    struct rc_pair pair; /* uniform bodies                                                    */
-    double nu;           /* Poisson's ratio of both, if only E* of the pair is known          */
-    double mu;           /* coefficient of friction, > 0                                      */
-    double tau_max;      /* Pa: upper bound of the traction (Tresca); 0 or INFINITY: none     */
-    bool uncoupled;      /* for dissimilar bodies: pressure causes no tangential displacement */
-    double tol;          /* asked relative L1 error of the tractions; 0: 1e-4                 */
-    size_t max_steps;    /* most steps of an increment; 0: 200                                */
-    size_t threads;      /* 0: all                                                            */
-    const struct rc_ranks *ranks; /* must be NULL: friction cannot be shared among processes */
-};
-
-/* Figures of an increment. */
-struct rc_friction_increment {
-    double load;     /* N, normal                                                           */
-    double limit;    /* N: largest force that friction can carry, at most mu times the load */
-    double force[2]; /* N, along x and y                                                    */
-    double displacement[2];         /* m, of body 2 over body 1 since first touch                */
-    size_t stick_nodes, slip_nodes; /* numbers of nodes among those with a load */
-    double stick_area, slip_area;   /* m^2                                                       */
-    double stick_fraction;          /* share of the nodes that carry load; NAN: none             */
-    double stiffness;               /* N/m: |force| over |displacement|; NAN where one is 0      */
-    double dissipated;              /* J, in this increment                                      */
-    double largest_slip;            /* m, in this increment                                      */
-    double slip_error;              /* m: largest slip where nodes stick, or across the traction */
-    /* estimated relative L1 error of the tractions, of this increment alone */
-    double traction_error;
-    size_t steps;
-    double convolutions; /* so far, in equivalents of a single map in double precision    */
-    bool converged;      /* traction_error <= tol                                                 */
-};
-
-/* ---- friction as a model ---- */
-
-/* Coupling of pressure and tractions of dissimilar bodies. */
-enum rc_coupling {
-    RC_COUPLING_FULL, /* both ways: solved alternately, pass by pass */
-    /* pressure causes tangential displacement, tractions do not change the pressure */
-    RC_COUPLING_GOODMAN,
-    RC_COUPLING_NONE /* none */
-};
-
-enum {
-    RC_FEWER = 2 /* most solutions with fewer increments */
-};
-struct rc_friction_problem {
-    struct rc_friction_law
-        law; /* `coupling` sets `uncoupled`; tol: the tolerance of an increment */
-    enum rc_coupling coupling;
-    size_t increments; /* from point to point, in which all axes change in proportion; 0: chosen */
-    size_t max_passes; /* passes of pressure and tractions in an increment; 0: 50                */
-    /* A known contact: its load (N; 0: none), pressure (Pa) and gap (m; NULL: unknown), nx ny, which the
-     * caller keeps. It is not solved where tractions do not change the pressure. */
-    double known_load;
-    const double *known_p, *known_gap;
-    /* Further solutions with half of the increments (1) and a quarter (2), which tell the error of the
-     * increments; 0: it is unknown. If tractions change the pressure, each needs a model like the inner one,
-     * of a tenth of its tolerance. The model of friction owns it. Otherwise NULL. */
-    size_t fewer;
-    struct rc_model *inner_of_fewer[RC_FEWER];
-    bool
-        dissipation; /* the model has a frame `dissipation`, J/m2: its energy since the last kept point */
-};
-
-struct rc_friction_figures {
-    struct rc_friction_increment last; /* figures of the last increment; dissipated: since the last
-                                    kept point */
-    size_t passes; /* since the last point kept: pressures passed to friction      */
-    /* relative L1, of the last pass; 0: only one pass is needed */
-    double pressure_change, traction_change;
-    /* Estimated relative L1 errors of the tractions. First: of the last increment, with the change by further
-     * passes. Then: of the iteration of earlier increments; of the contacts of this and earlier increments;
-     * of too few increments (NAN: unknown) */
-    double traction_error, inherited_error, contact_error, increment_error;
-    double approach;     /* m, as in rc_contact; NAN: unknown                                */
-    double convolutions; /* convolutions of friction and contacts, since the last point kept */
-    bool converged;      /* all contacts, tractions and passes since the last point kept     */
-};
-
-/* How the error of the increments to a point, and to earlier points, is known. */
-enum rc_told {
-    RC_TOLD_EXACT,  /* there is none                                        */
-    RC_TOLD_MANY,   /* enough increments: the estimate is near the error    */
-    RC_TOLD_SOME,   /* larger factors of safety, as where the load changes  */
-    RC_TOLD_FEW,    /* the largest factor                                   */
-    RC_TOLD_UNKNOWN /* fewer than 4 increments, or 8 where the load changes */
-};
-/* The leg from one point to the next. */
-struct rc_leg {
-    size_t increments;
-    enum rc_told told;
-    bool carries; /* tractions, at its end                                           */
-    bool late;    /* one increment, or two with a large first one */
-    bool falls;   /* the load falls                                                  */
-};
-/* The leg that the model takes from a point to the next; before: the leg to `from`. The first leg begins
- * with a point and a leg of zeros. */
-RC_API struct rc_leg rc_friction_leg(const struct rc_friction_problem *problem,
-                                     const struct rc_leg *before, const struct rc_point *from,
-                                     const struct rc_point *to);
-/* A model (model.h) of friction over an inner one of the same bodies, which it owns from here on; NULL where
- * that is NULL. In addition to the axes of the inner model it takes two forces or two displacements along the
- * surface. h: the undeformed heights, which it copies. NULL: they are unknown, and only the known contact is
- * possible. Where dissimilar bodies are coupled the inner model must allow other heights, and its tolerance
- * should be a quarter of the tolerance of friction. Frames: pressure, traction-x, traction-y (Pa), slip-x,
- * slip-y (m, since first touch), state (0: the node carries no load, 1: it sticks, 2: it slips). RC_FAIL
- * during a path when friction cannot carry the force. */
-RC_API struct rc_model *rc_friction_new(struct rc_model *inner, const double *h,
-                                        const struct rc_friction_problem *problem,
-                                        struct rc_err *err);
-/* The figures of this model, after rc_model_look; NULL: it has no friction. */
-RC_API const struct rc_friction_figures *rc_friction_result(const struct rc_model *model);
-
-/* ---- rolling as a model ---- */
-
-/* A contact that is not solved, in a map with its middle at x, m, where RC_POSITION is counted. */
-struct rc_rolling_contact {
-    const double *p; /* pressure, nx ny Pa */
-    double x;
-};
-/* The contact rolls towards +x. Body 2 moves over body 1 by (creep_x - spin y, creep_y + spin x) per
- * length rolled, with x and y from the middle of the contact. The middle is at RC_POSITION (0 if it is
- * never given), in the middle row; on a periodic map that of the nearest period. This is minus the
- * creepage of railway textbooks, where body 1 moves over body 2. In a steady state, tractions and slip
- * at each place of the contact do not change with time. On a path, the bodies are pressed together at
- * the first point, and each further point is a step of rolling from the last point kept. */
-struct rc_rolling_problem {
-    /* Friction and bodies. A steady state needs the free boundary. Pressure moves dissimilar bodies along
-     * each other, unless `uncoupled`; tractions do not change the pressure. tol 0 is 1e-3, on a path
-     * 1e-2. max_steps holds for each grid. */
-    struct rc_friction_law law;
-    bool
-        force; /* points give RC_TANGENTIAL_X, RC_TANGENTIAL_Y, and RC_CREEP_X, RC_CREEP_Y are found */
-    bool path; /* each point is a step; else a steady state, whatever comes before */
-    /* NULL: the inner model solves the contact. The caller keeps it, and may change it from point to point.
-     * On a path the map moves by whole columns. */
-    const struct rc_rolling_contact *known;
-};
-struct rc_rolling_figures {
-    double load, limit;    /* N: normal; the largest that friction can carry         */
-    double creep[2], spin; /* creepage per length rolled, and spin in rad/m. NAN: not
-                                       yet */
-    /* N, on body 1; N m, about the middle of the contact, NAN where a contact on a periodic map reaches half
-     * a period from there */
-    double force[2], moment;
-    size_t stick_nodes, slip_nodes; /* numbers of the nodes that carry load */
-    double stick_fraction;          /* share of the nodes that carry load                     */
-    double power;                   /* J/m: force times creepage, moment times spin           */
-    /* J/m: friction energy, the sum of the frame `dissipation`: the mean traction of a step times its slip.
-     * It is `power` in a steady state of similar bodies; on a path elastic energy is the difference. */
-    double power_slip;
-    /* Extrapolated from the two finest grids to a spacing of 0; NAN: too few nodes along x, or a path. */
-    double extrapolated_creep[2], extrapolated_force[2], extrapolated_moment;
-    /* N: Kalker's linear theory for the ellipse of the same area and second moments; NAN: its semi-axes
-     * have a ratio beyond 0.1 to 10. */
-    double kalker_force[2];
-    /* Estimated relative errors. First: L1 error of the tractions on this grid. Second: error of the force
-     * due to the spacing, or of the creepage if the force is given (NAN: unknown). */
-    double traction_error, discretization_error;
-    size_t steps, fallbacks; /* steps of Newton's method; steps in time, where it fails */
-    double convolutions;     /* with those of the contact                              */
-    bool converged;          /* traction_error <= tol                                  */
-};
-/* A model (model.h) of rolling over an inner model of the same bodies, which it owns from here on. NULL
- * if the inner model is NULL. Beside the axes of the inner model it takes RC_CREEP_X and RC_CREEP_Y, or
- * two forces, and RC_SPIN and RC_POSITION. The position may not fall on a path. Frames: pressure,
- * traction-x, traction-y (Pa), slip-x, slip-y (per length rolled), state (as for friction), dissipation
- * (J/m3: energy per area and length rolled), slip (per length rolled: dissipation over the largest
- * traction). RC_FAIL during a path if no node is in contact, friction cannot carry the force, or a
- * contact with spin reaches half a period from its middle. RC_FAIL too if the contact reaches the last
- * column (the leading edge), or a column that comes in. Sources: Kalker 1990, Three-dimensional elastic
- * bodies in rolling contact; Newton's method as in libcontact/rolling/steady.c. */
-RC_API struct rc_model *rc_rolling_new(struct rc_model *inner,
-                                       const struct rc_rolling_problem *problem,
-                                       struct rc_err *err);
-/* The figures of this model, after rc_model_look; NULL: it does not roll. */
-RC_API const struct rc_rolling_figures *rc_rolling_result(const struct rc_model *model);
-
-/* ---- wear as a model ---- */
-
-struct rc_wear_problem {
-    double k
-        [2]; /* 1/Pa: depth that bodies 1 and 2 lose per pressure and sliding distance, both >= 0 */
-    double
-        estar; /* Pa, of the bodies: for the first step and the forecast                            */
-    double
-        tol; /* bound of the estimated relative error of the worn depth; 0: 0.1                   */
-    /* nx ny numbers from 0 to 1, by which k is multiplied at each node, the largest 1; NULL: 1 everywhere.
-     * The caller keeps them as long as the model. */
-    const double *part;
-    /* m: body 1 stays in contact and body 2 passes it along x, on a track of this length. It wears each
-     * point of the track once per this distance; 0: the same points of both bodies stay in contact */
-    double track;
-    /* Two rough bodies slide over each other along x, on a map that repeats: h gives the heights of body 1,
-     * and h2 those of body 2, nx ny m, face to face (NULL: body 2 is smooth). Each wears by the mean pressure
-     * of all alignments. The caller keeps h2 as long as the model. */
-    bool two_bodies;
-    const double *h2;
-    /* nx ny J/m2: a friction energy at each node per unit of the distance, which then is a number of
-     * cycles. A node loses k times this energy, whatever its pressure is; NULL: k p per sliding
-     * distance. The caller keeps it as long as the model. There is no part, track, two_bodies or condition
-     * beside it. */
-    const double *energy;
-    /* A leg ends early when one of these is reached; 0: no such condition. */
-    double until_area;   /* contact fraction                   */
-    double until_depth;  /* m: largest worn depth              */
-    double until_spread; /* spread of the pressure, from above */
-};
-struct rc_wear_figures {
-    double distance; /* m; NAN with an energy                       */
-    double wear_volume, wear_volume_1,
-        wear_volume_2;                      /* m3, of both bodies and of each              */
-    double max_wear_depth, mean_wear_depth; /* m, of both bodies together                  */
-    double pressure_spread;                 /* standard deviation in contact over the mean */
-    size_t steps, rejected, contacts;
-    double convolutions;
-    /* Estimated: L1 norm of the error of the worn depth over the worn volume; relative L1 error of the
-     * pressure. Of a worn pressure the true ones are usually 10 to 30 times smaller. */
-    double wear_error, pressure_error;
-    bool converged; /* both are at most tol */
-};
-/* A model (model.h) of bodies that wear at every node by k p per sliding distance. The inner model must allow
- * other heights and a compliance; the model of wear owns it from here on. NULL where the inner model is NULL.
- * In addition to the load it takes the distance. h: the heights at the start, copied. The tolerance of the
- * inner model should be a hundredth of this one. Its frame `height` is the worn height, `wear` the depth that
- * both bodies have lost. If two bodies slide over each other, the frames show the alignment of the start, and
- * only the error of the worn depth decides whether a point has converged. Source: Archard 1953 (J. Appl.
- * Phys. 24, 981); steps as in libcontact/wear. */
-RC_API struct rc_model *rc_wear_new(struct rc_model *inner, const double *h,
-                                    const struct rc_wear_problem *problem, struct rc_err *err);
-/* The figures of this model, after rc_model_look; NULL: it does not wear. */
-RC_API const struct rc_wear_figures *rc_wear_result(const struct rc_model *model);
-
-/* ---- travel as a model ---- */
-
-/* Heights in m; the caller keeps the maps as long as the model. */
-struct rc_travel_problem {
-    struct rc_shape track; /* map of body 1, with the spacings of the inner model */
-    const double *h1;
-    bool repeats;            /* the map of body 1 is periodic along x             */
-    struct rc_shape counter; /* map of body 2, with the same rows as body 1       */
-    const double *h2;        /* NULL: smooth                                      */
-    bool counter_repeats;
-    double ratio;  /* travel of the heights of body 2 per travel of the contact; 0: it rolls */
-    double radius; /* m, of the ball that travels; 0: none                                  */
-};
-struct rc_travel_figures {
-    /* m: x of the middle of the contact on the map of body 1, from the middle of that map */
-    double position;
-    /* m: height of body 2, the highest node less the approach, in a datum that stays with body 1 */
-    double height;
-    /* m: x of the middle of the window on that map; 0 for the whole map */
-    double window_x;
-};
-/* A model (model.h) of a contact that travels along x over body 1. It owns the inner model from here on,
- * which must allow other heights. NULL if the inner model is NULL. In addition to the load it takes the
- * position. The inner model has the map of body 1, or a window with fewer columns or rows, which moves
- * with the contact by whole nodes. The numbers of rows of both maps and of the window are all even or all
- * odd, so that their middle rows agree. In a window each position is a first contact; on the whole map the
- * inner model keeps its history. The frame `height` holds the heights of both bodies at the position. The
- * heights of body 2 between nodes are interpolated by cubic polynomials. RC_FAIL when the window leaves the
- * map of a body. */
-RC_API struct rc_model *rc_travel_new(struct rc_model *inner,
-                                      const struct rc_travel_problem *problem, struct rc_err *err);
-/* The figures of this model, after rc_model_look; NULL: it does not travel. */
-RC_API const struct rc_travel_figures *rc_travel_result(const struct rc_model *model);
-
-/* ---- viscoelastic materials ---- */
-
-/* A relaxation modulus, which is a Prony series, and the creep compliance of the same material:
- *
- *     E(t) = relaxed + sum over k of modulus[k] exp(-t/time[k])
- *     J(t) = instant + sum over j of compliance[j] (1 - exp(-t/retardation[j])) + fluidity t
- *
- * A strain of 1 from t = 0 on needs the stress E(t); a stress of 1 from t = 0 on causes the strain J(t). Any
- * modulus has such a compliance, with a factor that is constant in time: for a contact, E/(1 - nu^2). */
-struct rc_relaxation {
-    double relaxed;                   /* Pa                                          */
-    size_t terms;                     /* terms with a modulus of 0 are left out      */
-    double *modulus, *time;           /* Pa, s; the times rise                       */
-    double instant, fluidity;         /* 1/Pa, 1/(Pa s); fluidity > 0 if relaxed = 0 */
-    size_t creep_terms;               /* terms, or terms - 1 with a fluidity         */
-    double *compliance, *retardation; /* 1/Pa, s; the times rise                  */
-};
-/* From `terms` moduli (Pa, >= 0) and relaxation times (s, > 0, all different), in any order, and the relaxed
- * modulus (Pa, >= 0; 0: a fluid). The compliance is exact to rounding, also over 20 decades (Gross 1953,
- * Mathematical structure of the theories of viscoelasticity). NULL when a number is out of range, when all
- * moduli are 0, or when memory is short. */
-RC_API struct rc_relaxation *rc_relaxation_new(double relaxed, size_t terms, const double *modulus,
-                                               const double *time, struct rc_err *err);
-/* Fits a master curve: storage and loss moduli (Pa, > 0) at n >= 4 different angular frequencies (rad/s,
- * above 0). The relaxation times are even in the logarithm, with `per_decade` times a decade (0: 1.5), from
- * the inverse of the highest frequency to the inverse of the lowest one. The moduli, >= 0, give the least sum
- * of squares of the relative errors (Lawson and Hanson 1974). *misfit: the RMS of these errors; above 0.05
- * the two columns contradict each other. NULL when a number is out of range or memory is short. */
-RC_API struct rc_relaxation *rc_relaxation_fit(size_t n, const double *omega, const double *storage,
-                                               const double *loss, double per_decade,
-                                               double *misfit, struct rc_err *err);
-RC_API double rc_relaxation_modulus(const struct rc_relaxation *r, double t);    /* E(t), Pa   */
-RC_API double rc_relaxation_compliance(const struct rc_relaxation *r, double t); /* J(t), 1/Pa */
-/* The complex modulus E(i omega), Pa, and the complex compliance J(i omega) = 1/E(i omega), 1/Pa: real and
- * imaginary parts, for exp(i omega t) with omega > 0, rad/s. */
-RC_API void rc_relaxation_dynamic(const struct rc_relaxation *r, double omega, double modulus[2],
-                                  double compliance[2]);
-/* The mean of J(i w) over -omega < w < omega, 1/Pa. It is real: instant + sum of compliance[j] atan(y)/y with
- * y = omega retardation[j]. */
-RC_API double rc_relaxation_mean_compliance(const struct rc_relaxation *r, double omega);
-RC_API void rc_relaxation_free(struct rc_relaxation *r); /* NULL is allowed */
-
-/* ---- steady sliding over a viscoelastic body as a model ---- */
-
-struct rc_sliding_problem {
-    const struct rc_relaxation
-        *material; /* E/(1 - nu^2) of body 1; the caller keeps it             */
-    double
-        compliance; /* 1/Pa, (1 - nu^2)/E of body 2, which is elastic; 0: it is rigid             */
-    bool along_y;   /* body 2 slides along +y; false: along +x                                    */
-    bool repeats;   /* it meets its own grooves after one period of the map; false: a fresh track */
-};
-struct rc_sliding_figures {
-    double speed; /* m/s                                                               */
-    /* Coefficient of friction and force (N) against the motion, by the losses in the material: the integral
-     * of -p du/dx. friction_error: its difference to the integral of -p dh/dx, an error of the grid, and the
-     * error of pressure times the largest slope in contact. */
-    double friction, friction_force, friction_error;
-    double dissipated_power; /* W, the losses of all waves: friction_force |speed|           */
-    double tan_delta_max;    /* largest ratio of loss and storage of the waves along the motion */
-    const char *track;       /* "fresh" or "repeated"                                        */
-    size_t contacts, iterations; /* elastic contacts of the iteration, and steps in all of them   */
-    double convolutions;         /* equivalents                                              */
-    double approach;             /* m, from first touch                                      */
-    double pressure_error;       /* estimated, relative L1                                   */
-    double elastic_energy;       /* NAN: not defined here                                    */
-    bool converged;
-};
-/* A model (model.h) of the steady state in which body 2, which has the heights h (copied), slides at a speed
- * over the smooth viscoelastic body 1. It takes the load or the approach, and the speed,
- * which may be negative. The bodies of `problem` are not used. NULL when a number is out of range, memory is
- * short, or the material flows without end. A point fails if tan delta exceeds 3 among the waves of the map.
- * The material keeps J(-i qx v) (Persson 2001, J. Chem. Phys. 115, 3840; Carbone and Putignano 2013, J. Mech.
- * Phys. Solids 61, 1822); the iteration is described in libcontact/viscoelastic/sliding.c. */
-RC_API struct rc_model *rc_sliding_new(const struct rc_shape *shape, const double *h,
-                                       const struct rc_problem *problem,
-                                       const struct rc_sliding_problem *law, struct rc_err *err);
-/* The figures of this model, after rc_model_look; NULL: it does not slide. */
-RC_API const struct rc_sliding_figures *rc_sliding_result(const struct rc_model *model);
-
-/* ---- viscoelastic bodies as a model ---- */
-
-struct rc_viscoelastic_problem {
-    const struct rc_relaxation *material; /* of the body that relaxes; the caller keeps it */
-    /* part of this body in the compliance 1/E* of both bodies at once, from above 0 to 1; the other body is
-     * elastic, or rigid: 1 */
-    double share;
-    /* s: shortest time between two points, and time of the last one, for which terms of the material are left
-     * out; 0: all terms are kept */
-    double shortest, longest;
-    size_t points;     /* of the history, for the expected cost; 0: 1                           */
-    size_t increments; /* steps from point to point, at least 2; 0: chosen, 20 to 320; see below */
-    double tol;        /* of the error of the increments, relative L1 of the pressure; 0: 0.01  */
-};
-struct rc_viscoelastic_figures {
-    struct rc_contact contact; /* pressure_error holds all errors; elastic_energy NAN */
-    double time;               /* s */
-    size_t increments;         /* steps from the previous point */
-    /* relative L1 error of the pressure due to the steps, from a second run with half as many */
-    double increment_error;
-    /* N: load with the same contact on bodies that keep their instantaneous moduli, as long as this load has
-     * only risen: the integral of J(t - s)/J(0) dP(s) */
-    double equivalent_load;
-    /* m: approach; approach at first touch right after the load is removed */
-    double indentation, residual_indentation;
-};
-/* A model (model.h) of viscoelastic bodies in time. It owns the inner model from here on. This must be
- * elastic, without a hardness, with the instantaneous moduli of the bodies. Poisson's ratio is constant in
- * time, and all of the viscoelastic body relaxes alike. h: the heights of the inner model, which the caller
- * keeps. NULL if the inner model is NULL. Points need the time beside the load or the approach. The load acts
- * suddenly at the first point, and then changes in proportion to the time; two points at the same time are a
- * jump. A load of 0 separates the bodies. After a corner of the load the first step is the shortest time of
- * the material over the increments. Steps then grow with the time since the corner, 1.2 times the increments
- * in a decade. The longest one is the time between the points over the increments. */
-RC_API struct rc_model *rc_viscoelastic_new(struct rc_model *inner, const double *h,
-                                            const struct rc_viscoelastic_problem *problem,
-                                            struct rc_err *err);
-/* The figures of this model, after rc_model_look; NULL: it is not viscoelastic. */
-RC_API const struct rc_viscoelastic_figures *rc_viscoelastic_result(const struct rc_model *model);
+RC_API void rc_leak_free(struct rc_leak *leak);
 
 /* ---- heat ---- */
 
 /* The material of a body, which moves past the contact. */
 struct rc_heat_body {
-    double conductivity; /* W/(m K), > 0                              */
-    double diffusivity;  /* m2/s, > 0                                 */
+    double conductivity; /* W/(m K), > 0 */
+    double diffusivity;  /* m2/s, > 0 */
     double velocity[2];  /* m/s along x and y; the contact stands still */
-    double bulk;         /* K: temperature far below the contact      */
+    double bulk;         /* K: temperature far below the contact */
 };
 /* How the bodies share the heat. */
 enum rc_heat_partition {
-    RC_HEAT_MATCHED, /* equal temperatures at every node in contact                            */
-    RC_HEAT_BLOK,    /* one number, for equal largest temperatures (Blok 1937)                 */
-    RC_HEAT_CHARRON, /* one number, k1/(k1 + k2): exact without motion (Charron 1943)          */
-    RC_HEAT_SHARE    /* one given number                                                       */
+    RC_HEAT_MATCHED, /* equal temperatures at every node in contact */
+    RC_HEAT_BLOK,    /* one number, for equal largest temperatures (Blok 1937) */
+    RC_HEAT_CHARRON, /* one number, k1/(k1 + k2): exact without motion (Charron 1943) */
+    RC_HEAT_SHARE    /* one given number */
 };
 struct rc_heat_problem {
     enum rc_boundary boundary;
     struct rc_heat_body body[2];
-    double time; /* s since heating began; 0: the steady state                          */
-    /* In each of so many equal steps of the time the shares of the bodies are constant; 0: 1 step. With 16
-     * steps the largest temperature has an error of about 1e-3 (with 1 up to 4 %). Memory and work grow. */
+    /* s since heating began; 0: the steady state */
+    double time;
+    /* In each of so many equal steps of the time the shares of the bodies are constant; 0: 1
+     * step. With 16 steps the largest temperature has an error of about 1e-3 (with 1 up to 4 %).
+     * Memory and work grow. */
     size_t time_steps;
     enum rc_heat_partition partition;
-    double share;   /* of body 1, for RC_HEAT_SHARE                */
-    double tol;     /* of the mismatch; 0: 1e-3                    */
-    size_t threads; /* 0: all                                      */
+    /* of body 1, for RC_HEAT_SHARE */
+    double share;
+    /* of the mismatch; 0: 1e-3 */
+    double tol;
+    /* 0: all */
+    size_t threads;
 };
 /* The Peclet number of a body is V a/(2 kap). a is the radius of a circle of the area of the largest
  * patch; for a cell it is the side of the cell along the motion. */
 struct rc_heat_figures {
-    double heat_power, heat_power_1; /* W: of the contact, into body 1               */
-    /* Of body 1. NAN: no heat; share_1 also where bulk temperatures drive more heat from body to body than
-     * the contact has. */
+    /* W: of the contact, into body 1 */
+    double heat_power, heat_power_1;
+    /* Of body 1. NAN: no heat; share_1 also where bulk temperatures drive more heat from body to
+     * body than the contact has. */
     double share_1, share_blok, share_charron;
     double peclet_1, peclet_2, cell_peclet_1, cell_peclet_2;
-    double max_temperature;  /* K above the bulk of body 1             */
-    double max_x, max_y;     /* its place, m                           */
-    double mean_temperature; /* K above the bulk of body 1, in contact; of the hotter body */
-    /* The largest difference of the temperatures in contact, over the largest rise of a body above its
-     * bulk. */
+    /* K above the bulk of body 1 */
+    double max_temperature;
+    /* its place, m */
+    double max_x, max_y;
+    /* K above the bulk of body 1, in contact; of the hotter body */
+    double mean_temperature;
+    /* The largest difference of the temperatures in contact, over the largest rise of a body
+     * above its bulk. */
     double mismatch;
-    /* Number of contact nodes in a row, along the motion, through the hottest node. With few of them and a
-     * cell_peclet above 1 the grid misses the temperature at the trailing edge. */
+    /* Number of contact nodes in a row, along the motion, through the hottest node. With few of
+     * them and a cell_peclet above 1 the grid misses the temperature at the trailing edge. */
     size_t hot_nodes;
-    double steady_time; /* s: contact area over the smaller diffusivity          */
+    /* s: contact area over the smaller diffusivity */
+    double steady_time;
     size_t iterations;
     double convolutions;
-    bool converged; /* mismatch <= tol; always true for one number */
+    /* mismatch <= tol; always true for one number */
+    bool converged;
 };
-/* RC_FAIL when rc_heat_new would refuse the problem for its numbers. */
-RC_API enum rc_status rc_heat_check(const struct rc_shape *shape,
-                                    const struct rc_heat_problem *problem, struct rc_err *err);
-/* Expected cost of such temperatures at so many depths below the surface; it fails likewise. */
+/* Expected cost of temperatures at so many depths below the surface. */
 RC_API enum rc_status rc_heat_expect(const struct rc_shape *shape,
                                      const struct rc_heat_problem *problem, size_t depths,
                                      struct rc_expected *expected, struct rc_err *err);
 /* Temperatures of the surfaces of two half-spaces due to the heat flux q of their contact, nx ny W/m2
- * (Jaeger 1942, J. Proc. R. Soc. N.S.W. 76, 203). They are exact at all speeds for a flux that is
- * constant in each cell, and on a periodic map for a band-limited flux. A profile, which has one row or one
- * column, continues across without end. rc_in_contact finds the contact from `contact`, a pressure or a map
- * of 1 and 0; with NULL, contact is where q is not 0. Heat can flow from body to body only in contact. NULL
- * when q is not finite, or is not 0 out of contact; when no node is in contact; when there is no steady state
- * (periodic maps, profiles along which a body does not move); or when memory is short. The maps are
- * copied. */
+ * (Jaeger 1942, J. Proc. R. Soc. N.S.W. 76, 203). They are exact at all speeds for a flux that is constant
+ * in each cell, and on a periodic map for a band-limited flux. A profile, which has one row or one column,
+ * continues across without end. rc_in_contact finds the contact from `contact`, a pressure or a map of 1
+ * and 0; with NULL, contact is where q is not 0. Heat can flow from body to body only in contact. NULL
+ * when q is not finite, or is not 0 out of contact; when no node is in contact; when there is no steady
+ * state (periodic maps, profiles along which a body does not move); or when memory is short. */
 RC_API struct rc_heat *rc_heat_new(const struct rc_shape *shape,
                                    const struct rc_heat_problem *problem, const double *q,
                                    const double *contact, struct rc_err *err);
@@ -1465,7 +1324,7 @@ RC_API const double *rc_heat_flux(const struct rc_heat *heat, int body);
  * depth is negative or memory is short. */
 RC_API enum rc_status rc_heat_temperature(struct rc_heat *heat, int body, double depth, double *to,
                                           struct rc_err *err);
-RC_API void rc_heat_free(struct rc_heat *heat); /* NULL is allowed */
+RC_API void rc_heat_free(struct rc_heat *heat);
 
 /* ---- stress ---- */
 
@@ -1478,7 +1337,7 @@ enum rc_component {
     RC_SYZ,
     RC_COMPONENTS,
     RC_MISES = RC_COMPONENTS, /* this and the following ones are derived from all six */
-    RC_TRESCA,                /* s1 - s3                            */
+    RC_TRESCA,                /* s1 - s3 */
     RC_S1,                    /* principal stresses, s1 >= s2 >= s3 */
     RC_S2,
     RC_S3,
@@ -1497,31 +1356,37 @@ struct rc_eigenstrain {
 
 struct rc_stress_options {
     enum rc_boundary boundary;
-    /* body 1; the stresses in a uniform one do not depend on e. Layers are copied */
+    /* body 1; the stresses in a uniform one do not depend on e. */
     struct rc_body body;
     /* the surface also carries the traction mu p along +x; 0 if there are maps of traction */
     double mu;
-    unsigned wanted;    /* bits of enum rc_component                                   */
-    char section;       /* 'x' or 'y': only the plane x = at, or y = at; 0: maps */
-    double at;          /* m, from the middle of the map, within it                    */
-    const char *engine; /* a row of engines.list, or NULL or "auto"                    */
-    double tol; /* asked error of a component over the largest pressure or traction; 0: rounding */
-    size_t threads; /* 0: all                                   */
-    /* All depths of the slices, m, to plan the memory of coarser grids; NULL: any depth. The caller keeps
-     * them until rc_stress_new returns. */
+    /* bits of enum rc_component */
+    unsigned wanted;
+    /* 'x' or 'y': only the plane x = at, or y = at; 0: maps */
+    char section;
+    /* m, from the middle of the map, within it */
+    double at;
+    /* a row of engines.list, or NULL or "auto" */
+    const char *engine;
+    /* asked error of a component over the largest pressure or traction; 0: rounding */
+    double tol;
+    /* 0: all */
+    size_t threads;
+    /* All depths of the slices, m, to plan the memory of coarser grids; NULL: any depth. */
     const double *depth;
     size_t depths;
-    const struct rc_ranks *ranks; /* processes that share the map; NULL: none */
-    /* NULL, or strain whose stress is added. It costs five transforms per slab and one per depth and
-     * component, and needs body.e of a uniform body. Interfaces belong to the lower slab. Sections
-     * interpolate linearly. The caller keeps all of it. */
+    /* processes that share the map; NULL: none */
+    const struct rc_ranks *ranks;
+    /* NULL, or strain whose stress is added. It costs five transforms per slab and one per depth
+     * and component, and needs body.e of a uniform body. Interfaces belong to the lower slab.
+     * Sections interpolate linearly. */
     const struct rc_eigenstrain *strain;
-    /* Tractions on this body's surface along +x and +y, Pa, nx ny each, interpolated like p; NULL: none. The
-     * caller keeps them, like p. */
+    /* Tractions on this body's surface along +x and +y, Pa, nx ny each, interpolated like p;
+     * NULL: none. */
     const double *traction[2];
-    /* Stress of each layer without load, Pa, tension positive, uniform and equal in all directions along the
-     * layer. It is added to sxx and syy there before stresses are derived. NULL: none. The caller keeps it,
-     * and the layers with it. The half-space below is infinitely thick and balances its force without
+    /* Stress of each layer without load, Pa, tension positive, uniform and equal in all
+     * directions along the layer. It is added to sxx and syy there before stresses are derived.
+     * NULL: none. The half-space below is infinitely thick and balances its force without
      * stress. */
     const double *residual;
 };
@@ -1529,17 +1394,17 @@ struct rc_stress_options {
 /* Work counters; tests use them to check that only requested fields are computed. */
 struct rc_stress_counts {
     size_t depths;
-    size_t source_transforms;       /* transforms of the pressure and of maps of traction   */
-    size_t normal_kernels;          /* kernels evaluated at a depth, for the pressure       */
+    size_t source_transforms;       /* transforms of the pressure and of maps of traction */
+    size_t normal_kernels;          /* kernels evaluated at a depth, for the pressure */
     size_t shear_kernels;           /* the same for the traction, if any */
-    size_t coefficients;            /* values of these kernels                              */
-    size_t kernel_transforms;       /* two-dimensional, of a quarter                        */
-    size_t field_transforms;        /* two-dimensional, from wave numbers to a map          */
+    size_t coefficients;            /* values of these kernels */
+    size_t kernel_transforms;       /* two-dimensional, of a quarter */
+    size_t field_transforms;        /* two-dimensional, from wave numbers to a map */
     size_t line_transforms;         /* one-dimensional, of kernels and sources of a section */
-    size_t engine_sums;             /* convolutions by another engine                       */
-    size_t coarse_depths;           /* depths computed on a coarser grid                    */
+    size_t engine_sums;             /* convolutions by another engine */
+    size_t coarse_depths;           /* depths computed on a coarser grid */
     size_t strain_transforms;       /* transforms of maps of plastic strain to wave numbers */
-    size_t strain_field_transforms; /* transforms of its stresses back to maps              */
+    size_t strain_field_transforms; /* transforms of its stresses back to maps */
 };
 
 /* RC_FAIL, and *err says why, when rc_stress_new would refuse these options, except for short memory. */
@@ -1559,12 +1424,12 @@ RC_API enum rc_status rc_stress_depths(const struct rc_ranks *ranks, const struc
                                        const double *p, enum rc_boundary boundary,
                                        const struct rc_body *body, double **depths, size_t *n,
                                        struct rc_err *err);
-/* Stresses under the pressure p (Pa; the caller keeps it unchanged) in a half-space. Free: the pressure is
- * constant in each cell. Periodic: it is band-limited. Its mean gives szz = -p, sxz = -mu p (with maps of
- * traction minus their means) and sxx = syy = -(1 + 2 nu) p / 2 at every depth. This is the limit for a
- * loaded patch that grows without end. A layered body has sxx and syy of the half-space below, whose strains
- * along the surface the layers share. NULL when an option is out of range, there is no such engine or none
- * for the boundary or the section, or memory is short. */
+/* Stresses under the pressure p (Pa) in a half-space. Free: the pressure is constant in each cell.
+ * Periodic: it is band-limited. Its mean gives szz = -p, sxz = -mu p (with maps of traction minus their
+ * means) and sxx = syy = -(1 + 2 nu) p / 2 at every depth. This is the limit for a loaded patch that grows
+ * without end. A layered body has sxx and syy of the half-space below, whose strains along the surface the
+ * layers share. NULL when an option is out of range, there is no such engine or none for the boundary or
+ * the section, or memory is short. */
 RC_API struct rc_stress *rc_stress_new(const struct rc_shape *shape, const double *p,
                                        const struct rc_stress_options *options, struct rc_err *err);
 /* Number of values of a component at one depth: nx ny for maps, nx for the section y = at, ny for x = at. */
@@ -1574,21 +1439,14 @@ RC_API size_t rc_stress_values(const struct rc_stress *stress);
  * + 1e-12) selects the material below. RC_FAIL also inside a rigid half-space. */
 RC_API enum rc_status rc_stress_slice(struct rc_stress *stress, double depth,
                                       double *const s[RC_STRESSES], struct rc_err *err);
-/* Other maps of pressure and, if the plan has them, of traction; the caller keeps them, as before.
- * Slices at the last depth then cost no kernels. RC_FAIL for sections and for engines without transforms. */
+/* Other maps of pressure and, if the plan has them, of traction. Slices at the last depth then cost no
+ * kernels. RC_FAIL for sections and for engines without transforms. */
 RC_API enum rc_status rc_stress_set_loads(struct rc_stress *stress, const double *p,
                                           const double *const traction[2], struct rc_err *err);
+/* Name of the engine, and the counters so far. */
 RC_API const char *rc_stress_engine(const struct rc_stress *stress);
 RC_API const struct rc_stress_counts *rc_stress_counted(const struct rc_stress *stress);
 RC_API void rc_stress_free(struct rc_stress *stress);
-
-/* Indices of the smallest and the largest of n values, n > 0; the first of equal ones, and never a NaN. */
-RC_API void rc_extremes(size_t n, const double *v, size_t *least, size_t *largest);
-
-/* The derived stresses of n points from their six components: out[c] for each bit of `wanted` from RC_MISES
- * on. */
-RC_API void rc_stress_derive(unsigned wanted, size_t n, const double *const s[RC_COMPONENTS],
-                             double *const out[RC_STRESSES]);
 
 /* ---- fatigue ---- */
 
@@ -1599,11 +1457,15 @@ enum rc_criterion {
     RC_DANG_VAN,
     RC_PAPADOPOULOS,
     RC_FINDLEY,
-    RC_SHAKEDOWN, /* above 1 the body never shakes down to elastic cycles; needs the yield stress */
+    /* above 1 the body never shakes down to elastic cycles; needs the yield stress */
+    RC_SHAKEDOWN,
     RC_CRITERIA,
-    RC_AMPLITUDE = RC_CRITERIA, /* sqrt(J2) of the amplitude of the deviator, Pa            */
-    RC_PLANE_TILT,              /* of Findley's plane: angle of its normal to z, degrees, 0 to 90 */
-    RC_PLANE_TURN, /* the same: angle of the normal to x, about z, -180 to 180            */
+    /* sqrt(J2) of the amplitude of the deviator, Pa */
+    RC_AMPLITUDE = RC_CRITERIA,
+    /* of Findley's plane: angle of its normal to z, degrees, 0 to 90 */
+    RC_PLANE_TILT,
+    /* the same: angle of the normal to x, about z, -180 to 180 */
+    RC_PLANE_TURN,
     RC_FATIGUES
 };
 /* Names in that order: "crossland", "dangvan", ... "amplitude", "plane-tilt", "plane-turn" */
@@ -1635,39 +1497,56 @@ RC_API enum rc_status rc_fatigue_history(unsigned wanted, const struct rc_fatigu
 struct rc_fatigue_problem {
     /* Its members wanted, section and traction are ignored; no ranks, no strain. */
     struct rc_stress_options stress;
-    unsigned wanted;                  /* bits of enum rc_criterion */
-    bool full;                        /* as for rc_fatigue_history */
-    char pass;                        /* 'x', 'y', or 0: cases     */
-    size_t cases;                     /* 1 with a pass             */
-    const double *const *p;           /* of each case, nx ny values, Pa      */
-    const double *const *traction[2]; /* the same; NULL: none                */
-    const size_t *column; /* of each case: the column of the body below its first column; NULL: 0 */
-    /* Bytes for histories of cases; 0: all. With little room, stresses are computed again for each band of
-     * rows, which costs time. */
+    /* bits of enum rc_criterion */
+    unsigned wanted;
+    /* as for rc_fatigue_history */
+    bool full;
+    /* 'x', 'y', or 0: cases */
+    char pass;
+    /* 1 with a pass */
+    size_t cases;
+    /* of each case, nx ny values, Pa */
+    const double *const *p;
+    /* the same; NULL: none */
+    const double *const *traction[2];
+    /* of each case: the column of the body below its first column; NULL: 0 */
+    const size_t *column;
+    /* Bytes for histories of cases; 0: all. With little room, stresses are computed again for
+     * each band of rows, which costs time. */
     size_t room;
-    /* Stressed volume: the integral of (amplitude - threshold)^power z^-depth_power over points of a
-     * depth and over depths, with the amplitude in GPa. That of a pass is per length of travel. power 0:
-     * none. */
+    /* Stressed volume: the integral of (amplitude - threshold)^power z^-depth_power over points
+     * of a depth and over depths, with the amplitude in GPa. That of a pass is per length of
+     * travel. power 0: none. */
     double power, depth_power, threshold;
 };
 /* The largest value of a criterion. */
 struct rc_fatigue_place {
-    double value;       /* index, or Pa for the amplitude; NAN: not wanted, or no depth yet */
-    double x, y, depth; /* m; x NAN: all of the travel                                      */
-    /* Relative. It is estimated from the change of the largest values of this depth when only every
-     * second state is taken. */
+    /* index, or Pa for the amplitude; NAN: not wanted, or no depth yet */
+    double value;
+    /* m; x NAN: all of the travel */
+    double x, y, depth;
+    /* Relative. It is estimated from the change of the largest values of this depth when only
+     * every second state is taken. */
     double sampling_error;
 };
 struct rc_fatigue_figures {
     struct rc_fatigue_place largest[RC_CRITERIA + 1];
-    double safety;                 /* 1 over the largest index                       */
-    double sampling_error;         /* the largest one of the wanted criteria         */
-    double plane_tilt, plane_turn; /* degrees: of Findley's plane at its largest index */
-    double dangvan_hydrostatic;    /* Pa, at the point and instant that decide for Dang Van    */
-    double least_hydrostatic, largest_hydrostatic; /* Pa, in all histories           */
-    double stressed_volume; /* GPa^power m^(3 - depth_power), of a pass m^(2 - depth_power)  */
-    size_t depths, histories, states; /* states: of one history                           */
-    size_t bands;                     /* most bands of rows */
+    /* 1 over the largest index */
+    double safety;
+    /* the largest one of the wanted criteria */
+    double sampling_error;
+    /* degrees: of Findley's plane at its largest index */
+    double plane_tilt, plane_turn;
+    /* Pa, at the point and instant that decide for Dang Van */
+    double dangvan_hydrostatic;
+    /* Pa, in all histories */
+    double least_hydrostatic, largest_hydrostatic;
+    /* GPa^power m^(3 - depth_power), of a pass m^(2 - depth_power) */
+    double stressed_volume;
+    /* states: of one history */
+    size_t depths, histories, states;
+    /* most bands of rows */
+    size_t bands;
 };
 /* RC_FAIL when rc_fatigue_new would refuse the problem, except for short memory. */
 RC_API enum rc_status rc_fatigue_check(const struct rc_shape *shape,
@@ -1680,7 +1559,7 @@ RC_API struct rc_shape rc_fatigue_shape(const struct rc_shape *shape,
 /* Bytes that rc_fatigue_new allocates for its maps and histories, beside the plan of the stresses. */
 RC_API size_t rc_fatigue_memory(const struct rc_shape *shape,
                                 const struct rc_fatigue_problem *problem);
-/* The caller keeps the maps of the problem. NULL when the problem is refused or memory is short. */
+/* NULL when the problem is refused or memory is short. */
 RC_API struct rc_fatigue *rc_fatigue_new(const struct rc_shape *shape,
                                          const struct rc_fatigue_problem *problem,
                                          struct rc_err *err);
@@ -1694,7 +1573,18 @@ RC_API enum rc_status rc_fatigue_depth(struct rc_fatigue *fatigue, double depth,
 /* Figures of the last depth, and of all depths so far. */
 RC_API const struct rc_fatigue_figures *rc_fatigue_at_depth(const struct rc_fatigue *fatigue);
 RC_API const struct rc_fatigue_figures *rc_fatigue_result(const struct rc_fatigue *fatigue);
-RC_API void rc_fatigue_free(struct rc_fatigue *fatigue); /* NULL is allowed */
+RC_API void rc_fatigue_free(struct rc_fatigue *fatigue);
+
+/* ---- several processes ---- */
+/* The functions that need MPI are in contact_mpi.h. */
+
+/* Messages of all processes that share maps, in total. */
+struct rc_sent {
+    size_t exchanges;       /* exchanges of whole maps between rows and columns */
+    double messages, bytes; /* messages and bytes of these exchanges */
+    double other_bytes;     /* bytes of sums, neighbouring rows, coarser grids */
+    double seconds;         /* seconds in exchanges, of the slowest process */
+};
 
 #ifdef __cplusplus
 }

@@ -3,11 +3,12 @@
  * It exists only in a library built with MPI (-DRC_MPI=ON).
  *
  *     struct rc_ranks *ranks = rc_ranks_new(MPI_COMM_WORLD, &err);
- *     rc_ranks_rows(ranks, &shape, &first, &n);           which rows are this rank's
+ *     rc_ranks_rows(ranks, &shape, &first, &n);
  *     struct rc_problem problem = {..., .ranks = ranks};
- *     solver = rc_solver_new(&shape, h, &problem, &err);  shape: the whole map; h: its n rows
+ *     solver = rc_solver_new(&shape, h, &problem, &err);
  *
- * Shapes are those of whole maps; every array of values holds the rows of this rank only, and may be empty.
+ * rc_ranks_rows tells the rows of this rank; shape is the whole map, h its n rows. Shapes are those of whole
+ * maps; every array of values holds the rows of this rank only, and may be empty.
  * Calls that take such an object are made by all ranks, with equal arguments except arrays. Their results and
  * errors are the same on all ranks. MPI_THREAD_FUNNELED is enough: MPI is called by the calling thread alone.
  */

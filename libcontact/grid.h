@@ -1,9 +1,9 @@
 /*
  * The noun of the toolkit: one map on one regular grid, with the words that travel with it.
  *
- *        i = 0 ........ nx-1      x = (i - (nx-1)/2) dx, along a row, fastest in memory
- *   j=0  v[0]  v[1] ...           y = (j - (ny-1)/2) dy, down the picture
- *    :   v[nx] ...                value (i, j) stands for its cell: v[j*nx + i]
+ *          i = 0 .... nx-1    x = (i - (nx-1)/2) dx, along a row
+ *     j=0  v[0]  v[1] ...     y = (j - (ny-1)/2) dy, down the picture
+ *      :   v[nx] ...          value (i, j) stands for its cell: v[j*nx + i]
  *
  * Everything is SI. This header is all that formats/ may include.
  */
@@ -24,11 +24,13 @@ extern "C" {
 #define RC_API
 #endif
 
+/* ---- status and errors ---- */
+
 enum rc_status {
-    RC_OK = 0,    /* done                                                */
-    RC_MORE = 1,  /* an iteration that has not finished: not an error    */
-    RC_SHORT = 2, /* an iteration that cannot reach the asked accuracy   */
-    RC_FAIL = -1, /* it could not be done; struct rc_err says why        */
+    RC_OK = 0,    /* done */
+    RC_MORE = 1,  /* an iteration that has not finished: not an error */
+    RC_SHORT = 2, /* an iteration that cannot reach the asked accuracy */
+    RC_FAIL = -1, /* it could not be done; struct rc_err says why */
 };
 
 /* One sentence, owned by the caller: the offending value, the rule it broke, what to do. */
@@ -44,13 +46,17 @@ RC_API enum rc_status rc_err_set(struct rc_err *err, const char *format, ...)
 #endif
     ;
 
+/* ---- memory ---- */
+
 /* Memory allocated by the library and the tools, in bytes. Code, stacks of threads, arrays of the caller and
  * memory of other libraries are not included. */
 struct rc_memory {
-    size_t held; /* now                                                                         */
-    size_t peak; /* the most so far                                                             */
-    size_t refused; /* the memory with the block that was refused last since the budget was set; 0:
-                       none */
+    /* now */
+    size_t held;
+    /* the most so far */
+    size_t peak;
+    /* the memory with the block that was refused last since the budget was set; 0: none */
+    size_t refused;
 };
 
 /* Largest number of bytes that the library may allocate in this process; 0, the default: no limit. A call
@@ -59,7 +65,10 @@ struct rc_memory {
 RC_API void rc_memory_budget(size_t bytes);
 /* True if so many more bytes may be allocated. */
 RC_API bool rc_memory_ask(size_t bytes);
+/* The memory in use now and at most. */
 RC_API struct rc_memory rc_memory_held(void);
+
+/* ---- shape of a map ---- */
 
 /* The parts of a grid that computations on arrays need. Sizes count nodes; spacings are in metres. */
 struct rc_shape {
@@ -71,27 +80,50 @@ struct rc_shape {
  * would overflow size_t. */
 RC_API enum rc_status rc_shape_check(const struct rc_shape *shape, struct rc_err *err);
 
+/* How the map continues beyond its edges. */
+enum rc_boundary {
+    RC_FREE,    /* a half-space whose surface extends, without load, beyond the map */
+    RC_PERIODIC /* the map repeats without end */
+};
+
+/* A node is in contact if its value in the frame `contact` of its case (1 or 0) is above 0. If the case has
+ * no such frame, the pressure decides. In tools contact_frame chooses between the two frames. */
+static inline bool
+rc_in_contact(double value)
+{
+    return value > 0;
+}
+
+/* ---- grids: a map with its keys, as in a stream ---- */
+
 enum rc_type {
     RC_F64,
     RC_F32
 };
 
 struct rc_key {
-    char *name;  /* [a-z][a-z0-9._-]*          */
-    char *value; /* UTF-8, not yet escaped     */
+    char *name;  /* [a-z][a-z0-9._-]* */
+    char *value; /* UTF-8, not yet escaped */
 };
 
 struct rc_grid {
-    size_t nx, ny;      /* nodes, both > 0                                                     */
-    double dx, dy;      /* metres, unless rc_grid_dunit is another unit; both > 0 and finite */
-    char *channel;      /* "height", "pressure", "szz", ...                                    */
-    char *unit;         /* "m", "Pa", ...; SI                                                  */
-    enum rc_type type;  /* how the values are stored in a stream; in memory always double      */
-    struct rc_key *key; /* every other header line, in order: case, source, history, ...       */
+    /* nodes, both > 0 */
+    size_t nx, ny;
+    /* metres, unless rc_grid_dunit is another unit; both > 0 and finite */
+    double dx, dy;
+    /* "height", "pressure", "szz", ... */
+    char *channel;
+    /* "m", "Pa", ...; SI */
+    char *unit;
+    /* how the values are stored in a stream; in memory always double */
+    enum rc_type type;
+    /* every other header line, in order: case, source, history, ... */
+    struct rc_key *key;
     size_t keys;
-    double *v;        /* nx*ny values, row 0 first; NaN: not measured */
-    size_t elsewhere; /* number of the ny rows that are not in v, because other processes hold
-                         them */
+    /* nx*ny values, row 0 first; NaN: not measured */
+    double *v;
+    /* number of the ny rows that are not in v, because other processes hold them */
+    size_t elsewhere;
 };
 
 /* A grid with uninitialised values. NULL on a bad shape or when memory is short. */
@@ -105,8 +137,9 @@ RC_API size_t rc_grid_nodes(const struct rc_grid *grid);
 /* Same shape and keys as `like`, values uninitialised; type is RC_F64. */
 RC_API struct rc_grid *rc_grid_like(const struct rc_grid *like, const char *channel,
                                     const char *unit, struct rc_err *err);
-RC_API void rc_grid_free(struct rc_grid *grid); /* NULL is allowed */
+RC_API void rc_grid_free(struct rc_grid *grid);
 
+/* Its shape. */
 RC_API struct rc_shape rc_grid_shape(const struct rc_grid *grid);
 
 /* Value of a carried key, or NULL. The required header lines (nx, unit, ...) are fields, not keys. */
@@ -132,7 +165,10 @@ RC_API size_t rc_grid_case(const struct rc_grid *grid);
  * does the end of a step beyond 16368 bytes. */
 RC_API enum rc_status rc_grid_history(struct rc_grid *grid, const char *step, struct rc_err *err);
 
+/* True for a name of a key: [a-z][a-z0-9._-]*. */
 RC_API bool rc_key_valid(const char *name);
+
+/* ---- numbers and texts ---- */
 
 /* Replaces *text by a copy of value. RC_FAIL when memory is short. */
 RC_API enum rc_status rc_text_set(char **text, const char *value, struct rc_err *err);
@@ -149,14 +185,6 @@ RC_API const char *rc_number_read(const char *text, bool special, double *value)
 
 /* a*b, or RC_FAIL when it does not fit. */
 RC_API enum rc_status rc_size_mul(size_t a, size_t b, size_t *product, struct rc_err *err);
-
-/* A node is in contact if its value in the frame `contact` of its case (1 or 0) is above 0. If the case has
- * no such frame, the pressure decides. In tools contact_frame chooses between the two frames. */
-static inline bool
-rc_in_contact(double value)
-{
-    return value > 0;
-}
 
 #ifdef __cplusplus
 }

@@ -7,13 +7,14 @@
  *     rc_point_set(&to, RC_LOAD, 10);
  *     if (rc_model_go(m, &to, &err) == RC_MORE)
  *         while (rc_model_step(m, &err) == RC_MORE)
- *             ;                              (show progress, obey signals, write a checkpoint)
+ *             continue; // show progress, obey signals, write a checkpoint
  *     if (rc_model_look(m, &at, &err) != RC_OK)
- *         ;                                  (err.text has the reason; the figures are then NAN)
- *     printf("%g m, %g Pa\n", at.at[RC_APPROACH], rc_model_number(m, "max_pressure"));
- *     rc_model_keep(m, &err);                (the point becomes history; without it the next go forgets it)
+ *         fprintf(stderr, "%s\n", err.text); // the figures are then NAN
+ *     printf("%g m, %g Pa\n", at.at[RC_APPROACH],
+ *            rc_model_number(m, "max_pressure"));
+ *     rc_model_keep(m, &err); // without it the next go forgets the point
  *
- * The caller owns the loop. A maker checks the problem; the first go allocates the large arrays. Everything
+ * rc_model_run is the go with all steps, where the caller has nothing to do between them. A maker checks the problem; the first go allocates the large arrays. Everything
  * is SI. This header comes with contact.h.
  */
 #ifndef RC_MODEL_H
@@ -35,27 +36,30 @@ struct rc_solver;
 /* ---- axes: quantities that a history prescribes ---- */
 
 enum rc_axis {
-    RC_LOAD,         /* N, positive when the bodies are pressed together                       */
+    RC_LOAD,         /* N, positive when the bodies are pressed together */
     RC_APPROACH,     /* m, from first touch; -INFINITY separates bodies that attract each other */
-    RC_TANGENTIAL_X, /* N, of body 2 on body 1                                                 */
+    RC_TANGENTIAL_X, /* N, of body 2 on body 1 */
     RC_TANGENTIAL_Y,
-    RC_DISPLACEMENT_X, /* m, of body 2 over body 1                                               */
+    RC_DISPLACEMENT_X, /* m, of body 2 over body 1 */
     RC_DISPLACEMENT_Y,
-    RC_CREEP_X, /* creepages                                                              */
+    RC_CREEP_X, /* creepages */
     RC_CREEP_Y,
-    RC_SPIN,     /* rad/m                                                                  */
-    RC_TIME,     /* s                                                                      */
-    RC_DISTANCE, /* m, slid                                                                */
-    RC_POSITION, /* m, of the contact on body 1                                            */
-    RC_SPEED,    /* m/s                                                                    */
+    RC_SPIN,     /* rad/m */
+    RC_TIME,     /* s */
+    RC_DISTANCE, /* m, slid */
+    RC_POSITION, /* m, of the contact on body 1 */
+    RC_SPEED,    /* m/s */
     RC_AXES
 };
 /* Names of options, columns and keys are made from this table. */
 struct rc_axis_info {
-    const char *name, *unit, *title; /* unit NULL: a plain number                             */
-    bool rises;           /* a later point has at least the value of the earlier one          */
-    enum rc_axis partner; /* load and approach are partners: one is given and the other is found;
-                             an axis without a partner is its own partner */
+    /* unit NULL: a plain number */
+    const char *name, *unit, *title;
+    /* a later point has at least the value of the earlier one */
+    bool rises;
+    /* load and approach are partners: one is given and the other is found; an axis without a
+     * partner is its own partner */
+    enum rc_axis partner;
 };
 /* Row k of the table; NULL past the last. */
 RC_API const struct rc_axis_info *rc_axis_info(size_t k);
@@ -73,8 +77,8 @@ RC_API void rc_point_set(struct rc_point *point, enum rc_axis axis, double value
 
 enum rc_figure_kind {
     RC_NUMBER, /* double; NAN: unknown */
-    RC_COUNT,  /* size_t               */
-    RC_YESNO,  /* bool                 */
+    RC_COUNT,  /* size_t */
+    RC_YESNO,  /* bool */
     RC_WORD    /* const char *; NULL: unknown */
 };
 enum rc_figure_role {
@@ -85,15 +89,22 @@ enum rc_figure_role {
 /* A row of a table of figures; the last row of a table has no name. RC_FIGURE gives the first three. */
 struct rc_figure {
     enum rc_figure_kind kind;
-    size_t at;        /* offset of the member in its struct                                   */
-    const char *name; /* name of the column. "object.name" is inside an object */
-    const char *unit, *title; /* SI unit, NULL: a plain number; title of an axis              */
-    const char *says;         /* explanation, a part of a sentence; NULL: the title is enough */
+    /* offset of the member in its struct */
+    size_t at;
+    /* name of the column. "object.name" is inside an object */
+    const char *name;
+    /* SI unit, NULL: a plain number; title of an axis */
+    const char *unit, *title;
+    /* explanation, a part of a sentence; NULL: the title is enough */
+    const char *says;
     enum rc_figure_role role;
-    const char *by; /* the field of the problem that governs it                          */
-    double limit;   /* a warning is printed above it, or below it if `least` is set; 0: no limit */
+    /* the field of the problem that governs it */
+    const char *by;
+    /* a warning is printed above it, or below it if `least` is set; 0: no limit */
+    double limit;
     bool least;
-    const char *warning; /* text of this warning, without the name of an option */
+    /* text of this warning, without the name of an option */
+    const char *warning;
 };
 /* {RC_FIGURE(struct rc_leak_figures, mean_gap), "m", "Mean gap"}: the kind follows from the type of the
  * member. A member that does not exist does not compile. RC_FIGURE_AS: the column has another name. */
@@ -109,8 +120,12 @@ struct rc_figure {
 RC_API double rc_figure_number(const struct rc_figure *figure, const void *data);
 /* The word; NULL: unknown, a number, or data NULL. */
 RC_API const char *rc_figure_word(const struct rc_figure *figure, const void *data);
-/* The table of the figures of a struct of this library, by its name in figures.list: "contact", "elastic",
- * "adhesion", "leak", "slip", "rolling", "wear", "travel", "viscoelastic", "areal". NULL: there is none. */
+/* The table of the figures of a struct of this library. NULL: no table has this name. The names are:
+ *
+ *     contact elastic yield adhesion friction rolling wear travel
+ *     viscoelastic sliding leak heat stress fatigue
+ *     statistics areal features profile psd patches
+ */
 RC_API const struct rc_figure *rc_figures(const char *name);
 /* The row of that name in any table of this library, for titles and units of a table read from a file; NULL:
  * none. */
@@ -121,24 +136,28 @@ RC_API const struct rc_figure *rc_figure_find(const char *name);
  * outer one's, and is given once. */
 RC_API const struct rc_figure *rc_model_figure(const struct rc_model *model, size_t k,
                                                const void **data);
-/* The value of a figure by its name; NAN: unknown, or there is none. */
+/* The value of a figure by its name, which is that of a column of the reports of the tools. NAN: it is
+ * unknown, a word, or the model has no figure of this name: rc_model_figure lists them. */
 RC_API double rc_model_number(const struct rc_model *model, const char *name);
 
 /* ---- frames: the maps of a result ---- */
 
+/* The frames contact (1 or 0), pressure (Pa), gap and displacement (m) are those of the contact. Models add
+ * their own, as their makers say. */
 struct rc_frame_kind {
     const char *name, *unit, *title;
 };
 /* Row k, those of the outermost model first; NULL past the last. */
 RC_API const struct rc_frame_kind *rc_model_frame_kind(const struct rc_model *model, size_t k);
-/* nx ny values of the frame of that name, after a look. RC_FAIL when there is none. */
+/* nx ny values of the frame of that name, after a look. RC_FAIL when there is none: the sentence lists the
+ * frames. */
 RC_API enum rc_status rc_model_frame(struct rc_model *model, const char *name, double *to,
                                      struct rc_err *err);
 
 /* ---- verbs ---- */
 
 /* Sets out for a point from the last point kept: RC_MORE, or RC_FAIL when the point is impossible or memory
- * is short. This forgets all steps since the last keep. */
+ * is short. This forgets all steps since the last keep. The first point must have all axes of the model. */
 RC_API enum rc_status rc_model_go(struct rc_model *model, const struct rc_point *to,
                                   struct rc_err *err);
 /* RC_MORE until the point is reached; then RC_OK, or RC_SHORT when the accuracy is not. One may stop after
@@ -153,24 +172,26 @@ RC_API enum rc_status rc_model_look(struct rc_model *model, struct rc_point *at,
                                     struct rc_err *err);
 /* The point that was reached becomes history. RC_FAIL when none is reached, or memory is short. */
 RC_API enum rc_status rc_model_keep(struct rc_model *model, struct rc_err *err);
-/* Sets other heights of the undeformed bodies, nx ny m, copied, from the next go on: worn, moved or warped
+/* Sets other heights of the undeformed bodies, nx ny m, from the next go on: worn, moved or warped
  * surfaces. */
 RC_API enum rc_status rc_model_set_heights(struct rc_model *model, const double *h,
                                            struct rc_err *err);
 /* Sets a compliance c >= 0, m/Pa, of each single node, from the next go on. Under a pressure p the surface
- * moves by c p more, as if a film were worn off or crushed. The answer is that of bodies with the heights h -
- * c p. Its gap is K p + c p - h - shift, and its displacement K p, of the elastic bodies alone. The approach
- * is counted from the highest node of h. part: nx ny numbers >= 0 that multiply c at each node (NULL: all 1).
- * The caller keeps them until others are set. Each row, along x, also moves by `along`, 1/Pa, times the
+ * moves by c p more, as if a film were worn off or crushed. The answer is that of bodies with the heights
+ * h - c p. Its gap is K p + c p - h - shift, and its displacement K p, of the elastic bodies alone. The
+ * approach is counted from the highest node of h. part: nx ny numbers >= 0 that multiply c at each node
+ * (NULL: all 1). Keep them until others are set. Each row, along x, also moves by `along`, 1/Pa, times the
  * integral of its pressure, as a track does that a body passes and wears. RC_FAIL where the model cannot. */
 RC_API enum rc_status rc_model_set_compliance(struct rc_model *model, double c, const double *part,
                                               double along, struct rc_err *err);
+/* The grid of its frames. */
 RC_API struct rc_shape rc_model_shape(const struct rc_model *model);
 /* The solver of the contact of this model or of its inner one, for its pressure, names and progress; only the
  * model steps it. NULL: there is none, or no load so far. */
 RC_API struct rc_solver *rc_model_solver(const struct rc_model *model);
+/* The name of its kind: "elastic", "wear", ... */
 RC_API const char *rc_model_name(const struct rc_model *model);
-/* With its inner models; NULL is allowed. */
+/* Frees the model and its inner models. */
 RC_API void rc_model_free(struct rc_model *model);
 
 /* ---- cost before, progress during ---- */
@@ -195,8 +216,9 @@ struct rc_loops {
     struct rc_shape grid; /* the present grid, at first a coarser one */
     double error, tol;    /* error of the innermost model; NAN before the first estimate */
     bool worth;           /* a state is worth keeping now: steps soon add much to it */
-    size_t coming;        /* bytes that the next step allocates; 0: none, or few     */
+    size_t coming;        /* bytes that the next step allocates; 0: none, or few */
 };
+/* The loops of the model and its inner models, and the error of the innermost one. */
 RC_API void rc_model_progress(const struct rc_model *model, struct rc_loops *loops);
 
 /* ---- states: numbers that a file may keep ---- */

@@ -119,7 +119,7 @@ tools               | formats/format.h formats/export.h        | formats
 tools               | formats/containers/containers.h          | formats/containers formats/containers/packing
 END
 base='libcontact/contact.h libcontact/grid.h libcontact/common.h libcontact/memory.h libcontact/expected.h libcontact/owned.h'
-public='libcontact/contact.h libcontact/grid.h libcontact/model.h'
+public='libcontact/contact.h libcontact/grid.h libcontact/surface.h libcontact/model.h'
 physics='libcontact libcontact/body libcontact/operator libcontact/solver libcontact/stress libcontact/yield'
 physics="$physics libcontact/pyramid libcontact/model libcontact/adhesion libcontact/leak libcontact/friction libcontact/rolling libcontact/wear libcontact/travel libcontact/viscoelastic libcontact/fatigue libcontact/heat libcontact/surface libcontact/features"
 cli='tools/cli tools/text tools/machine'

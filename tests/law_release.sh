@@ -17,7 +17,7 @@ case $version in 0.*) soname=${version%.*} ;; *) soname=${version%%.*} ;; esac
 claim "  the Debian package of the library has the soname of this version" line debian/control "Package: libcontact$soname"
 claim "  its list of symbols has it too" line "debian/libcontact$soname.symbols" "libcontact.so.$soname libcontact$soname #MINVER#"
 claim "  the built library has this soname" test -e "$(dirname "$RC_BIN")/libcontact/libcontact.so.$soname"
-claim "  the manual names it" line man/libcontact.3 ".Pa libcontact.so.$soname ."
+claim "  the manual names it" grep -qxF ".Pa libcontact.so.$soname ." "$library_page"
 
 # ---- a tarball ----
 
@@ -60,7 +60,7 @@ refuses 1 "cmocka" "  where tests are asked for, it does not" "version=$version;
 
 if command -v mandoc >/dev/null; then
     claim "the manual becomes web pages" \
-        cmake -D SOURCE="$RC_SOURCE" -D OUT="$PWD/html" -D VERSION="$version" -P "$RC_SOURCE/cmake/html.cmake"
+        cmake -D SOURCE="$RC_SOURCE" -D LIBRARY_PAGE="$library_page" -D OUT="$PWD/html" -D VERSION="$version" -P "$RC_SOURCE/cmake/html.cmake"
     # leads_on FILE: each of its local links leads to an existing file and anchor.
     leads_on() {
         grep -o 'href="[^"]*"' "$1" | sed 's/^href="//; s/"$//' | grep -v '^https://' | sort -u | while read -r link; do
@@ -72,7 +72,7 @@ if command -v mandoc >/dev/null; then
             }
         done
     }
-    for page in "$pages"/*.[1-9]; do
+    for page in "$pages"/*.[1-9] "$library_page"; do
         name=$(basename "$page")
         claim "$name: the index has a link to the page" grep -qF "href=\"$name.html\"" html/index.html
         claim "$name:   the page has links to others" leads_on "html/$name.html"

@@ -1,6 +1,12 @@
 # Sourced by the tests of the manual, after pipe.sh: functions that extract commands and outputs from a page,
 # and words from --help.
 pages=$RC_SOURCE/man
+library_page=$(dirname "${RC_BIN-}")/man/libcontact.3 # made by the build
+
+# head_program NAME: writes the example at the top of contact.h to NAME.
+head_program() {
+    sed -n '/^ \*     #include/,/^ \*     }$/s/^ \*\( \{5\}\)\{0,1\}//p' "$RC_SOURCE/libcontact/contact.h" >"$1" && grep -q '^main(' "$1"
+}
 
 # blocks PAGE SECTION FOLDER: writes the literal displays of a section, or of all sections with '', as files
 # 1, 2, ... in FOLDER. After the comment "prints" a display is the output of the one before it: 1.prints;

@@ -102,8 +102,8 @@ is_cooled(const struct rc_shape *shape, const double velocity[2])
  * conduction along the motion */
 static const double most_peclet = 1e9;
 
-enum rc_status
-rc_heat_check(const struct rc_shape *shape, const struct rc_heat_problem *p, struct rc_err *err)
+static enum rc_status
+check(const struct rc_shape *shape, const struct rc_heat_problem *p, struct rc_err *err)
 {
     if (rc_shape_check(shape, err) != RC_OK)
         return RC_FAIL;
@@ -255,7 +255,7 @@ rc_heat_expect(const struct rc_shape *shape, const struct rc_heat_problem *p, si
                  cores = (double)(p->threads == 0 ? rc_threads_available() : p->threads);
     static const double bytes[2][2] = RC_HEAT_BYTES;
 
-    if (rc_heat_check(shape, p, err) != RC_OK)
+    if (check(shape, p, err) != RC_OK)
         return RC_FAIL;
     *expected = (struct rc_expected){
         .convolutions = RC_HEAT_WORK + (matched ? RC_HEAT_STEP * times : 0) + times * (times + 1),
@@ -274,7 +274,7 @@ rc_heat_new(const struct rc_shape *shape, const struct rc_heat_problem *problem,
     struct rc_heated body[2];
     RC_OWN(rc_heat, h) = NULL;
 
-    if (rc_heat_check(shape, problem, err) != RC_OK)
+    if (check(shape, problem, err) != RC_OK)
         return NULL;
     if ((h = calloc(1, sizeof *h)) == NULL ||
         (h->q = rc_store_take(&h->own, 6 * nodes, sizeof *h->q)) == NULL)

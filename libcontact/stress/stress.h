@@ -61,6 +61,13 @@ void rc_strained_add(struct rc_strained *strained, double depth, double *const t
 /* The transforms so far. */
 void rc_strained_count(const struct rc_strained *strained, struct rc_stress_counts *counts);
 
+/* ---- derived.c ---- */
+
+/* The derived stresses of n points from their six components: out[c] for each bit of `wanted` from RC_MISES
+ * on. */
+void rc_stress_derive(unsigned wanted, size_t n, const double *const s[RC_COMPONENTS],
+                      double *const out[RC_STRESSES]);
+
 /* ---- engines for stresses ---- */
 
 /* Evaluates stresses: slices_fft.c, slices_engine.c and section.c each end in one. */

@@ -20,6 +20,9 @@ struct rc_sliding_medium {
     double speed;      /* along x, not 0                                    */
     double typical;    /* 1/Pa                                              */
 };
+/* The mean of J(i w) over -omega < w < omega, 1/Pa (prony.c). It is real: instant + sum of compliance[j]
+ * atan(y)/y with y = omega retardation[j]. */
+double rc_relaxation_mean_compliance(const struct rc_relaxation *r, double omega);
 struct rc_wake *rc_wake_new(const struct rc_shape *shape, const struct rc_sliding_medium *medium,
                             size_t threads, struct rc_err *err);
 void rc_wake_free(struct rc_wake *wake); /* NULL is allowed */

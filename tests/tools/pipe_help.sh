@@ -68,7 +68,7 @@ has_sections() {
 references_exist() {
     awk '/^\.Xr (rc-|rcg|contact|libcontact)/ { print $2 "." $3 }' "$1" | sort -u |
         while read -r page; do
-            [ -f "$pages/$page" ] || {
+            [ -f "$pages/$page" ] || [ -f "$pages/$page.in" ] || {
                 echo "$1: refers to $page, which does not exist" >&2
                 exit 1
             }
@@ -76,7 +76,7 @@ references_exist() {
 }
 
 refuses_lines() { ! grep -nE "$1" "$2" >&2; }
-for page in "$pages"/*.[1-9]; do
+for page in "$pages"/*.[1-9] "$library_page"; do
     name=$(basename "$page")
     case $name in
     *.7) claim "$name: NAME, SEE ALSO" has_sections "$page" NAME "SEE ALSO" ;;

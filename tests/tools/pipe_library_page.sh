@@ -1,10 +1,11 @@
-# libcontact(3) has the declarations of contact.h, contact_mpi.h and grid.h. It has every function with its
-# arguments, every struct with its fields, and every constant with its value, and it describes each of them.
+# libcontact(3), which man/library.awk makes from the headers, has every function with its arguments, every struct with
+# its fields, every constant with its value, and every comment. Every function has a description. Members of structs are
+# declared in one line each, with comments either above all of them or at the ends of lines.
 . "$(dirname "$0")/../pipe.sh"
 . "$RC_SOURCE/tests/manual.sh"
 . "$RC_SOURCE/tests/symbols.sh"
 
-page=$pages/libcontact.3
+page=$library_page
 
 # Prints the declarations in preprocessed C from standard input. The lines are "function TYPE
 # NAME(ARGUMENTS)", "object TYPE NAME", "struct NAME: FIELD" for each field, and "constant ENUM PLACE: NAME =
@@ -23,6 +24,7 @@ undef $/;
 $_ = <STDIN>;
 s/__attribute__\s*$round//g;
 s/extern\s+"C"\s*\{//g;
+s/\bstatic\s+inline\b([^(;]*$round)\s*\{[^{}]*\}/$1;/g;
 while (/\benum\s*(\w*)\s*\{([^{}]*)\}/g) {
     my ($name, $place) = ($1, 0);
     for (split /,/, $2) {
@@ -49,11 +51,11 @@ echo 'typedef struct mpi_comm *MPI_Comm;' >mpi/mpi.h
 headers() { ${CC:-cc} -E -P -std=c17 -I "$RC_SOURCE" -I mpi "$1"; }
 declarations() { headers "$1" | perl declarations.pl | sort -u; }
 
-# page_code: prints the page as a header: its displays before EXAMPLES, then a declaration of each .Ft with
-# .Fn, or .Vt.
+# page_code: prints the page as a header: its structs and constants, then a declaration of each .Ft with .Fn, or
+# .Vt.
 page_code() {
     printf '#include <std%s.h>\n' bool def int
-    blocks "$page" DESCRIPTION described && cat described/*
+    blocks "$page" "" described && awk 'FNR == 1 { code = /^(struct|enum)[^;=(]*\{/ } code' described/*
     perl -ne '
         next unless /^\.It (Ft|Vt) (.*)/;
         my ($kind, @word) = ("$1", map { s/^"|"$//gr } $2 =~ /"[^"]*"|\S+/g);
@@ -76,7 +78,7 @@ claim "the constants with their values" same_of constant page.txt
 seen() {
     headers "$RC_SOURCE/libcontact/contact_mpi.h" >all.h && declared all.h >declared.txt &&
         grep -qx rc_ranks_sent declared.txt && grep -qx rc_solver_new declared.txt && grep -qx rc_grid_new declared.txt &&
-        sed -nE 's/^(function|object) [^(]*\b(rc_\w+).*/\2/p' headers.txt | sort | diff declared.txt - >&2
+        sed -nE 's/^(function|object) [^(]*\b(rc_\w+).*/\2/p' headers.txt | grep -vx rc_in_contact | sort | diff declared.txt - >&2
 }
 claim "  the check finds every declaration of the headers" seen
 lacking() {
@@ -90,9 +92,60 @@ claim "  a function that does not exist any more" lacking 's/double mu;/double m
 
 # The descriptions.
 bare_items() { awk '/^\.It (Ft|Vt)/ { item = $0; next } item != "" { if (/^\.(It|El)/) print item; item = "" }' "$page"; }
-bare_fields() {
-    awk '/^struct .*\{/ { inside = 1; next } /^\}/ { inside = 0 } inside && /^    [a-z].*;/ && !/;.*\/\*/' described/*
+none() { "$@" >bare.txt && cat bare.txt >&2 && [ ! -s bare.txt ]; }
+claim "each function has a description" none bare_items
+sources=("$RC_SOURCE"/libcontact/{grid,surface,model,contact,contact_mpi}.h)
+# lost PAGE: prints the comments of the headers that the page does not have, word for word.
+lost() {
+    perl -0777 -e '
+        my $page = shift;
+        open my $in, "<", $page or die; $_ = <$in>;
+        s/^\.(?!Ss).*$//mg; s/\\f[IR]//g; s/\\&//g; s/\\\(aq/\x27/g; s/\\e/\\/g;
+        (my $all = $_) =~ s/[^A-Za-z0-9]//g;
+        for my $file (@ARGV) {
+            open my $header, "<", $file or die; $_ = <$header>;
+            while (m#/\*(.*?)\*/#sg) {
+                my $text = $1;
+                next if $text =~ /^ The names that the shared library offers|^ processes that share the map: contact\.h|^ NULL is/;
+                (my $bare = $text) =~ s/[^A-Za-z0-9]//g;
+                print "$file: $text\n" if index(lc $all, lc $bare) < 0;
+            }
+        }' "$1" "${sources[@]}"
 }
-none() { "$1" >bare.txt && cat bare.txt >&2 && [ ! -s bare.txt ]; }
-claim "each function has a line" none bare_items
-claim "each field has its unit or meaning" none bare_fields
+claim "the page has each comment of the headers" none lost "$page"
+sed '/what the caller keeps/d; /is the one that stresses/d' "$page" >less.3
+sees() { lost less.3 >less.txt && grep -q stresses less.txt; }
+claim "  the check finds a missing line" sees
+
+# broken FILE...: prints members that are not in one line, and structs with comments of both kinds.
+broken() {
+    perl -0777 -e '
+        for my $file (@ARGV) {
+            open my $in, "<", $file or die; $_ = <$in>;
+            while (/^(struct|enum)\b([^;{}()]*)\{[^\n]*\n(.*?)^\}/msg) {
+                my ($kind, $name, $body) = ($1, $2, $3);
+                my $above = () = $body =~ m#^\s*/\*#mg;
+                my $beside = () = $body =~ m#^\s*[a-zA-Z][^\n]*/\*#mg;
+                print "$file: $kind$name: comments above and beside members\n" if $above && $beside;
+                $body =~ s#/\*.*?\*/##sg;
+                for (split /\n/, $body) {
+                    next if /^\s*$/ || /;\s*$/ || $kind eq "enum" && /^\s*\w+( = [^,]*)?,?\s*$/;
+                    print "$file: $kind$name: $_\n";
+                }
+            }
+        }' "$@"
+}
+claim "each member is declared in one line, with comments of one kind" none broken "${sources[@]}"
+printf 'struct rc_a {\n    double k\n        [2];\n};\nstruct rc_b {\n    /* m */\n    double x;\n    double y; /* m */\n};\n' >bad.h
+sees() { broken bad.h >bad.txt && grep -q 'rc_a : *double k' bad.txt && grep -q 'rc_b : comments' bad.txt; }
+claim "  the check finds both faults" sees
+
+# The page is read in 80 columns, and has no fault of style.
+wide() { mandoc -Tascii "$page" | col -bx | awk 'length > 80'; }
+faults() { mandoc -Tlint -Wstyle "$page" | grep -v 'referenced manual not found'; true; }
+claim "no line is wider than a terminal" none wide
+claim "mandoc finds no fault, and none of style" none faults
+# model.h names the tables of figures.
+tables() { sed -n 's/^RC_FIGURES(\(.*\))/\1/p' "$RC_SOURCE/libcontact/model/figures.list" | sort; }
+named() { sed -n '/The names are:/,/rc_figures(/p' "$RC_SOURCE/libcontact/model.h" | grep -v : | grep -o '\b[a-z]\+\b' | grep -vx 'const\|struct\|char\|name' | sort; }
+claim "model.h names each table of figures.list" diff <(tables) <(named)

@@ -10,6 +10,7 @@
 #include <string.h>
 
 #include "libcontact/contact.h"
+#include "libcontact/viscoelastic/wake.h"
 #include "tests/exact.h"
 
 /* The definitions of E(i w) and J(i w). */
