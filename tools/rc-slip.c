@@ -64,7 +64,7 @@ static const struct opt opts[] = {
      .help = "Poisson's ratio of both bodies, if the stream has only E*"},
     {.name = "E1", .type = OPT_NUMBER, .unit = UNIT_PA, AT(e1), ABOVE_0, .result = true,
      .arg = "MODULUS",
-     .needs = RULES({.with = "nu1"}, {.with = "E2"}),
+     .needs = RULES({.with = "nu1"}, {.with = "E2", .because = "the constants of both bodies are needed"}),
      .help = "or both bodies: Young's modulus of body 1"},
     {.name = "nu1", .type = OPT_NUMBER, AT(nu1), .min = -1, .max = 0.5, .above = true,
      .result = true, .arg = "RATIO",
@@ -124,7 +124,6 @@ check_arguments(struct slip_run *run)
                     : strcmp(args.coupling, "goodman") == 0 ? RC_COUPLING_GOODMAN
                                                             : RC_COUPLING_NONE;
     slip_read_path(run, &args);
-    slip_check_bodies(run);
     slip_check_rolling(run);
 }
 

@@ -14,6 +14,23 @@ claim "each rule of each tool is kept, and stands in --help" walk $tools
 tail -n 1 walk.txt
 claim "  there are rules" says 'against [1-9].* needs [1-9].* one_of [1-9]' cat walk.txt
 
+# ---- what no rule forbids ----
+
+rc-synth sphere --nx 17 --dx 5um --radius 7.5mm -o ball.rcg
+rc-solve --load 2N --E1 210GPa --nu1 0.3 --E2 rigid --quiet -o pressed.rcg ball.rcg
+printf '0 1\n1 3\n2 5\n' >profile.txt
+claim "a rule for one word permits the others" rc-slip --mu 0.3 --creep 1e-3,0 --steady --coupling none --dry-run pressed.rcg
+claim "a word that is the default need not be given" \
+    rc-fatigue --depths 1um --bending-limit 1GPa --torsion-limit 0.6GPa --dangvan full --dry-run pressed.rcg
+claim "a rule for an argument permits the option without it" rc-import --even --dx 1um --z-unit um -o even.rcg profile.txt
+claim "a rule for a list permits one value" rc-render --raw --case 1 --channel pressure -o raw.png pressed.rcg
+claim "a word in place of a number has rules of its own" \
+    rc-slip --mu 0.3 --tangential 0.1N --E1 210GPa --nu1 0.3 --E2 rigid --dry-run pressed.rcg
+refuses 2 '--nu2 does not work with --E2 rigid' "  against" \
+    'rc-slip --mu 0.3 --tangential 0.1N --E1 210GPa --nu1 0.3 --E2 rigid --nu2 0.3 pressed.rcg'
+refuses 2 '--E2 MODULUS has no effect without --nu2' "  and without the word" \
+    'rc-slip --mu 0.3 --tangential 0.1N --E1 210GPa --nu1 0.3 --E2 210GPa pressed.rcg'
+
 # ---- groups of options ----
 
 listed() { grep -oE '^  --[A-Za-z0-9-]+' "$1" | sort; }

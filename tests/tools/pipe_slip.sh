@@ -190,7 +190,7 @@ refuses 2 'bad.txt: line 2: the load must be finite and not negative' "  with a 
     "printf 'load/N fx/N fy/N\n-1 0 0\n' >bad.txt; rc-slip --mu 0.3 --history bad.txt -o x.rcg ball.rcg"
 refuses 2 'No such file' "a history that is not there" "rc-slip --mu 0.3 --history none.txt -o x.rcg ball.rcg"
 refuses 2 'auto or a number' "increments of 0" "rc-slip --mu 0.3 --tangential 1N --increments 0 -o x.rcg ball.rcg"
-refuses 2 'give both bodies' "one body" "rc-slip --mu 0.3 --tangential 1N --E1 1GPa --nu1 0.3 -o x.rcg ball.rcg"
+refuses 2 '--E1 has no effect without --E2' "one body" "rc-slip --mu 0.3 --tangential 1N --E1 1GPa --nu1 0.3 -o x.rcg ball.rcg"
 refuses 1 'solve the contact for these bodies first' "other bodies" "rc-slip --mu 0.3 --tangential 1N --E1 1GPa --nu1 0.3 --E2 rigid -o x.rcg ball.rcg"
 refuses 1 'leave out --nu' "a second Poisson's ratio" "rc-slip --mu 0.3 --tangential 1N --nu 0.2 -o x.rcg ball.rcg"
 refuses 2 "Poisson's ratio is not in the stream" "none" "rc-solve --quiet --load 1N --estar 1GPa sphere.rcg | rc-slip --mu 0.3 --tangential 0.1N -o x.rcg"

@@ -368,9 +368,8 @@ put(const struct shell *s, const struct tool *t, const char *text, const struct 
 
 /* ---- for programs: the table as JSON ---- */
 
-/* Writes the words of a list, separated by blanks or '|', as an array. */
-static void
-json_list(struct json *json, const char *name, const char *words)
+void
+option_json_list(struct json *json, const char *name, const char *words)
 {
     char word[64];
 
@@ -418,7 +417,7 @@ json_option(struct json *json, const struct tool *t, const struct opt *o)
     json_text(json, "type", types[o->type]);
     json_text(json, "argument", o->arg);
     json_text(json, "unit", unit_name(o->unit));
-    json_list(json, "units", unit_usual(o->unit));
+    option_json_list(json, "units", unit_usual(o->unit));
     json_number(json, "least", o->min < o->max ? o->min : NAN);
     json_number(json, "most", o->min < o->max ? o->max : NAN);
     json_bool(json, "above_least", o->above);
@@ -445,7 +444,8 @@ table_print(const struct tool *t)
     json_text(&json, "tool", t->info->name);
     json_text(&json, "summary", t->info->summary);
     json_text(&json, "operands", t->info->operands);
-    json_list(&json, "operand_words", operand_words(t->info) == NULL ? "" : t->info->operands);
+    option_json_list(&json, "operand_words",
+                     operand_words(t->info) == NULL ? "" : t->info->operands);
     json_text(&json, "reads", reads[t->info->reads]);
     json_text(&json, "writes", writes[t->info->writes]);
     json_begin(&json, "options", ']');

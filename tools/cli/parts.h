@@ -16,6 +16,8 @@ int option_word_index(const struct opt *option, const char *text, size_t n);
 const char *option_word(const struct opt *option, size_t k, size_t *length);
 /* Row k of the common options; NULL past the last one of this tool. */
 const struct opt *option_common(const struct tool *tool, size_t k);
+/* Writes the words of a list, separated by blanks or '|', as an array. */
+void option_json_list(struct json *json, const char *name, const char *words);
 /* Prints the completions of bash, zsh or fish, or the option table as json; false for another word. */
 bool completions_print(const struct tool *tool, const char *shell);
 /* Ends the tool if the command line breaks a rule of an option. */

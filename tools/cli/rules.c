@@ -6,6 +6,7 @@
 
 #include <assert.h>
 #include <math.h>
+#include <stdarg.h>
 #include <string.h>
 
 enum {
@@ -89,59 +90,62 @@ applies(const struct tool *t, const struct opt *o, const char *words, size_t *n)
 
 /* ---- as text ---- */
 
-static char *
-add_part(char *end, const char *limit, const char *text, size_t n)
-{
-    if (n > (size_t)(limit - end) - 1)
-        n = (size_t)(limit - end) - 1;
-    memcpy(end, text, n);
-    end[n] = '\0';
-    return end + n;
-}
+struct text {
+    char s[TEXT];
+    size_t n;
+};
 
-static char *
-add(char *end, const char *limit, const char *text)
+static void __attribute__((format(printf, 2, 3))) add(struct text *to, const char *format, ...)
 {
-    return add_part(end, limit, text, strlen(text));
+    va_list args;
+
+    va_start(args, format);
+    vsnprintf(to->s + to->n, sizeof to->s - to->n, format, args);
+    va_end(args);
+    to->n += strlen(to->s + to->n);
 }
 
 /* "--tilt free" */
-static char *
-add_option(char *end, const char *limit, const struct opt *o, const char *word, size_t n)
+static void
+add_option(struct text *to, const struct opt *o, const char *word, size_t n)
 {
-    end = add(end, limit, o->name[1] == '\0' ? "-" : "--");
-    end = add(end, limit, o->name);
-    end = add(end, limit, n > 0 ? " " : "");
-    return add_part(end, limit, word, n);
+    add(to, "%s%s%s%.*s", o->name[1] == '\0' ? "-" : "--", o->name, n > 0 ? " " : "", (int)n, word);
 }
 
 /* "--creep, --tilt free or --speed": `last` stands before the last one. */
-static char *
-add_options(char *end, const char *limit, const struct tool *t, const char *list, const char *last)
+static void
+add_options(struct text *to, const struct tool *t, const char *list, const char *last)
 {
     struct named one;
-    const char *between = "", *next;
 
-    for (; (next = next_named(t, list, &one)) != NULL; list = next) {
-        end = add(end, limit, between);
-        end = add_option(end, limit, one.opt, one.word, one.n);
+    for (const char *next, *between = ""; (next = next_named(t, list, &one)) != NULL; list = next) {
+        add(to, "%s", between);
+        add_option(to, one.opt, one.word, one.n);
         between = strchr(next, '|') == NULL ? last : ", ";
     }
-    return end;
+}
+
+/* "give one of --load and --approach", or "give --mu" */
+static void
+add_one_of(struct text *to, const struct tool *t, const char *list)
+{
+    add(to, strchr(list, '|') == NULL ? "give " : "give one of ");
+    add_options(to, t, list, " and ");
 }
 
 /* "with residual or strain: ", or nothing for a rule without words. */
-static char *
-add_words(char *end, const char *limit, const char *words)
+static void
+add_words(struct text *to, const char *words)
 {
     size_t n;
 
-    for (const char *s = words; s != NULL && *s != '\0'; s += n + (s[n] == '|')) {
+    if (words == NULL)
+        return;
+    for (const char *s = words; *s != '\0'; s += n + (s[n] == '|')) {
         n = strcspn(s, "|");
-        end = add(end, limit, s == words ? "with " : s[n] == '\0' ? " or " : ", ");
-        end = add_part(end, limit, s, n);
+        add(to, "%s%.*s", s == words ? "with " : s[n] == '\0' ? " or " : ", ", (int)n, s);
     }
-    return add(end, limit, words == NULL ? "" : ": ");
+    add(to, ": ");
 }
 
 static bool
@@ -150,58 +154,46 @@ same_words(const char *a, const char *b)
     return a == b || (a != NULL && b != NULL && strcmp(a, b) == 0);
 }
 
+static bool
+is_rule(const struct opt_rule *r)
+{
+    return r != NULL && r->with != NULL;
+}
+
 const char *
 rules_text(const struct tool *t, const struct opt *o)
 {
-    static char text[TEXT];
-    const char *const limit = text + sizeof text;
-    char *end = text;
+    static struct text text;
 
-    *end = '\0';
-    for (const struct opt_rule *r = o->one_of; r != NULL && r->with != NULL; r++) {
-        end = add(end, limit, end == text ? "" : "; ");
-        if (strchr(r->with, '|') == NULL) {
-            end = add(end, limit, "required");
-        } else {
-            end = add(end, limit, "give one of ");
-            end = add_options(end, limit, t, r->with, " and ");
-        }
+    text.n = 0;
+    text.s[0] = '\0';
+    for (const struct opt_rule *r = o->one_of; is_rule(r); r++) {
+        add(&text, text.n == 0 ? "" : "; ");
+        if (strchr(r->with, '|') == NULL)
+            add(&text, "required");
+        else
+            add_one_of(&text, t, r->with);
     }
-    for (const struct opt_rule *r = o->needs; r != NULL && r->with != NULL; r++) {
-        end = add(end, limit, end == text ? "" : "; ");
-        end = add_words(end, limit, r->word);
-        end = add(end, limit, "needs ");
-        end = add_options(end, limit, t, r->with, " or ");
+    for (const struct opt_rule *r = o->needs; is_rule(r); r++) {
+        add(&text, text.n == 0 ? "" : "; ");
+        add_words(&text, r->word);
+        add(&text, "needs ");
+        add_options(&text, t, r->with, " or ");
     }
-    for (const struct opt_rule *r = o->against; r != NULL && r->with != NULL; r++) {
+    for (const struct opt_rule *r = o->against; is_rule(r); r++) {
         if (r > o->against && same_words(r->word, r[-1].word)) {
-            end = add(end, limit, ", ");
+            add(&text, ", ");
         } else {
-            end = add(end, limit, end == text ? "" : "; ");
-            end = add_words(end, limit, r->word);
-            end = add(end, limit, "not with ");
+            add(&text, text.n == 0 ? "" : "; ");
+            add_words(&text, r->word);
+            add(&text, "not with ");
         }
-        end = add_options(end, limit, t, r->with, ", ");
+        add_options(&text, t, r->with, ", ");
     }
-    return text;
+    return text.s;
 }
 
 /* ---- as JSON ---- */
-
-static void
-json_words_of(struct json *json, const char *words)
-{
-    char text[64];
-    size_t n;
-
-    json_begin(json, "words", ']');
-    for (; words != NULL && *words != '\0'; words += n + (words[n] == '|')) {
-        n = strcspn(words, "|");
-        snprintf(text, sizeof text, "%.*s", (int)n, words);
-        json_text(json, NULL, text);
-    }
-    json_end(json, ']');
-}
 
 static void
 json_rules(struct json *json, const struct tool *t, const char *name, const struct opt_rule *r)
@@ -210,9 +202,9 @@ json_rules(struct json *json, const struct tool *t, const char *name, const stru
     char word[64];
 
     json_begin(json, name, ']');
-    for (; r != NULL && r->with != NULL; r++) {
+    for (; is_rule(r); r++) {
         json_begin(json, NULL, '}');
-        json_words_of(json, r->word);
+        option_json_list(json, "words", r->word == NULL ? "" : r->word);
         json_begin(json, "options", ']');
         for (const char *list = r->with, *next; (next = next_named(t, list, &one)) != NULL;
              list = next) {
@@ -243,12 +235,11 @@ rules_json(struct json *json, const struct tool *t, const struct opt *o)
 
 /* Ends the tool with "WHAT, because WHY: WHAT TO DO". */
 static _Noreturn void
-refuse(struct tool *t, const char *what, const struct opt_rule *r, const char *remedy)
+refuse(struct tool *t, const struct text *what, const struct opt_rule *r, const char *remedy)
 {
-    const char *because = r->because == NULL ? "" : r->because;
-
-    tool_usage(t, "%s%s%s%s%s", what, *because == '\0' ? "" : ", because ", because,
-               *remedy == '\0' ? "" : ": ", remedy);
+    tool_usage(t, "%s%s%s%s%s", what->s, r->because == NULL ? "" : ", because ",
+               r->because == NULL ? "" : r->because, remedy == NULL ? "" : ": ",
+               remedy == NULL ? "" : remedy);
 }
 
 /* How many options of the list are given, or have the word by default too. */
@@ -269,51 +260,49 @@ count_met(const struct tool *t, const char *list, bool defaults, struct named *l
 static void
 check_against(struct tool *t, const struct opt *o)
 {
-    char text[TEXT], *end;
-    const char *const limit = text + sizeof text, *word;
+    struct text text = {.n = 0};
     struct named other;
+    const char *word;
     size_t n;
 
-    for (const struct opt_rule *r = o->against; r != NULL && r->with != NULL; r++)
+    for (const struct opt_rule *r = o->against; is_rule(r); r++)
         if ((word = applies(t, o, r->word, &n)) != NULL &&
             count_met(t, r->with, false, &other) > 0) {
-            end = add_option(text, limit, o, word, n);
-            end = add(end, limit, " does not work with ");
-            add_option(end, limit, other.opt, other.word, other.n);
-            refuse(t, text, r, r->remedy == NULL ? "leave out one of them" : r->remedy);
+            add_option(&text, o, word, n);
+            add(&text, " does not work with ");
+            add_option(&text, other.opt, other.word, other.n);
+            refuse(t, &text, r, r->remedy == NULL ? "leave out one of them" : r->remedy);
         }
 }
 
 static void
 check_needs(struct tool *t, const struct opt *o)
 {
-    char text[TEXT], *end;
-    const char *const limit = text + sizeof text, *word;
+    struct text text = {.n = 0};
     struct named other;
+    const char *word;
     size_t n;
 
-    for (const struct opt_rule *r = o->needs; r != NULL && r->with != NULL; r++)
+    for (const struct opt_rule *r = o->needs; is_rule(r); r++)
         if ((word = applies(t, o, r->word, &n)) != NULL &&
             count_met(t, r->with, true, &other) == 0) {
-            end = add_option(text, limit, o, word, n);
-            end = add(end, limit, " has no effect without ");
-            add_options(end, limit, t, r->with, " or ");
-            refuse(t, text, r, r->remedy == NULL ? "" : r->remedy);
+            add_option(&text, o, word, n);
+            add(&text, " has no effect without ");
+            add_options(&text, t, r->with, " or ");
+            refuse(t, &text, r, r->remedy);
         }
 }
 
 static void
 check_one_of(struct tool *t, const struct opt *o)
 {
-    char text[TEXT], *end;
-    const char *const limit = text + sizeof text;
+    struct text text = {.n = 0};
     struct named other;
 
-    for (const struct opt_rule *r = o->one_of; r != NULL && r->with != NULL; r++)
+    for (const struct opt_rule *r = o->one_of; is_rule(r); r++)
         if (count_met(t, r->with, false, &other) != 1) {
-            end = add(text, limit, strchr(r->with, '|') == NULL ? "give " : "give one of ");
-            add_options(end, limit, t, r->with, " and ");
-            tool_usage(t, "%s%s%s", text, r->remedy == NULL ? "" : ", ",
+            add_one_of(&text, t, r->with);
+            tool_usage(t, "%s%s%s", text.s, r->remedy == NULL ? "" : ", ",
                        r->remedy == NULL ? "" : r->remedy);
         }
 }
@@ -321,10 +310,10 @@ check_one_of(struct tool *t, const struct opt *o)
 void
 rules_check(struct tool *t)
 {
-    for (size_t k = 0; k < t->option.n; k++)
-        check_against(t, &t->option.row[k]);
-    for (size_t k = 0; k < t->option.n; k++)
-        check_needs(t, &t->option.row[k]);
-    for (size_t k = 0; k < t->option.n; k++)
-        check_one_of(t, &t->option.row[k]);
+    static void (*const check[])(struct tool * t,
+                                 const struct opt *o) = {check_against, check_needs, check_one_of};
+
+    for (size_t i = 0; i < sizeof check / sizeof *check; i++)
+        for (size_t k = 0; k < t->option.n; k++)
+            check[i](t, &t->option.row[k]);
 }

@@ -3,18 +3,6 @@
 
 #include <math.h>
 
-void
-slip_check_bodies(struct slip_run *run)
-{
-    struct tool *t = &run->d.t;
-    int bodies =
-        tool_given(t, "E1") + tool_given(t, "nu1") + tool_given(t, "E2") + tool_given(t, "nu2");
-    bool rigid = isinf(run->args->e2);
-
-    if (bodies > 0 && (rigid ? bodies != 3 || tool_given(t, "nu2") : bodies != 4))
-        tool_usage(t, "give both bodies, --E1 --nu1 --E2 --nu2, or --E1 --nu1 --E2 rigid");
-}
-
 /* (1 - nu)/G, nu/G and (1 - 2 nu)/G, up to a common factor. */
 static void
 add_body(const struct rc_body *b, double side, double sum[3])

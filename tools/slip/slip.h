@@ -97,8 +97,6 @@ struct rc_friction_problem slip_law(const struct slip_run *run);
 
 /* ---- bodies.c ---- */
 
-/* Ends the tool if the command line gives only a part of both bodies. */
-void slip_check_bodies(struct slip_run *run);
 /* Finds the bodies of the case; ends the tool if they are unknown, coated, or not those of the pressure. */
 void slip_find_bodies(struct slip_run *run);
 
