@@ -1,6 +1,7 @@
 # The dependencies of the folders have one direction. From other folders a file includes only the public
 # header of a lower folder; it calls no function of a higher folder. Solver, stress, surface and tools do not
-# name an engine, and no file outside libcontact/body names a row of its list.
+# name an engine, no file outside libcontact/body names a row of its list, and no file of rc-solve names the effect
+# of another one.
 . "$(dirname "$0")/pipe.sh"
 . "$RC_SOURCE/tests/symbols.sh"
 
@@ -227,6 +228,24 @@ reaches() {
         done
 }
 
+# effects TREE: names of effects of rc-solve in code outside of the file with their row, and options of another
+# file that code asks for. Names that every contact has are allowed.
+effects() {
+    (cd "$1" && cat tools/solve/*.c | sed -n 's/^const struct effect solve_effect_\([a-z]*\) .*/\1/p') |
+        grep -vxE 'layers|hardness|sphere|padding|approach|history|sequence|time|stiffness' | paste -s -d '|' >effects.txt
+    (cd "$1" && ls tools/rc-solve.c tools/solve/*.[ch]) | while read -r file; do
+        perl -0777 -ne '
+            BEGIN { ($words, $name) = splice @ARGV, 0, 2 }
+            my %own = map { $_ => 1 } /\.name = "([^"]*)"/g, /solve_effect_(\w+) =/g;
+            my ($given) = grep { !$own{$_} && $_ !~ /^(history|output)$/ } /tool_given\([^"]*"([^"]*)"/g;
+            print "effect $name asks for --$given\n" if $given;
+            s#/\*.*?\*/##gs; s/"(?:[^"\\]|\\.)*"//g;
+            my %seen;
+            print "effect $name names $_\n" for grep { !$own{$_} && !$seen{$_}++ } /\b(?:solve_effect_)?($words)\b/g' \
+            "$(cat effects.txt)" "$file" "$1/$file"
+    done | sort -u
+}
+
 # none FAULTS: succeeds without faults; otherwise prints them.
 none() {
     ! grep . "$1" >&2
@@ -264,6 +283,10 @@ names "$RC_SOURCE" >name.txt
 claim "only the folder of operators names engines, and only the folder of bodies names bodies" none name.txt
 reaches "$RC_SOURCE" >reach.txt
 claim "outer models drive their inner models by verbs, and only yield has a solver of its own" none reach.txt
+
+effects "$RC_SOURCE" >effect.txt
+claim "only the file of an effect of rc-solve names it" none effect.txt
+claim "  the check knows the effects" grep -q 'yield.*|.*travel\|travel.*|.*yield' effects.txt
 
 if command -v nm >/dev/null; then
     symbols "$(dirname "$RC_BIN")" >symbols.txt
@@ -306,6 +329,16 @@ printf '/* m->row->go */ m->row->start(m); x = v->row->n; struct rc_solver *s; s
 reaches bad >seen.txt
 claim "the check finds a call of a row, and the solver in another room" diff - seen.txt <<'END'
 reach libcontact/other/reach.c 2
+END
+mkdir -p bad/tools/solve
+printf 'const struct effect solve_effect_glow = {.name = "glow"};\nif (tool_given(t, "glow") || tool_given(t, "speed"))\n' >bad/tools/solve/glow.c
+printf '/* glow */ warn("--glow"); if (run->glow.on)\n' >bad/tools/solve/case.c
+printf 'x = &solve_effect_glow;\n' >bad/tools/rc-solve.c
+effects bad >seen.txt
+claim "the check finds names of effects, but not in words for the user" diff - seen.txt <<'END'
+effect tools/rc-solve.c names glow
+effect tools/solve/case.c names glow
+effect tools/solve/glow.c asks for --speed
 END
 cat >bad-symbols.txt <<'END'
 D libcontact/common.c rc_common

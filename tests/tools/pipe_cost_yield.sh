@@ -91,6 +91,6 @@ refuses 1 'nothing yields: the largest Mises stress is 0\.[0-9]* of the yield st
 refuses 1 'all depths of a periodic body yield' "a mean pressure beyond all" "$base --mean-pressure 5GPa --yield 1GPa rough.rcg"
 refuses 2 'does not work with --estar' "a composite modulus" "rc-cost --periodic --load 1N --estar 1GPa --yield 1GPa rough.rcg"
 refuses 2 'does not work with --hardness' "a hardness" "$base --load 1N --yield 1GPa --hardness 3GPa rough.rcg"
-refuses 2 'does not work with --kernel and --method' "a choice of kernels" "$base --load 1N --yield 1GPa --kernel fft rough.rcg"
-refuses 2 'does not work with --depths' "stresses" "$base --load 1N --yield 1GPa --depths 0 rough.rcg"
+refuses 2 '--kernel does not work with --yield' "a choice of kernels" "$base --load 1N --yield 1GPa --kernel fft rough.rcg"
+refuses 2 '--depths does not work with --yield' "stresses" "$base --load 1N --yield 1GPa --depths 0 rough.rcg"
 refuses 2 '--yield many' "no stress" "$base --load 1N --yield many rough.rcg"

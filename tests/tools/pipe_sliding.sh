@@ -58,8 +58,8 @@ claim "  a curve of the friction" bash -c "rc-render --curve speed:friction -o c
 claim "the plan counts convolutions" says 'sliding .*along y, fresh track' \
     bash -c "rc-solve $rubber --mean-pressure 0.2MPa --speed 1 --along y --dry-run road.rcg"
 
-refuses 2 'give --relaxation' "a speed without a material" "rc-solve --periodic --estar 1MPa --load 1N --speed 1 road.rcg"
-refuses 2 'give --periodic' "a repeated track on a free map" \
+refuses 2 '--speed has no effect without --relaxation' "a speed without a material" "rc-solve --periodic --estar 1MPa --load 1N --speed 1 road.rcg"
+refuses 2 '--track repeated has no effect without --periodic' "a repeated track on a free map" \
     "rc-solve --relaxation 1MPa,9MPa:1ms --nu1 0.5 --E2 rigid --load 1N --speed 1 --track repeated road.rcg"
 refuses 2 'no effect without --speed' "a track without a speed" "rc-solve $rubber --load 1N --time 1 --track fresh road.rcg"
 refuses 1 'tan delta of the material reaches 4.9' "a material with large losses" \

@@ -104,7 +104,7 @@ refused() { # STATUS WORDS ARGS
     refuses "$1" "$2" "refused: $3" "rc-solve --quiet --estar 2MPa $3 ball.rcg -o x.rcg"
 }
 refused 2 "it must be at least 0: a negative load needs --adhesion" "--load=-1mN"
-refused 2 "pull-off needs --adhesion" "--load 1mN --pull-off"
+refused 2 "--pull-off has no effect without --adhesion" "--load 1mN --pull-off"
 refused 2 "output adhesion needs --adhesion" "--load 1mN --output adhesion"
 refused 2 "must be above 0" "--adhesion 0 --approach 1um"
 refused 2 "must be above 0" "--adhesion=-50mJ/m2 --approach 1um"

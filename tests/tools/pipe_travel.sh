@@ -96,13 +96,13 @@ between 0 "$(most surface.rcg)" 1 "  the residual stress leaves the surface free
 between 0 "$(most inside.rcg mean)" 1 "    and has no mean on a plane below"
 between 1e6 "$(most inside.rcg)" 1e9 "    where it is not 0"
 claim "  the gains make a curve" bash -c "rc-render --curve pass:strain_gain --log y -o gains.png passes.tsv && [ -s gains.png ]"
-refuses 2 'does not work with --window and --yield' "a window over plastic strain" "$line --window 8x1 flat.rcg"
+refuses 2 '--window does not work with --yield' "a window over plastic strain" "$line --window 8x1 flat.rcg"
 
 claim "--dry-run counts the positions" says '64 x 48 nodes, 7 positions' \
     bash -c "$solve $window --dry-run track.rcg"
-refuses 2 '--travel takes one load, and this list has 2' "a list of loads" \
+refuses 2 '--travel does not work with --load LIST' "a list of loads" \
     "rc-solve --load 1mN,2mN --radius 2mm --estar 1GPa --travel 0 track.rcg"
-refuses 2 'nothing travels: give a ball' "a contact without a body that travels" \
+refuses 2 '--travel has no effect without --radius or --counter, because nothing travels' "a contact without a body that travels" \
     "rc-solve --load 1mN --estar 1GPa --travel 0 track.rcg"
 refuses 2 '--window has no effect without --travel' "a window that stays" \
     "rc-solve --load 1mN --estar 1GPa --window 8x8 track.rcg"

@@ -138,7 +138,7 @@ printf 'frequency storage\n1 9MPa\n' >two.txt
 refuses 2 'heading must be' "a table without losses" "$solve --relaxation two.txt --time 0 $more"
 printf 'f,storage/MPa,loss/MPa\n1,1,1\n2,0,1\n' >zero.txt
 refuses 2 'line 3: storage: it must be above 0' "a storage modulus of 0" "$solve --relaxation zero.txt --time 0 $more"
-refuses 2 '--time LIST' "no times" "$solve $solid $more"
+refuses 2 '--relaxation has no effect without --time or --speed' "no times" "$solve $solid $more"
 refuses 2 'must rise' "times that fall" "$solve $solid --time 0,2,1 $more"
 refuses 2 'equal length' "other times than loads" "$solve $solid --time 0,2 --load 1uN,2uN,3uN -o x.rcg ball.rcg"
 refuses 2 'must be 0' "loads from a later time on" "$solve $solid --time 1,2 --load 1uN,2uN -o x.rcg ball.rcg"

@@ -71,7 +71,13 @@ add_rows(struct tool *t, const struct opt *table, void *base, size_t at, const c
         }
         row.title = title == NULL || o->title == NULL ? title : o->title;
         if (o->group != NULL) {
+            const size_t first = t->option.n;
             add_rows(t, o->group, row.base, row.at, row.title);
+            for (size_t k = first; k < t->option.n; k++) {
+                t->option.row[k].needs = o->needs != NULL ? o->needs : t->option.row[k].needs;
+                t->option.row[k].against =
+                    o->against != NULL ? o->against : t->option.row[k].against;
+            }
         } else if (o->name == NULL) {
             title = row.title;
         } else {

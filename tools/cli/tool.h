@@ -103,7 +103,7 @@ struct opt {
     /* The tool needs exactly one of these, also without the option. */
     const struct opt_rule *one_of;
     /* A row without a name: the rows of this table, whose .at are relative to that of the row, if they have
-     * no .base. */
+     * no .base. It may have rules for all of them. */
     const struct opt *group;
     /* A row with a group, or a row of its own: the heading of these rows, or of the following ones, in --help.
      * Rows with the same heading stand together there. Headings of groups count only if the table of the tool

@@ -16,10 +16,7 @@ struct yield_law {
 extern const struct opt yield_option[]; /* its text */
 /* "Y", "Y,HM" or a file with a table. */
 enum rc_status yield_law_read(struct yield_law *law, const char *text, struct rc_err *err);
-/* Ends the tool if an option that excludes --yield is given. */
-void yield_law_refuse(struct tool *tool, bool given, const char *what, const char *why);
-/* The same for all options of struct physics that exclude --yield; warns if the yield stress seems to lack
- * its unit. */
+/* Ends the tool if body 1 cannot be plastic, or the yield stress seems to lack its unit. */
 void yield_law_check(struct tool *tool, const struct yield_law *law, const struct physics *physics);
 /* Pa: initial slope of the yield stress over the equivalent plastic strain. */
 double yield_law_hardening(const struct rc_yield_law *law);

@@ -29,26 +29,25 @@ static struct {
 
 /* clang-format off */
 static const struct opt options[] = {
-    {.group = adhesion_option, .base = &args.law},
+    {.group = adhesion_option, .base = &args.law,
+     .against = RULES({.with = "tilt free", .because = "with adhesion the bodies move along their normal only"},
+                      {.with = "discretization", .because = "a coarser grid may not resolve the law",
+                       .remedy = "solve a coarser map in a second command instead"},
+                      {.with = "stiffness", .remedy = "use a list of --approach values instead"},
+                      {.with = "conductivity", .because = "the analogy of conductance and stiffness holds only "
+                                                          "without attraction"},
+                      {.with = "output plastic",
+                       .because = "there is no plasticity in the volume with adhesion"})},
     {.name = "pull-off", .type = OPT_FLAG, .base = &args.pull_off, .result = true, .points = true,
+     .needs = RULES({.with = "adhesion", .because = "without attraction the pull-off load is 0"}),
      .help = "after the last state separate the bodies, and find the pull-off load"},
     {.name = NULL},
 };
 /* clang-format on */
 
-static void
-refuse(struct run *run, bool given, const char *what, const char *why)
-{
-    if (given)
-        tool_usage(&run->d.t, "--adhesion does not work with %s: %s", what, why);
-}
-
 static bool
 ask(struct run *run)
 {
-    if (args.law == NULL && args.pull_off)
-        tool_usage(&run->d.t,
-                   "--pull-off needs --adhesion: without attraction the pull-off load is 0");
     run->physics->pulls = args.law != NULL;
     return args.law != NULL;
 }
@@ -56,22 +55,8 @@ ask(struct run *run)
 static void
 read(struct run *run)
 {
-    const struct tool *t = &run->d.t;
-
     if (adhesion_law_read(&own.law, args.law, &run->d.t.err) != RC_OK)
         tool_usage(&run->d.t, "--adhesion %s: %s", args.law, run->d.t.err.text);
-    refuse(run, tool_given(t, "yield"), "--yield",
-           "plasticity in the volume supports pressures only, no attraction");
-    refuse(run, run->turns, "--tilt free", "with adhesion the bodies move along their normal only");
-    refuse(
-        run, tool_given(t, "discretization"), "--discretization",
-        "a coarser grid may not resolve the law; solve a coarser map in a second command instead");
-    refuse(run, tool_given(t, "stiffness"), "--stiffness",
-           "use a list of --approach values instead");
-    refuse(run, tool_given(t, "conductivity"), "--conductivity",
-           "the analogy of conductance and stiffness holds only without attraction");
-    refuse(run, solve_wanted(run->args, SOLVE_PLASTIC), "--output plastic, residual or strain",
-           "there is no plasticity in the volume with adhesion");
     if (solve_wanted(run->args, SOLVE_PRESSURE) || solve_wanted(run->args, SOLVE_GAP))
         solve_add_frame(CONTACT_CHANNEL); /* the pressure does not determine the contact */
 }

@@ -44,7 +44,6 @@ struct effect {
     void (*read)(struct run *run);
     void (*warn)(struct run *run); /* then warns of them */
     bool sequence;                 /* loads act one after another, and 0 separates the bodies */
-    bool increments;               /* it reads --increments */
     bool follows;                  /* each point depends on those before it, under one load too */
     enum solve_tol tol;
     const char *no_stiffness; /* why the stiffness is not computed by default */

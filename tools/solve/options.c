@@ -38,6 +38,7 @@ const char *solve_frames[SOLVE_FRAMES + 1] = {
 /* clang-format off */
 const struct opt solve_increments[] = {
     {.name = "increments", .type = OPT_TEXT, AT(increments), .result = true, .arg = "N[,half]|auto",
+     .needs = RULES({.with = "yield|time"}),
      .help = "increments of each load with --yield, or steps from time to time (default auto: to an error of "
              "1 %)"},
     {.name = NULL},
@@ -133,8 +134,6 @@ solve_read(struct run *run)
         run->active[n++] = e;
         run->physics->history = run->physics->history || e->sequence;
     }
-    if (run->args->increments != NULL && SOLVE_FIRST(run, increments) == NULL)
-        tool_usage(&run->d.t, "--increments and --slabs have no effect without --yield");
     physics_check(&run->d.t, run->physics);
     run->steps = physics_steps(run->physics);
     for (size_t k = 0, at = 0; solve_effects[k] != NULL; k++)

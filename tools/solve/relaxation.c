@@ -25,15 +25,25 @@ static double shortest; /* s, between two times; 0: there are no times */
 static const struct opt options[] = {
     {.name = "relaxation", .type = OPT_TEXT, .base = &args.law, .result = true,
      .arg = "EINF,E1:TAU1,...|FILE",
+     .needs = RULES({.with = "time|speed", .because = "each case is a time or a speed"}),
+     .against = RULES({.with = "E1 MODULUS", .because = "the moduli of body 1 are those of --relaxation",
+                       .remedy = "leave out --E1 (or give --E1 rigid below a layer of it)"},
+                      {.with = "estar", .because = "body 1 needs its Poisson's ratio",
+                       .remedy = "give --nu1, and --E2 --nu2 or --E2 rigid"},
+                      {.with = "hardness|yield|adhesion|travel", .because = "it is not implemented"},
+                      {.with = "tilt free", .because = "the bodies move along their normal only"},
+                      {.with = "discretization", .remedy = "solve a coarser map in a second command instead"}),
      .help = "body 1 is viscoelastic: relaxed modulus and terms of E(t), or a file (instead of --E1)"},
     {.name = "shift", .type = OPT_NUMBER, .base = &args.shift, .min = 0, .max = INFINITY, .above = true,
      .result = true, .arg = "FACTOR",
+     .needs = RULES({.with = "relaxation"}),
      .help = "multiply all times of --relaxation, as the shift factor of a temperature (default 1)"},
     {.name = NULL},
 };
 static const struct opt time_options[] = {
     {.name = "time", .type = OPT_NUMBERS, .unit = UNIT_S, .base = &args.time, .min = 0, .max = INFINITY,
      .result = true, .points = true, .arg = "LIST",
+     .needs = RULES({.with = "relaxation"}),
      .help = "with --relaxation, times of the loads or of the results of one load, each a case"},
     {.name = NULL},
 };
@@ -58,14 +68,8 @@ ask(struct run *run)
     struct physics *a = run->physics;
     struct tool *t = &run->d.t;
 
-    if (args.law == NULL && (args.time.n > 0 || tool_given(t, "shift")))
-        tool_usage(t, "--time and --shift have no effect without --relaxation");
     if (args.law == NULL)
         return false;
-    refuse(run, tool_given(t, "E1") && !isinf(a->e1), "--E1",
-           "the moduli of body 1 are those of --relaxation (or --E1 rigid below a layer of it)");
-    refuse(run, tool_given(t, "estar"), "--estar",
-           "body 1 needs its Poisson's ratio: give --nu1, and --E2 --nu2 or --E2 rigid");
     if (relaxation_law_read(&law, args.law, args.shift, &t->err) != RC_OK)
         tool_usage(t, "--relaxation %s: %s", args.law, t->err.text);
     a->relaxes = 1 / law.material->instant;
@@ -168,7 +172,8 @@ static struct {
 static bool
 ask_time(struct run *run)
 {
-    return args.law != NULL && !tool_given(&run->d.t, "speed");
+    (void)run;
+    return args.time.n > 0;
 }
 
 /* The time of the first load is 0. One load acts from 0 on, also if the first asked time is later. */
@@ -178,8 +183,6 @@ check_times(struct run *run)
     const struct numbers *time = &args.time;
     struct tool *t = &run->d.t;
 
-    if (time->n == 0)
-        tool_usage(t, "--relaxation needs the times of the cases: give --time LIST");
     if (run->steps->n > 1 && run->steps->n != time->n)
         tool_usage(t,
                    "--time has %zu values, and the list of loads or approaches %zu: give lists of "
@@ -221,18 +224,11 @@ read_time(struct run *run)
     struct tool *t = &run->d.t;
     char *end;
 
-    refuse(run, !isinf(a->hardness), "--hardness", "it is not implemented");
     refuse(run, a->layer.n > 0 && !(isinf(a->e1) && isinf(a->e2)), "--layer",
            "a layer must relax alone: give --E1 rigid and --E2 rigid");
     refuse(run, a->layer.n != a->relaxing_layers, "--layer",
            "all layers must relax alike: give " LAYER_RELAXES
            " for the modulus of each, as in 1mm," LAYER_RELAXES ",0.49");
-    refuse(run, tool_given(t, "yield"), "--yield", "it is not implemented");
-    refuse(run, tool_given(t, "adhesion"), "--adhesion", "it is not implemented");
-    refuse(run, a->travels, "--travel", "it is not implemented");
-    refuse(run, run->turns, "--tilt free", "the bodies move along their normal only");
-    refuse(run, tool_given(t, "discretization"), "--discretization",
-           "solve a coarser map in a second command instead");
     refuse(run, ranks_of(t) != NULL, "several processes", "take one");
     check_times(run);
     set_times(run);
@@ -378,7 +374,6 @@ const struct effect solve_effect_time = {
     .options = time_options,
     .ask = ask_time,
     .read = read_time,
-    .increments = true,
     .sequence = true,
     .mark = mark_times,
     .axis = RC_TIME,

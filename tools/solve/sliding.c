@@ -26,10 +26,17 @@ static struct {
 static const struct opt options[] = {
     {.name = "speed", .type = OPT_NUMBERS, .unit = UNIT_SPEED, .base = &args.speed, .min = -INFINITY,
      .max = INFINITY, .result = true, .points = true, .arg = "LIST",
+     .needs = RULES({.with = "relaxation", .because = "it needs the material of body 1"}),
+     .against = RULES({.with = "time", .because = "a steady state has no time"},
+                      {.with = "history", .because = "each case is a steady state of its own"},
+                      {.with = "layer|stiffness|conductivity", .because = "it is not implemented"}),
      .help = "with --relaxation, body 2 slides steadily over body 1: m/s along +x, each a case"},
     {.name = "along", .type = OPT_CHOICE, .base = &args.along, .result = true, .arg = "x|y",
+     .needs = RULES({.with = "speed"}),
      .help = "direction in which it slides (default x)"},
     {.name = "track", .type = OPT_CHOICE, .base = &args.track, .result = true, .arg = "fresh|repeated",
+     .needs = RULES({.with = "speed"}, {.with = "periodic", .word = "repeated",
+                                        .because = "only a map that repeats has one"}),
      .help = "whether it meets its own grooves again after a period (default fresh)"},
     {.name = NULL},
 };
@@ -48,13 +55,6 @@ repeats(void)
 }
 
 /* ---- the command line ---- */
-
-static void
-refuse(struct run *run, bool given, const char *what, const char *why)
-{
-    if (given)
-        tool_usage(&run->d.t, "--speed does not work with %s: %s", what, why);
-}
 
 /* The relaxation of E/(1 - nu^2) of body 1. */
 static void
@@ -77,35 +77,17 @@ make_material(struct run *run)
 static bool
 ask(struct run *run)
 {
-    struct tool *t = &run->d.t;
-
-    if (args.speed.n == 0 && (tool_given(t, "along") || tool_given(t, "track")))
-        tool_usage(t, "--along and --track have no effect without --speed");
+    (void)run;
     return args.speed.n > 0;
 }
 
 static void
 read(struct run *run)
 {
-    const struct physics *a = run->physics;
     struct tool *t = &run->d.t;
 
-    if (run->material == NULL)
-        tool_usage(t, "--speed needs the material of body 1: give --relaxation");
-    refuse(run, !a->periodic && repeats(), "--track repeated",
-           "only a map that repeats has one: give --periodic");
-    refuse(run, tool_given(t, "time"), "--time", "a steady state has no time");
-    refuse(run, !isinf(a->hardness), "--hardness", "it is not implemented");
-    refuse(run, a->layer.n > 0, "--layer", "it is not implemented");
-    refuse(run, tool_given(t, "yield"), "--yield", "it is not implemented");
-    refuse(run, tool_given(t, "adhesion"), "--adhesion", "it is not implemented");
-    refuse(run, a->travels, "--travel", "the steady state is that of all positions");
-    refuse(run, tool_given(t, "history"), "--history", "each case is a steady state of its own");
-    refuse(run, tool_given(t, "stiffness"), "--stiffness", "it is not implemented");
-    refuse(run, tool_given(t, "conductivity"), "--conductivity", "it is not implemented");
-    refuse(run, tool_given(t, "discretization"), "--discretization",
-           "solve a coarser map in a second command instead");
-    refuse(run, ranks_of(t) != NULL, "several processes", "take one");
+    if (ranks_of(t) != NULL)
+        tool_usage(t, "--speed does not work with several processes: take one");
     if (!(run->material->material->relaxed > 0))
         tool_usage(
             t, "--relaxation: the relaxed modulus is 0: body 2 would sink without end, and there "

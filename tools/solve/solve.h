@@ -79,7 +79,6 @@ struct run {
     double bound_min, bound_max; /* Pa, range of the upper bounds of the pressure; without bounds:
                                     INFINITY, -INFINITY */
     bool bound_varies;           /* they are a map */
-    bool turns;                  /* body 2 turns until no moment acts */
     double rms_slope;            /* of the input heights; only for a report */
     double height_error;         /* m: error of the input heights */
     double result, done;         /* seconds */

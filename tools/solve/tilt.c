@@ -17,10 +17,8 @@ static const struct opt options[] = {
 static bool
 ask(struct run *run)
 {
+    (void)run;
     on = args.tilt != NULL && strcmp(args.tilt, "free") == 0;
-    if (args.at.n > 0 && !on)
-        tool_usage(&run->d.t, "--at has no effect without --tilt free");
-    run->turns = on;
     return on;
 }
 
@@ -29,12 +27,6 @@ read(struct run *run)
 {
     if (args.at.n > 0 && args.at.n != 2)
         tool_usage(&run->d.t, "--at: it must be X,Y, from the middle of the map, as in 0.1mm,0");
-    if (run->physics->periodic)
-        tool_usage(&run->d.t,
-                   "--tilt free does not work on a periodic surface, because it has no centre of "
-                   "tilt: leave out --periodic");
-    if (tool_given(&run->d.t, "history"))
-        tool_usage(&run->d.t, "--tilt free does not work with --history yet");
 }
 
 static void

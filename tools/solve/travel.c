@@ -34,27 +34,33 @@ static struct {
 static const struct opt options[] = {
     {.name = "travel", .type = OPT_NUMBERS, .unit = UNIT_M, .base = &args.travel, .min = -INFINITY,
      .max = INFINITY, .result = true, .points = true, .arg = "LIST",
+     .needs = RULES({.with = "radius|counter", .because = "nothing travels"}),
+     .against = RULES({.with = "load LIST|mean-pressure LIST|approach LIST",
+                       .remedy = "run rc-solve once for each load"},
+                      {.with = "adhesion", .because = "it is not implemented"},
+                      {.with = "tilt free", .because = "the bodies move along their normal only"},
+                      {.with = "discretization", .remedy = "solve one position with it in a second command"}),
      .help = "the contact travels over the map: x of its middle, from that of the map, each a case"},
     {.name = "counter", .type = OPT_TEXT, .base = &args.counter, .result = true, .arg = "FILE",
+     .needs = RULES({.with = "travel"}),
      .help = "heights of body 2, which travels (or a ball: --radius); mirrored as by rc-add"},
     {.name = "counter-travel", .type = OPT_NUMBER, .base = &args.counter_travel, .min = -INFINITY,
      .max = INFINITY, .result = true, .arg = "RATIO",
+     .needs = RULES({.with = "travel"}, {.with = "counter"}),
      .help = "travel of its heights over that of the contact: 1 (default) slides, 0 rolls"},
     {.name = "window", .type = OPT_TEXT, .base = &args.window, .result = true, .arg = "WxH",
+     .needs = RULES({.with = "travel"}),
+     .against = RULES({.with = "yield", .because = "the plastic strain belongs to the whole map"},
+                      {.with = "periodic", .because = "a window is not a period"}),
      .help = "with --travel, solve so many nodes around the contact (default: the whole map)"},
     {.name = "passes", .type = OPT_COUNT, .base = &args.passes, .min = 1, .max = 1e6, .result = true,
      .points = true, .arg = "N",
+     .needs = RULES({.with = "travel"},
+                    {.with = "yield", .because = "an elastic body does not change from pass to pass"}),
      .help = "with --travel and --yield, go through the positions N times (default 1)"},
     {.name = NULL},
 };
 /* clang-format on */
-
-static void
-refuse(struct run *run, bool given, const char *what, const char *why)
-{
-    if (given)
-        tool_usage(&run->d.t, "--travel does not work with %s: %s", what, why);
-}
 
 static void
 read_window(struct run *run, const char *text)
@@ -70,12 +76,8 @@ read_window(struct run *run, const char *text)
 static bool
 ask(struct run *run)
 {
-    static const char *const others[] = {"counter", "counter-travel", "window", "passes"};
     const bool on = args.travel.n > 0;
 
-    for (size_t k = 0; k < 4; k++)
-        if (!on && tool_given(&run->d.t, others[k]))
-            tool_usage(&run->d.t, "--%s has no effect without --travel", others[k]);
     run->physics->travels = on;
     return on;
 }
@@ -83,7 +85,6 @@ ask(struct run *run)
 static void
 read(struct run *run)
 {
-    const bool shaped = tool_given(&run->d.t, "yield"); /* body 1 changes from pass to pass */
     const char *half =
         run->args->increments != NULL ? strstr(run->args->increments, ",half") : NULL;
     struct tool *t = &run->d.t;
@@ -92,30 +93,12 @@ read(struct run *run)
         tool_usage(
             t, "--increments %s: a contact that travels has no second run: give --increments %.*s",
             run->args->increments, (int)(half - run->args->increments), run->args->increments);
-    if (isnan(run->physics->radius) && args.counter == NULL)
-        tool_usage(t, "--travel: nothing travels: give a ball, --radius, or a surface, "
-                      "--counter FILE");
-    if (args.counter == NULL && tool_given(t, "counter-travel"))
-        tool_usage(t, "--counter-travel has no effect without --counter");
-    if (!shaped && tool_given(t, "passes"))
-        tool_usage(t, "--passes has no effect without --yield: an elastic body does not "
-                      "change from pass to pass");
-    if (run->steps->n > 1)
+    if (tool_given(t, "history") && SOLVE_FIRST(run, sequence) == NULL)
         tool_usage(t,
-                   "--travel takes one load, and this list has %zu: run rc-solve once "
-                   "for each load",
-                   run->steps->n);
-    refuse(run, tool_given(t, "adhesion"), "--adhesion", "it is not implemented");
-    refuse(run, run->turns, "--tilt free", "the bodies move along their normal only");
-    refuse(run, tool_given(t, "discretization"), "--discretization",
-           "solve one position with it in a second command");
-    refuse(run, run->physics->history && !shaped, "--history",
-           "the dents of a hardness are not carried from position to position");
-    refuse(run, args.window != NULL && shaped, "--window and --yield",
-           "the plastic strain belongs to the whole map");
-    refuse(run, args.window != NULL && run->physics->periodic, "--window and --periodic",
-           "a window is not a period");
-    refuse(run, ranks_of(t) != NULL, "several processes", "take one");
+                   "--travel does not work with --history, because the dents of a hardness are not "
+                   "carried from position to position");
+    if (ranks_of(t) != NULL)
+        tool_usage(t, "--travel does not work with several processes: take one");
     if (args.window != NULL)
         read_window(run, args.window);
     if (args.counter != NULL)

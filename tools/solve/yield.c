@@ -32,9 +32,23 @@ static struct {
 
 /* clang-format off */
 static const struct opt options[] = {
-    {.group = yield_option, .base = &args.law},
+    {.group = yield_option, .base = &args.law,
+     .against = RULES({.with = "hardness", .because = "--yield computes plasticity itself, which --hardness "
+                                                      "approximates"},
+                      {.with = "layer", .because = "it supports only bodies without layers"},
+                      {.with = "estar", .because = "body 1 needs its own modulus",
+                       .remedy = "give --E1 --nu1, and --E2 --nu2 or --E2 rigid"},
+                      {.with = "approach", .because = "it needs a load",
+                       .remedy = "give --load or --mean-pressure"},
+                      {.with = "adhesion", .because = "plasticity in the volume supports pressures only, no "
+                                                      "attraction"},
+                      {.with = "discretization",
+                       .remedy = "solve a coarser map in a second command instead"},
+                      {.with = "tilt free",
+                       .because = "with --yield the bodies move along their normal only"})},
     {.group = solve_increments},
     {.name = "slabs", .type = OPT_TEXT, .base = &args.slabs, .result = true, .arg = "N|LIST|auto",
+     .needs = RULES({.with = "yield"}),
      .help = "layers that may yield: number or thicknesses, from the surface down (default auto)"},
     {.name = NULL},
 };
@@ -97,8 +111,7 @@ read_increments(struct run *run, const char *text)
 static bool
 ask(struct run *run)
 {
-    if (args.law == NULL && args.slabs != NULL)
-        tool_usage(&run->d.t, "--increments and --slabs have no effect without --yield");
+    (void)run;
     return args.law != NULL;
 }
 
@@ -111,10 +124,6 @@ read(struct run *run)
     read_increments(run, run->args->increments);
     read_count(run, "slabs", args.slabs, &own.slab_count, &own.list);
     yield_law_check(&run->d.t, &own.read, run->physics);
-    yield_law_refuse(&run->d.t, tool_given(&run->d.t, "discretization"), "--discretization",
-                     "solve a coarser map in a second command instead");
-    yield_law_refuse(&run->d.t, run->turns, "--tilt free",
-                     "with --yield the bodies move along their normal only");
     run->relief = "";
     if (!tool_given(&run->d.t, "output"))
         solve_add_frame("residual");
@@ -518,7 +527,6 @@ const struct effect solve_effect_yield = {
     .ask = ask,
     .read = read,
     .sequence = true,
-    .increments = true,
     .tol = TOL_FIXED,
     .close = close,
     .mark = mark,
