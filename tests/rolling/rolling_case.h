@@ -53,7 +53,8 @@ rolling_new(const struct rc_shape *s, const double *p, struct rc_rolling_problem
 {
     static struct rc_rolling_contact known[MODELS];
     static size_t models;
-    const struct rc_problem contact = {.pair = o.law.pair, .threads = o.law.threads};
+    const struct rc_problem contact = {
+        .boundary = o.law.boundary, .pair = o.law.pair, .threads = o.law.threads};
 
     o.known = &known[models++ % MODELS];
     known[(models - 1) % MODELS].p = p;
