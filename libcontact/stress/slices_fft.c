@@ -145,7 +145,7 @@ tabulate(struct grid *g, struct rc_err *err)
 
 /* ---- waves ---- */
 
-/* Q z beyond which a wave is left out. There each wave is down to (3 + q z) exp(-q z) = 7e-20. Even all
+/* The q z beyond which a wave is left out. There each wave is down to (3 + q z) exp(-q z) = 7e-20. Even all
  * of them in phase are then below the rounding of the transforms. Half and double change no bit (15
  * runs of bench/constants.py). */
 static const double deepest = 48;

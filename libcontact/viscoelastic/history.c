@@ -47,8 +47,8 @@ enum {
  * earlier legs. Half and double of `aim` take 12 and 5 % more convolutions, double of `least_more` 16 %
  * (12 runs of bench/constants.py). Half and double of `helps` change no bit. */
 static const double aim = 0.6, least_more = 1.5, most_more = 4, helps = 0.7;
-/* Steps a decade of the time since a corner, over increments. Half takes 15 % fewer convolutions with
- * the same errors, double 27 % more (12 runs of bench/constants.py). */
+/* Steps a decade of the time since a corner, over increments. Half takes 14 % fewer convolutions with
+ * errors at most 10 % larger, double 24 % more (24 runs of bench/constants.py). */
 static const double per_decade = 1.2;
 /* Terms that are faster than this part of the shortest leg follow w at once. Terms that are slower than
  * this many times the whole history flow. The estimate contains the error of both, which is about this
