@@ -110,21 +110,15 @@ static const struct tool_info info = {
 static void
 check_arguments(struct slip_run *run)
 {
-    struct tool *t = &run->d.t;
-    const struct numbers *along = args.tangential.n > 0 ? &args.tangential : &args.displacement;
-
+    const struct slip_motion *const *motion = slip_motions;
     run->args = &args;
-    if (along->n > 2)
-        tool_usage(t,
-                   "--%s: it must be one value (along x) or two (x and y), as in %s: for several "
-                   "steps take --path",
-                   along == &args.tangential ? "tangential" : "displacement",
-                   along == &args.tangential ? "36N,0" : "1um,0");
     run->coupling = strcmp(args.coupling, "full") == 0      ? RC_COUPLING_FULL
                     : strcmp(args.coupling, "goodman") == 0 ? RC_COUPLING_GOODMAN
                                                             : RC_COUPLING_NONE;
-    slip_read_path(run, &args);
-    slip_check_rolling(run);
+    while (!(*motion)->ask(&args))
+        motion++;
+    run->motion = *motion;
+    run->motion->read(run, &args);
 }
 
 /* ---- main ---- */
@@ -151,6 +145,7 @@ main(int argc, char **argv)
         tool_free_frames(beside);
     }
     free(run.given);
-    rc_model_free(run.path);
+    if (run.motion->close != NULL)
+        run.motion->close();
     return drive_close(&run.d);
 }

@@ -214,7 +214,7 @@ slip_frame(struct drive *d, struct rc_model *m, struct rc_grid *frame, const cha
     (void)m;
     if (strcmp(word, slip_frames[SLIP_HEIGHT]) == 0)
         return run->height->v;
-    if (run->rolls || strcmp(word, slip_frames[SLIP_LENGTH]) != 0)
+    if (run->slipped == NULL || strcmp(word, slip_frames[SLIP_LENGTH]) != 0)
         return NULL;
     memcpy(frame->v, run->slipped + 2 * n, n * sizeof *frame->v);
     memset(run->slipped + 2 * n, 0, n * sizeof *frame->v);
@@ -324,9 +324,6 @@ forecast(struct slip_run *run)
 void
 slip_case(struct slip_run *run)
 {
-    struct rc_expected expected;
-    size_t told = 0;
-
     check_pressure(run);
     check_beside(run, run->gap);
     check_beside(run, run->height);
@@ -335,10 +332,25 @@ slip_case(struct slip_run *run)
         tool_refuse(&run->d.t, run->p,
                     "--output height: there is no height beside it: take all that rc-solve writes");
     slip_find_bodies(run);
-    if (run->rolls) {
-        slip_roll(run);
-        return;
-    }
+    run->motion->move(run);
+}
+
+/* ---- the row ---- */
+
+/* The last row: without other motions there is a path. */
+static bool
+ask(const struct slip_args *args)
+{
+    (void)args;
+    return true;
+}
+
+static void
+move(struct slip_run *run)
+{
+    struct rc_expected expected;
+    size_t told = 0;
+
     slip_plan_path(run);
     check_solvable(run);
     for (size_t k = 0; k < run->corners; k++)
@@ -355,3 +367,34 @@ slip_case(struct slip_run *run)
     }
     free(run->corner);
 }
+
+static bool
+report(struct report *r, const struct slip_run *run, const struct rc_model *m)
+{
+    const struct slip_state *s = &run->state;
+    struct rc_friction_figures f = s->figures;
+    const struct figures from[] = {{rc_figures("friction"), &f}, {NULL, NULL}};
+
+    (void)m;
+    if (f.last.stick_nodes + f.last.slip_nodes == 0)
+        f.last.displacement[0] = f.last.displacement[1] = NAN;
+    report_named(r, from,
+                 "load limit tangential_x tangential_y displacement_x displacement_y approach "
+                 "stick_nodes slip_nodes stick_area slip_area stick_fraction largest_slip "
+                 "tangential_stiffness dissipated_energy");
+    report_value(r, "dissipated_total", s->dissipated_total);
+    report_count(r, "increments", s->corner->leg.increments, NULL);
+    report_named(r, from, "passes convolutions");
+    report_number(r, "traction_error_estimate", s->traction_error, NULL);
+    errors_report(r, &s->errors);
+    return s->converged;
+}
+
+const struct slip_motion slip_motion_path = {.ask = ask,
+                                             .read = slip_read_path,
+                                             .move = move,
+                                             .report = report,
+                                             .work = "work",
+                                             .uncoupled = "--coupling goodman"};
+const struct slip_motion *const slip_motions[] = {&slip_motion_steady, &slip_motion_rolling,
+                                                  &slip_motion_path, NULL};

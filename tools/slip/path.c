@@ -123,9 +123,16 @@ set_history(struct slip_run *run, struct slip_args *args)
 void
 slip_read_path(struct slip_run *run, struct slip_args *args)
 {
+    const struct numbers *along = args->tangential.n > 0 ? &args->tangential : &args->displacement;
     double n;
     struct rc_err err;
 
+    if (along->n > 2)
+        tool_usage(&run->d.t,
+                   "--%s: it must be one value (along x) or two (x and y), as in %s: for several "
+                   "steps take --path",
+                   along == &args->tangential ? "tangential" : "displacement",
+                   along == &args->tangential ? "36N,0" : "1um,0");
     if (args->increments != NULL && strcmp(args->increments, "auto") != 0) {
         if (unit_number(args->increments, UNIT_NONE, &n, &err) != RC_OK ||
             !(n >= 1 && n <= 1e6 && n == floor(n)))

@@ -12,30 +12,12 @@ coupling_of(const struct slip_run *run)
                                                   : "none";
 }
 
-static void
-end_row(struct drive *d, bool converged)
-{
-    struct report *r = &d->report;
-
-    report_bool(r, "converged", converged);
-    report_object(r, "seconds");
-    report_number(r, "total", tool_now() - d->began, "s");
-    report_end(r);
-    report_memory(r);
-}
-
 void
 slip_report(struct drive *d, const struct rc_model *m)
 {
     const struct slip_run *run = (const struct slip_run *)(const void *)d;
-    const struct slip_state *s = &run->state;
     struct report *r = &d->report;
-    struct rc_friction_figures f = s->figures;
-    const struct figures from[] = {
-        {rc_figures("friction"), &f}, {rc_figures("rolling"), rc_rolling_result(m)}, {NULL, NULL}};
 
-    if (f.last.stick_nodes + f.last.slip_nodes == 0)
-        f.last.displacement[0] = f.last.displacement[1] = NAN;
     report_map(r, run->p, run->number);
     report_text(r, "boundary", run->boundary == RC_PERIODIC ? "periodic" : "free");
     report_count(r, "threads", run->d.t.threads, NULL);
@@ -43,28 +25,11 @@ slip_report(struct drive *d, const struct rc_model *m)
     report_number(r, "tau_max", run->args->tau_max, "Pa");
     report_number(r, "beta", run->bodies.beta, NULL);
     report_text(r, "coupling", coupling_of(run));
-    if (run->rolls) {
-        report_number(r, "position", run->position, "m");
-        report_named(
-            r, from + 1,
-            "load limit creep_x creep_y spin tangential_x tangential_y moment stick_nodes "
-            "slip_nodes stick_fraction power power_slip extrapolated_creep_x "
-            "extrapolated_creep_y extrapolated_tangential_x extrapolated_tangential_y "
-            "extrapolated_moment kalker_tangential_x kalker_tangential_y steps convolutions "
-            "traction_error_estimate discretization_error");
-        end_row(d, d->status == RC_OK);
-        return;
-    }
-    report_named(r, from,
-                 "load limit tangential_x tangential_y displacement_x displacement_y approach "
-                 "stick_nodes slip_nodes stick_area slip_area stick_fraction largest_slip "
-                 "tangential_stiffness dissipated_energy");
-    report_value(r, "dissipated_total", s->dissipated_total);
-    report_count(r, "increments", s->corner->leg.increments, NULL);
-    report_named(r, from, "passes convolutions");
-    report_number(r, "traction_error_estimate", s->traction_error, NULL);
-    errors_report(r, &s->errors);
-    end_row(d, s->converged);
+    report_bool(r, "converged", run->motion->report(r, run, m));
+    report_object(r, "seconds");
+    report_number(r, "total", tool_now() - d->began, "s");
+    report_end(r);
+    report_memory(r);
 }
 
 /* ---- warnings ---- */
@@ -143,7 +108,7 @@ slip_judge_plan(struct slip_run *run)
                   "%s: the bodies are dissimilar (beta %.3g), and %s neglects the "
                   "effect of tractions on the pressure: on rough surfaces tractions were wrong by "
                   "2 to 13 %%, pressures by 1 to 8 %%",
-                  where, run->bodies.beta, run->rolls ? "rolling" : "--coupling goodman");
+                  where, run->bodies.beta, run->motion->uncoupled);
 }
 
 void
@@ -227,10 +192,7 @@ slip_say_plan(struct slip_run *run, const struct rc_expected *expected)
     if (run->law.fewer > 0)
         fprintf(out, "  %-16ssolved also with half of them%s, for the error\n", "increments",
                 run->law.fewer < RC_FEWER ? "" : " and a quarter");
-    fprintf(out, "  %-16sabout %.0f convolutions, %.2g s with %zu threads\n",
-            !run->rolls         ? "work"
-            : run->args->steady ? "steady rolling"
-                                : "each position",
+    fprintf(out, "  %-16sabout %.0f convolutions, %.2g s with %zu threads\n", run->motion->work,
             expected->convolutions, course_seconds(&run->d.t, run->p, expected->seconds, 1),
             run->d.t.threads);
     fprintf(out, "  %-16sabout %zu MiB\n", "memory", (memory >> 20) + 1);

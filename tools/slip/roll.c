@@ -6,23 +6,37 @@
 
 #include "formats/core/core.h"
 
+static struct {
+    struct rc_model *path; /* rolls from case to case; NULL: not yet */
+    double first[7];       /* its grid, boundary and bodies */
+    struct rc_rolling_contact known;
+    double position; /* m, of the last case; NAN: unknown    */
+} own = {.position = NAN};
+
 static bool
 forced(const struct slip_run *run)
 {
     return run->args->creep_force.n > 0;
 }
 
-void
-slip_check_rolling(struct slip_run *run)
+static bool
+ask(const struct slip_args *a)
 {
-    const struct slip_args *a = run->args;
+    return a->creep.n > 0 || a->creep_force.n > 0;
+}
+
+static bool
+ask_steady(const struct slip_args *a)
+{
+    return a->steady && ask(a);
+}
+
+static void
+read(struct slip_run *run, struct slip_args *a)
+{
     struct tool *t = &run->d.t;
     const char *which = forced(run) ? "creep-force" : "creep";
 
-    run->rolls = a->creep.n > 0 || forced(run);
-    run->position = NAN;
-    if (!run->rolls)
-        return;
     if (forced(run) ? a->creep_force.n > 2 : a->creep.n < 2 || a->creep.n > 3)
         tool_usage(t, "--%s: it must be %s", which,
                    forced(run) ? "one value (along x) or two (x and y), as in 36N,0"
@@ -45,8 +59,8 @@ point_of(const struct slip_run *run)
     rc_point_set(&to, x + 1, v->n > 1 ? v->v[1] : 0);
     if (v->n > 2)
         rc_point_set(&to, RC_SPIN, v->v[2]);
-    if (!isnan(run->position))
-        rc_point_set(&to, RC_POSITION, run->position);
+    if (!isnan(own.position))
+        rc_point_set(&to, RC_POSITION, own.position);
     return to;
 }
 
@@ -89,14 +103,14 @@ find_position(struct slip_run *run)
         tool_refuse(&run->d.t, run->p,
                     "it has no key position, and rolling from case to case needs the positions of "
                     "rc-solve --travel: give --steady for steady rolling under one pressure");
-    if (steady && (run->position < position || run->position > position))
+    if (steady && (own.position < position || own.position > position))
         tool_refuse(&run->d.t, run->p,
                     "its position is %g m, that of the case before %g m: in steady rolling the "
                     "pressure does not change; leave out --steady to roll from case to case",
-                    position, run->position);
-    run->position = position;
-    run->known = (struct rc_rolling_contact){.p = run->p->v};
-    (void)rc_grid_number(run->p, "window_x", &run->known.x);
+                    position, own.position);
+    own.position = position;
+    own.known = (struct rc_rolling_contact){.p = run->p->v};
+    (void)rc_grid_number(run->p, "window_x", &own.known.x);
 }
 
 static struct rc_model *
@@ -104,10 +118,8 @@ new_model(struct slip_run *run)
 {
     const struct rc_problem contact = {
         .boundary = run->boundary, .pair = run->bodies.pair, .threads = run->d.t.threads};
-    const struct rc_rolling_problem law = {.law = run->law.law,
-                                           .force = forced(run),
-                                           .path = !run->args->steady,
-                                           .known = &run->known};
+    const struct rc_rolling_problem law = {
+        .law = run->law.law, .force = forced(run), .path = !run->args->steady, .known = &own.known};
     return tool_made(&run->d.t, run->p,
                      rc_rolling_new(rc_elastic_new(rc_shape_of(run->p), run->p->v, &contact, NULL,
                                                    &run->d.t.err),
@@ -125,24 +137,24 @@ model_of(struct slip_run *run)
 
     if (run->args->steady)
         return new_model(run);
-    if (run->path == NULL) {
-        run->path = new_model(run);
+    if (own.path == NULL) {
+        own.path = new_model(run);
         tool_must(&run->d.t, p, /* the map of this case is freed before the next one */
-                  rc_model_set_heights(run->path, p->v, &run->d.t.err));
-    } else if (memcmp(now, run->first, sizeof now) != 0)
+                  rc_model_set_heights(own.path, p->v, &run->d.t.err));
+    } else if (memcmp(now, own.first, sizeof now) != 0)
         tool_refuse(&run->d.t, p,
                     "its grid, boundary or bodies differ from those of the case before: roll over "
                     "the cases of one rc-solve --travel");
-    memcpy(run->first, now, sizeof now);
-    return run->path;
+    memcpy(own.first, now, sizeof now);
+    return own.path;
 }
 
 static const struct drive_advice advice[] = {
     {"discretization_error", "take a finer map, or the extrapolated figures of the report"},
     {NULL, NULL}};
 
-void
-slip_roll(struct slip_run *run)
+static void
+move(struct slip_run *run)
 {
     struct drive *d = &run->d;
     struct rc_point to;
@@ -155,18 +167,18 @@ slip_roll(struct slip_run *run)
     run->law = slip_law(run);
     run->law.law.uncoupled = !run->coupled;
     run->law.law.tol = isnan(run->args->tol) ? 0 : run->args->tol;
-    if (run->path == NULL)
+    if (own.path == NULL)
         slip_judge_plan(run);
     m = model_of(run);
     tool_must(&d->t, run->p, rc_model_plan(m, &to, &expected, &d->t.err));
     if (d->args->dry_run) {
         slip_say_plan(run, &expected);
-        if (m != run->path)
+        if (m != own.path)
             rc_model_free(m);
         return;
     }
-    tool_demand_memory(&d->t, run->p, m == run->path && run->number > 0 ? 0 : expected.memory);
-    d->lasts = m == run->path;
+    tool_demand_memory(&d->t, run->p, m == own.path && run->number > 0 ? 0 : expected.memory);
+    d->lasts = m == own.path;
     d->frame = slip_frame;
     d->unit = "m";
     d->advice = advice;
@@ -179,3 +191,39 @@ slip_roll(struct slip_run *run)
     drive_points(d, run->p, m);
     d->point = NULL;
 }
+
+static void
+close(void)
+{
+    rc_model_free(own.path);
+}
+
+static bool
+report(struct report *r, const struct slip_run *run, const struct rc_model *m)
+{
+    const struct figures from[] = {{rc_figures("rolling"), rc_rolling_result(m)}, {NULL, NULL}};
+
+    report_number(r, "position", own.position, "m");
+    report_named(r, from,
+                 "load limit creep_x creep_y spin tangential_x tangential_y moment stick_nodes "
+                 "slip_nodes stick_fraction power power_slip extrapolated_creep_x "
+                 "extrapolated_creep_y extrapolated_tangential_x extrapolated_tangential_y "
+                 "extrapolated_moment kalker_tangential_x kalker_tangential_y steps convolutions "
+                 "traction_error_estimate discretization_error");
+    return run->d.status == RC_OK;
+}
+
+const struct slip_motion slip_motion_steady = {.ask = ask_steady,
+                                               .read = read,
+                                               .move = move,
+                                               .report = report,
+                                               .work = "steady rolling",
+                                               .uncoupled = "rolling"};
+/* From case to case. */
+const struct slip_motion slip_motion_rolling = {.ask = ask,
+                                                .read = read,
+                                                .move = move,
+                                                .report = report,
+                                                .close = close,
+                                                .work = "each position",
+                                                .uncoupled = "rolling"};

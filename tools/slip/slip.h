@@ -75,15 +75,27 @@ struct slip_run {
      * wanted */
     double *slipped;
     struct rc_friction_problem law;
-    bool coupled;          /* the pressure moves the bodies along each other  */
-    bool alternates;       /* tractions change the pressure too               */
-    bool solves;           /* contacts are solved                             */
-    bool rolls;            /* --creep or --creep-force                        */
-    struct rc_model *path; /* rolls from case to case; NULL: not yet */
-    double first[7];       /* its grid, boundary and bodies */
-    struct rc_rolling_contact known;
-    double position; /* m, of the last case that rolls; NAN: unknown    */
+    bool coupled;    /* the pressure moves the bodies along each other  */
+    bool alternates; /* tractions change the pressure too               */
+    bool solves;     /* contacts are solved                             */
+    const struct slip_motion *motion;
 };
+
+/* A motion of the bodies is a row: slip_motions has them, and the first one that the options ask for moves the
+ * bodies of all cases. */
+struct slip_motion {
+    bool (*ask)(const struct slip_args *args);
+    void (*read)(struct slip_run *run,
+                 struct slip_args *args); /* ends the tool if they make no sense */
+    void (*move)(struct slip_run *run);   /* in a case: plans, solves and reports */
+    /* Its columns; returns whether the row has converged. */
+    bool (*report)(struct report *r, const struct slip_run *run, const struct rc_model *m);
+    void (*close)(void);   /* NULL: nothing is left */
+    const char *work;      /* what the convolutions of the plan are for */
+    const char *uncoupled; /* what neglects the effect of tractions on the pressure */
+};
+extern const struct slip_motion *const slip_motions[]; /* the last is NULL */
+extern const struct slip_motion slip_motion_path, slip_motion_steady, slip_motion_rolling;
 
 /* ---- path.c ---- */
 
@@ -110,13 +122,6 @@ void slip_set_keys(struct slip_run *run, struct rc_grid *g, bool converged, doub
 /* A frame of the tool; NULL: it is one of the model. */
 const double *slip_frame(struct drive *d, struct rc_model *m, struct rc_grid *frame,
                          const char *word);
-
-/* ---- roll.c ---- */
-
-/* Ends the tool if the options of rolling contradict others. */
-void slip_check_rolling(struct slip_run *run);
-/* Rolls the contact of the case. */
-void slip_roll(struct slip_run *run);
 
 /* ---- report.c ---- */
 
