@@ -60,7 +60,7 @@
  *
  *   - Arguments: a function copies what it needs later. Keep the heights of a model until its first
  *     rc_model_go or rc_model_restore has returned, and the pressure and tractions of rc_stress_new until
- *     rc_stress_free or rc_stress_set_loads.
+ *     rc_stress_free or rc_stress_set_loads, and the map of rc_model_set_compliance until another is set.
  *   - Members of options: keep what they point to, unchanged, until the object is freed.
  *   - Inner models: the maker of an outer model owns the inner model from the call on, also when it fails. An
  *     inner model NULL makes it fail with the message of that one, so that makers can be nested. rc_model_free
