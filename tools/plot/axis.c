@@ -78,8 +78,8 @@ thin_marks(struct page *p, struct axis *a, double length, bool upright)
 
         if (a->mark[k].text[0] == '\0')
             continue;
-        w = canvas_text_width(p->c, &p->small, a->mark[k].text);
-        half = upright ? 0.55 * p->small.size : 0.5 * (w + gap);
+        w = canvas_text_width(p->c, &p->font.small, a->mark[k].text);
+        half = upright ? 0.55 * p->font.small.size : 0.5 * (w + gap);
         if (at - half < end) {
             a->mark[k].text[0] = '\0';
             thinned = true;
@@ -100,13 +100,13 @@ mark_words(struct page *p, struct axis *a, double length)
 
     a->widest = 0;
     for (size_t k = 0; k < a->words; k++)
-        a->widest = fmax(a->widest, canvas_text_width(p->c, &p->small, a->word[k]));
+        a->widest = fmax(a->widest, canvas_text_width(p->c, &p->font.small, a->word[k]));
     a->upwards = a->widest > slot;
     a->widest = fmin(a->widest, a->upwards ? 0.6 * length : slot);
     a->marks = 0;
     for (size_t k = 0; k < a->words; k++) {
         snprintf(text, sizeof text, "%s", a->word[k]);
-        page_shorten(p, &p->small, a->widest + 1, text);
+        page_shorten(p, &p->font.small, a->widest + 1, text);
         add_mark(a, (double)k, true, text);
     }
 }
@@ -114,7 +114,7 @@ mark_words(struct page *p, struct axis *a, double length)
 void
 axis_mark(struct page *p, struct axis *a, double length, bool upright)
 {
-    double most = fmin(9, a->minor ? length / (p->small.size * (upright ? 2 : 4.5)) : 9);
+    double most = fmin(9, a->minor ? length / (p->font.small.size * (upright ? 2 : 4.5)) : 9);
     bool thinned = true;
 
     if (a->words > 0) {
@@ -154,7 +154,7 @@ axis_even_steps(struct page *p, struct axis *coarse, struct axis *fine, double l
 double
 axis_word_room(const struct page *p, const struct axis *a)
 {
-    return a->upwards ? a->widest - p->small.size : 0;
+    return a->upwards ? a->widest - p->font.small.size : 0;
 }
 
 /* Length in pixels of the marks with a number, slightly longer if there are minor marks. */
@@ -167,7 +167,7 @@ reach(const struct page *p, const struct axis *a)
 void
 axis_across(struct page *p, const struct axis *a, double x, double y, double w)
 {
-    const double u = p->u, size = p->small.size, low = y + reach(p, a) + 4 * u;
+    const double u = p->u, size = p->font.small.size, low = y + reach(p, a) + 4 * u;
 
     for (size_t k = 0; k < a->marks; k++) {
         const char *text = a->mark[k].text;
@@ -176,13 +176,13 @@ axis_across(struct page *p, const struct axis *a, double x, double y, double w)
         canvas_fill(p->c, at - 0.8 * u, y, 1.6 * u, a->mark[k].major ? reach(p, a) : 5 * u,
                     page_ink);
         if (a->upwards)
-            canvas_text_upwards(p->c, &p->small, at + 0.36 * size,
-                                low + 0.5 * canvas_text_width(p->c, &p->small, text), text);
+            canvas_text_upwards(p->c, &p->font.small, at + 0.36 * size,
+                                low + 0.5 * canvas_text_width(p->c, &p->font.small, text), text);
         else if (*text != '\0')
-            canvas_text(p->c, &p->small, at, low + 0.78 * size, 0.5, text);
+            canvas_text(p->c, &p->font.small, at, low + 0.78 * size, 0.5, text);
     }
-    canvas_text(p->c, &p->large, x + 0.5 * w,
-                low + axis_word_room(p, a) + size + 1.1 * p->large.size, 0.5, a->label);
+    canvas_text(p->c, &p->font.large, x + 0.5 * w,
+                low + axis_word_room(p, a) + size + 1.1 * p->font.large.size, 0.5, a->label);
 }
 
 void
@@ -191,7 +191,7 @@ axis_upright(struct page *p, const struct axis *a, double x, double y, double h,
 {
     const double u = p->u, out = reach(p, a) + 5 * u;
     const double label =
-        14 * u + a->widest + (left ? (a->minor ? 12 : 10) * u : 1.35 * p->large.size);
+        14 * u + a->widest + (left ? (a->minor ? 12 : 10) * u : 1.35 * p->font.large.size);
 
     for (size_t k = 0; k < a->marks; k++) {
         double at = y + (rises_down ? a->mark[k].at : 1 - a->mark[k].at) * h;
@@ -199,8 +199,8 @@ axis_upright(struct page *p, const struct axis *a, double x, double y, double h,
 
         canvas_fill(p->c, left ? x - length : x, at - 0.8 * u, length, 1.6 * u, page_ink);
         if (a->mark[k].text[0] != '\0')
-            canvas_text(p->c, &p->small, left ? x - out : x + out + a->widest,
-                        at + 0.36 * p->small.size, 1, a->mark[k].text);
+            canvas_text(p->c, &p->font.small, left ? x - out : x + out + a->widest,
+                        at + 0.36 * p->font.small.size, 1, a->mark[k].text);
     }
-    canvas_text_upwards(p->c, &p->large, left ? x - label : x + label, y + 0.5 * h, a->label);
+    canvas_text_upwards(p->c, &p->font.large, left ? x - label : x + label, y + 0.5 * h, a->label);
 }

@@ -496,13 +496,13 @@ figure_sample(struct page *p, size_t sample, double x, double y, size_t n)
 static struct canvas_font
 label_font(const struct page *p, const struct panels *panels)
 {
-    struct canvas_font font = p->small;
+    struct canvas_font font = p->font.small;
     double widest = 1;
 
     font.bold = true;
     for (size_t k = 0; k < panels->n; k++)
         widest = fmax(widest, canvas_text_width(p->c, &font, panels->panel[k].label));
-    font.size *= fmin(1, fmax(0.6, 0.97 * p->map_w / widest));
+    font.size *= fmin(1, fmax(0.6, 0.97 * p->maps.w / widest));
     return font;
 }
 
@@ -517,14 +517,14 @@ draw_panel(struct page *p, const struct panels *panels, size_t k, struct rc_err 
 
     p->f = &panel->figure;
     p->g = panel->grid;
-    p->plot.x += floor(p->across_step * (double)(k % p->columns));
-    p->plot.y += floor(p->down_step * (double)(k / p->columns));
-    p->plot.w = p->map_w;
-    p->plot.h = p->map_h;
+    p->plot.x += floor(p->maps.across_step * (double)(k % p->maps.columns));
+    p->plot.y += floor(p->maps.down_step * (double)(k / p->maps.columns));
+    p->plot.w = p->maps.w;
+    p->plot.h = p->maps.h;
     snprintf(label, sizeof label, "%s", panel->label);
     page_shorten(p, &font, at->w, label);
     if (*label != '\0')
-        canvas_text(p->c, &font, at->x, at->y - 0.45 * p->small.size, 0, label);
+        canvas_text(p->c, &font, at->x, at->y - 0.45 * p->font.small.size, 0, label);
     if (draw_map(p, err) != RC_OK)
         return RC_FAIL;
     media_draw(p);
@@ -533,9 +533,9 @@ draw_panel(struct page *p, const struct panels *panels, size_t k, struct rc_err 
     if (p->f->mark.largest != NULL)
         draw_cross(p, page_x(p, p->f->mark.x), page_y(p, p->f->mark.y));
     page_frame(p, at->x, at->y, at->w, at->h);
-    if (k % p->columns == 0)
+    if (k % p->maps.columns == 0)
         axis_upright(p, &p->down, at->x, at->y, at->h, true, true);
-    if (k + p->columns >= panels->n)
+    if (k + p->maps.columns >= panels->n)
         axis_across(p, &p->across, at->x, at->y + at->h, at->w);
     return RC_OK;
 }
@@ -575,8 +575,8 @@ panels_draw(const struct panels *panels, struct rc_err *err)
         return NULL;
     p->f = panels->figure;
     p->g = panels->panel[0].grid;
-    p->columns = panels->columns;
-    p->rows = (panels->n + panels->columns - 1) / panels->columns;
+    p->maps.columns = panels->columns;
+    p->maps.rows = (panels->n + panels->columns - 1) / panels->columns;
     return pages_draw(&p, 1, err);
 }
 

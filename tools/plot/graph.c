@@ -422,7 +422,7 @@ static void
 draw_floor(struct page *p)
 {
     double top = y_of(p, p->graph->floor), foot = p->plot.y + p->plot.h;
-    struct canvas_font font = p->small;
+    struct canvas_font font = p->font.small;
 
     if (!(p->graph->floor > 0) || top >= foot - 1)
         return;
@@ -495,7 +495,7 @@ is_free(const struct page *p, const struct box *b)
 static void
 draw_labels(struct page *p, const struct graph_series *s)
 {
-    struct canvas_font font = p->small;
+    struct canvas_font font = p->font.small;
     const double u = p->u;
 
     font.size *= 0.81;
@@ -643,14 +643,14 @@ lay_out(struct page *p, struct rc_err *err)
     count_lost(p->graph, notes_of(p));
     p->plot.h = round(0.56 * width);
     axis_mark(p, &p->down, p->plot.h, true);
-    p->left_w = round(26 * u + 1.1 * p->large.size + p->down.widest + 28 * u);
+    p->space.left = round(26 * u + 1.1 * p->font.large.size + p->down.widest + 28 * u);
     for (int k = 0; k < 2; k++) {
-        p->plot.w =
-            round(width - p->left_w - 30 * u - (p->across.words > 0 ? 0 : 0.5 * p->across.widest));
+        p->plot.w = round(width - p->space.left - 30 * u -
+                          (p->across.words > 0 ? 0 : 0.5 * p->across.widest));
         axis_mark(p, &p->across, p->plot.w, false);
     }
     set_legend(p);
-    page_settle(p, p->left_w, 22 * u, page_marks(p) + axis_word_room(p, &p->across));
+    page_settle(p, p->space.left, 22 * u, page_marks(p) + axis_word_room(p, &p->across));
     return RC_OK;
 }
 

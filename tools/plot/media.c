@@ -30,29 +30,29 @@ media_seen(const struct figure *f, size_t *first)
 }
 
 static struct canvas_font
-number_font(const struct page *p)
+number_font(const struct page_fonts *fonts)
 {
-    struct canvas_font font = p->small;
+    struct canvas_font font = fonts->small;
 
     font.bold = true;
     return font;
 }
 
 static double
-number_height(const struct page *p)
+number_height(const struct page_fonts *font)
 {
-    return 1.1 * p->small.size;
+    return 1.1 * font->small.size;
 }
 
 double
 media_gutter(const struct page *p)
 {
-    struct canvas_font font = number_font(p);
+    struct canvas_font font = number_font(&p->font);
     size_t first, n = media_seen(p->f, &first);
     double widest = 0;
     char text[32];
 
-    if (n == 0 || n > MEDIA_TOLD || (double)n * number_height(p) > p->plot.h)
+    if (n == 0 || n > MEDIA_TOLD || (double)n * number_height(&p->font) > p->plot.h)
         return 0;
     for (size_t k = first; k < first + n; k++) {
         snprintf(text, sizeof text, "%zu", k + 1);
@@ -103,9 +103,9 @@ draw_lines(struct page *p, size_t first, size_t n)
 static void
 draw_numbers(struct page *p, size_t first, size_t n)
 {
-    double at[MEDIA_TOLD], middle[MEDIA_TOLD], high = number_height(p), u = p->u;
+    double at[MEDIA_TOLD], middle[MEDIA_TOLD], high = number_height(&p->font), u = p->u;
     double x = (p->plot.x + p->plot.w), bottom = (p->plot.y + p->plot.h);
-    struct canvas_font font = number_font(p);
+    struct canvas_font font = number_font(&p->font);
     char text[32];
 
     for (size_t k = 0; k < n; k++) {
@@ -135,6 +135,6 @@ media_draw(struct page *p)
     if (n > 1)
         draw_lines(p, first, n);
     page_clip_end(p);
-    if (p->gutter > 0)
+    if (p->space.gutter > 0)
         draw_numbers(p, first, n);
 }

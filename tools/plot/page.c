@@ -105,7 +105,7 @@ page_wrap(struct page *p, const struct canvas_font *font, double width, const ch
 /* ---- heading ---- */
 
 static double
-longest_word(struct page *p, const struct canvas_font *font, const char *text)
+longest_word(struct canvas *c, const struct canvas_font *font, const char *text)
 {
     char word[LINE];
     double longest = 1;
@@ -114,7 +114,7 @@ longest_word(struct page *p, const struct canvas_font *font, const char *text)
         size_t n = piece(text, " ");
 
         copy_text(word, text, n);
-        longest = fmax(longest, canvas_text_width(p->c, font, word));
+        longest = fmax(longest, canvas_text_width(c, font, word));
         text += text[n] == '\0' ? n : n + 1;
     }
     return longest;
@@ -124,47 +124,50 @@ longest_word(struct page *p, const struct canvas_font *font, const char *text)
 static void
 break_words(struct page *p, double width)
 {
-    p->heading.size *= fmin(1, fmax(0.5, width / longest_word(p, &p->heading, p->paper->title)));
-    page_wrap(p, &p->heading, width, " ", p->paper->title, &p->title);
-    page_wrap(p, &p->subheading, width, BETWEEN, p->paper->subtitle, &p->subtitle);
+    p->font.heading.size *=
+        fmin(1, fmax(0.5, width / longest_word(p->c, &p->font.heading, p->paper->title)));
+    page_wrap(p, &p->font.heading, width, " ", p->paper->title, &p->title);
+    page_wrap(p, &p->font.subheading, width, BETWEEN, p->paper->subtitle, &p->subtitle);
 }
 
 static double
 heading_height(const struct page *p)
 {
-    const double stamp = p->paper->stamp == NULL ? 0 : 2.1 * p->stamp.size;
+    const double stamp = p->paper->stamp == NULL ? 0 : 2.1 * p->font.stamp.size;
 
-    return 24 * p->u + stamp + 1.3 * p->heading.size * (double)p->title.n +
-           1.4 * p->subheading.size * (double)p->subtitle.n;
+    return 24 * p->u + stamp + 1.3 * p->font.heading.size * (double)p->title.n +
+           1.4 * p->font.subheading.size * (double)p->subtitle.n;
 }
 
 /* The stamp is above the plot, where it covers no data. */
 static void
 draw_stamp(struct page *p, double middle, double y)
 {
-    double size = p->stamp.size, w, line = fmax(2, round(2.4 * p->u));
+    double size = p->font.stamp.size, w, line = fmax(2, round(2.4 * p->u));
 
     if (p->paper->stamp == NULL)
         return;
-    w = canvas_text_width(p->c, &p->stamp, p->paper->stamp) + 1.6 * size;
+    w = canvas_text_width(p->c, &p->font.stamp, p->paper->stamp) + 1.6 * size;
     y += 0.4 * size;
     canvas_frame(p->c, round(middle - 0.5 * w), round(y), round(w), round(1.55 * size), line,
                  page_alarm);
-    canvas_text(p->c, &p->stamp, middle, y + 1.12 * size, 0.5, p->paper->stamp);
+    canvas_text(p->c, &p->font.stamp, middle, y + 1.12 * size, 0.5, p->paper->stamp);
 }
 
 static void
 draw_heading(struct page *p)
 {
-    double y = p->top + 24 * p->u, middle = 0.5 * (double)p->w;
+    double y = p->space.top + 24 * p->u, middle = 0.5 * (double)p->w;
 
     for (size_t k = 0; k < p->title.n; k++) {
-        canvas_text(p->c, &p->heading, middle, y + p->heading.size, 0.5, p->title.line[k]);
-        y += 1.3 * p->heading.size;
+        canvas_text(p->c, &p->font.heading, middle, y + p->font.heading.size, 0.5,
+                    p->title.line[k]);
+        y += 1.3 * p->font.heading.size;
     }
     for (size_t k = 0; k < p->subtitle.n; k++) {
-        canvas_text(p->c, &p->subheading, middle, y + p->subheading.size, 0.5, p->subtitle.line[k]);
-        y += 1.4 * p->subheading.size;
+        canvas_text(p->c, &p->font.subheading, middle, y + p->font.subheading.size, 0.5,
+                    p->subtitle.line[k]);
+        y += 1.4 * p->font.subheading.size;
     }
     draw_stamp(p, middle, y);
 }
@@ -179,7 +182,7 @@ page_settle(struct page *p, double left, double above, double below)
     above += heading_height(p);
     p->plot.x = round(left);
     p->plot.y = round(above);
-    p->h = (size_t)ceil(above + p->plot.h + below + p->legend_h + 22 * p->u);
+    p->h = (size_t)ceil(above + p->plot.h + below + p->legend.h + 22 * p->u);
 }
 
 void
@@ -240,13 +243,13 @@ set_axes(struct page *p)
 double
 page_marks(const struct page *p)
 {
-    return 14 * p->u + p->small.size + 1.5 * p->large.size;
+    return 14 * p->u + p->font.small.size + 1.5 * p->font.large.size;
 }
 
 double
 page_bar_right(const struct page *p)
 {
-    return fmax(28 * p->u + p->gutter, 0.5 * p->across.widest + 10 * p->u);
+    return fmax(28 * p->u + p->space.gutter, 0.5 * p->across.widest + 10 * p->u);
 }
 
 /* Distance from the right edge of the plot to the right edge of the page. */
@@ -254,8 +257,8 @@ static double
 right_of_plot(const struct page *p)
 {
     if (p->f->nodes.is != NULL)
-        return 24 * p->u + fmax(0.5 * p->across.widest, p->gutter);
-    return page_bar_right(p) + 42 * p->u + p->values.widest + 1.8 * p->large.size + 24 * p->u;
+        return 24 * p->u + fmax(0.5 * p->across.widest, p->space.gutter);
+    return page_bar_right(p) + 42 * p->u + p->values.widest + 1.8 * p->font.large.size + 24 * p->u;
 }
 
 double
@@ -265,26 +268,26 @@ page_bar_below(const struct page *p)
 }
 
 static void
-set_fonts(struct page *p)
+set_fonts(struct page_fonts *font, double u)
 {
-    p->small = (struct canvas_font){.size = SMALL * p->u, .colour = page_ink};
-    p->large = (struct canvas_font){.size = 23 * p->u, .colour = page_ink};
-    p->heading = (struct canvas_font){.size = 28 * p->u, .bold = true, .colour = page_ink};
-    p->subheading = (struct canvas_font){.size = 20 * p->u, .colour = page_faint};
-    p->stamp = (struct canvas_font){.size = 24 * p->u, .bold = true, .colour = page_alarm};
+    font->small = (struct canvas_font){.size = SMALL * u, .colour = page_ink};
+    font->large = (struct canvas_font){.size = 23 * u, .colour = page_ink};
+    font->heading = (struct canvas_font){.size = 28 * u, .bold = true, .colour = page_ink};
+    font->subheading = (struct canvas_font){.size = 20 * u, .colour = page_faint};
+    font->stamp = (struct canvas_font){.size = 24 * u, .bold = true, .colour = page_alarm};
 }
 
 /* The unit of the design for text with a size on paper; 0: not requested. */
 static double
-unit_on_paper(const struct page *p)
+unit_on_paper(const struct paper *paper)
 {
-    return p->paper->dpi * FIGURE_POINTS / 72 / SMALL;
+    return paper->dpi * FIGURE_POINTS / 72 / SMALL;
 }
 
 static void
 set_dpi(struct page *p)
 {
-    p->dpi = p->paper->dpi > 0 ? p->paper->dpi : 72 * p->small.size / FIGURE_POINTS;
+    p->dpi = p->paper->dpi > 0 ? p->paper->dpi : 72 * p->font.small.size / FIGURE_POINTS;
 }
 
 /* Pixels of the longer side of a plot of n nodes. It is a whole number of pixels per node, or of nodes per
@@ -312,19 +315,19 @@ aspect_of(const struct figure *f)
 }
 
 static bool
-is_sheet(const struct page *p)
+is_sheet(const struct page_maps *maps)
 {
-    return p->columns * p->rows > 1;
+    return maps->columns * maps->rows > 1;
 }
 
 /* Sizes of maps of `width` pixels; 0: from the nodes of the only map. */
 static void
 set_plot(struct page *p, double width)
 {
-    double aspect = aspect_of(p->f), paper = unit_on_paper(p), w = width;
+    double aspect = aspect_of(p->f), paper = unit_on_paper(p->paper), w = width;
 
     p->distorted = aspect != (p->f->at.right - p->f->at.left) / (p->f->at.bottom - p->f->at.top);
-    if (is_sheet(p))
+    if (is_sheet(&p->maps))
         w = floor(width);
     else if (width > 0)
         w = fmin(width, 0.85 * (double)p->paper->width * aspect);
@@ -334,8 +337,8 @@ set_plot(struct page *p, double width)
     p->plot.h = fmax(round(w / aspect), 1);
     if (width == 0 && paper == 0)
         p->u = fmax(p->plot.w, p->plot.h) / 900;
-    set_fonts(p);
-    p->bar_below = p->plot.h < 300 * p->u && p->f->nodes.is == NULL && !is_sheet(p);
+    set_fonts(&p->font, p->u);
+    p->bar_below = p->plot.h < 300 * p->u && p->f->nodes.is == NULL && !is_sheet(&p->maps);
 }
 
 /* The widths of axes and bar left and right of the plot, and between maps. */
@@ -345,31 +348,32 @@ measure_sides(struct page *p)
     double u = p->u;
 
     mark_map(p);
-    p->left_w = 24 * u + 1.3 * p->large.size + 8 * u + p->down.widest + 14 * u;
-    p->gutter = media_gutter(p);
+    p->space.left = 24 * u + 1.3 * p->font.large.size + 8 * u + p->down.widest + 14 * u;
+    p->space.gutter = media_gutter(p);
     axis_mark(p, &p->values, p->bar_below ? p->plot.w : p->plot.h, !p->bar_below);
-    p->right_w = right_of_plot(p);
+    p->space.right = right_of_plot(p);
     if (p->bar_below)
-        p->right_w =
-            24 * u + fmax(fmax(0.5 * p->across.widest, p->gutter), 0.5 * p->values.widest + 14 * u);
-    p->across_step = fmax(22 * u + p->gutter, p->across.widest + 14 * u); /* marks at both edges */
+        p->space.right = 24 * u + fmax(fmax(0.5 * p->across.widest, p->space.gutter),
+                                       0.5 * p->values.widest + 14 * u);
+    p->maps.across_step =
+        fmax(22 * u + p->space.gutter, p->across.widest + 14 * u); /* marks at both edges */
 }
 
 /* A vertical label may be longer than the height of the plot: half of the excess. */
 static double
 overhang(struct page *p)
 {
-    double longest = canvas_text_width(p->c, &p->large, p->down.label);
+    double longest = canvas_text_width(p->c, &p->font.large, p->down.label);
 
     if (!p->bar_below && p->f->nodes.is == NULL)
-        longest = fmax(longest, canvas_text_width(p->c, &p->large, p->values.label));
+        longest = fmax(longest, canvas_text_width(p->c, &p->font.large, p->values.label));
     return fmax(0, 0.5 * (longest - p->plot.h));
 }
 
 static double
-between_rows(const struct page *p)
+between_rows(const struct page_fonts *font)
 {
-    return 2.1 * p->small.size;
+    return 2.1 * font->small.size;
 }
 
 /* Arranges the maps as the plot of the page. */
@@ -378,22 +382,22 @@ set_page(struct page *p)
 {
     double u = p->u, marks = page_marks(p), free, content, over;
 
-    p->map_w = p->plot.w;
-    p->map_h = p->plot.h;
-    p->across_step += p->map_w;
-    p->down_step = p->map_h + between_rows(p);
-    p->plot.w += floor(p->across_step * (double)(p->columns - 1));
-    p->plot.h += floor(p->down_step * (double)(p->rows - 1));
-    content = p->left_w + p->plot.w + p->right_w;
+    p->maps.w = p->plot.w;
+    p->maps.h = p->plot.h;
+    p->maps.across_step += p->maps.w;
+    p->maps.down_step = p->maps.h + between_rows(&p->font);
+    p->plot.w += floor(p->maps.across_step * (double)(p->maps.columns - 1));
+    p->plot.h += floor(p->maps.down_step * (double)(p->maps.rows - 1));
+    content = p->space.left + p->plot.w + p->space.right;
     over = overhang(p);
-    if (p->paper->width == 0 && !is_sheet(p))
+    if (p->paper->width == 0 && !is_sheet(&p->maps))
         p->w = (size_t)ceil(fmax(content, 680 * u));
     if (p->bar_below)
         marks = page_bar_below(p) + 28 * u + marks;
-    free = is_sheet(p) ? 0 : fmax(0, (double)p->w - content);
+    free = is_sheet(&p->maps) ? 0 : fmax(0, (double)p->w - content);
     figure_legend(p);
-    page_settle(p, p->left_w + 0.5 * free, (is_sheet(p) ? between_rows(p) : 22 * u) + over,
-                fmax(marks, over));
+    page_settle(p, p->space.left + 0.5 * free,
+                (is_sheet(&p->maps) ? between_rows(&p->font) : 22 * u) + over, fmax(marks, over));
     set_dpi(p);
 }
 
@@ -401,28 +405,32 @@ set_page(struct page *p)
 enum rc_status
 page_lay_out(struct page *p, struct rc_err *err)
 {
-    const double least = 40, columns = (double)p->columns; /* smallest width in pixels of one of
+    const double least = 40,
+                 columns = (double)p->maps.columns; /* smallest width in pixels of one of
                                                               several maps */
     bool beside = false,
          again = false; /* the bar was beside the plot, then below it again: it stays below */
     double width;
 
     set_axes(p);
-    width = is_sheet(p) ? ((double)p->w - 260 * p->u) / columns : 0.8 * (double)p->paper->width;
-    for (int round = 0; round < (is_sheet(p) ? 4 : 6); round++) {
+    width =
+        is_sheet(&p->maps) ? ((double)p->w - 260 * p->u) / columns : 0.8 * (double)p->paper->width;
+    for (int round = 0; round < (is_sheet(&p->maps) ? 4 : 6); round++) {
         set_plot(p, width);
         again = again || (beside && p->bar_below);
         beside = beside || !p->bar_below;
         p->bar_below = p->bar_below || again;
         measure_sides(p);
-        if (p->paper->width == 0 && !is_sheet(p))
+        if (p->paper->width == 0 && !is_sheet(&p->maps))
             break;
-        width = ((double)p->w - p->left_w - p->right_w - p->across_step * (columns - 1)) / columns;
-        if (is_sheet(p) && width < least)
+        width =
+            ((double)p->w - p->space.left - p->space.right - p->maps.across_step * (columns - 1)) /
+            columns;
+        if (is_sheet(&p->maps) && width < least)
             return rc_err_set(err,
                               "%zu columns on %zu pixels leave %d for each: ask for fewer "
                               "columns or a larger --width",
-                              p->columns, p->w, width < 0 ? 0 : (int)width);
+                              p->maps.columns, p->w, width < 0 ? 0 : (int)width);
         width = fmax(width, 1);
     }
     set_page(p);
@@ -447,13 +455,14 @@ page_new(const struct page_kind *kind, void *of, const struct paper *paper, stru
 static void
 set_size(struct page *p)
 {
-    double paper = unit_on_paper(p), design = (double)p->kind->design, w = (double)p->paper->width;
+    double paper = unit_on_paper(p->paper), design = (double)p->kind->design,
+           w = (double)p->paper->width;
 
     if (p->paper->width == 0)
         w = round(design * (paper > 0 ? paper : 1));
     p->w = (size_t)w;
     p->u = paper > 0 ? paper : fmax(w / design, 0.5);
-    set_fonts(p);
+    set_fonts(&p->font, p->u);
     set_dpi(p);
 }
 
@@ -494,14 +503,14 @@ pages_draw(struct page *const page[], size_t n, struct rc_err *err)
     for (size_t k = 0; k < n; k++) {
         if (lay_out(page[k], err) != RC_OK)
             return NULL;
-        page[k]->top = (double)h;
+        page[k]->space.top = (double)h;
         h += page[k]->h;
     }
     if ((c = new_canvas(page[0], page[0]->w, h, err)) == NULL)
         return NULL;
     for (size_t k = 0; k < n && status == RC_OK; k++) {
         page[k]->c = c;
-        page[k]->plot.y += page[k]->top;
+        page[k]->plot.y += page[k]->space.top;
         draw_heading(page[k]);
         status = page[k]->kind->draw(page[k], err);
         legend_draw(page[k]);
@@ -530,5 +539,5 @@ page_measure(struct page *p)
     set_axes(p);
     mark_map(p);
     axis_mark(p, &p->values, p->plot.h, true);
-    p->gutter = media_gutter(p);
+    p->space.gutter = media_gutter(p);
 }

@@ -61,6 +61,32 @@ struct page_kind {
     void (*sample)(struct page *page, size_t sample, double x, double y, size_t n);
 };
 
+struct page_fonts {
+    struct canvas_font small, large, heading, subheading, stamp;
+};
+
+struct page_legend {
+    struct entry {
+        size_t sample; /* 0: none */
+        char text[LINE];
+        double x, y; /* position from the left and top of the legend, pixels */
+    } entry[ENTRIES];
+    size_t entries;
+    double h;
+};
+
+struct page_maps {
+    size_t columns, rows;          /* of maps */
+    double w, h;                   /* size of each map, whole pixels            */
+    double across_step, down_step; /* distance from one to the next, pixels     */
+};
+
+struct page_space {
+    double gutter;      /* width right of a plot for the numbers of media */
+    double left, right; /* beside the plot, margins included   */
+    double top;         /* position of the page on its canvas        */
+};
+
 struct page {
     const struct page_kind *kind;
     void *of; /* what is drawn, for the functions of its kind */
@@ -71,24 +97,14 @@ struct page {
     struct canvas *c;
     bool bar_below, distorted;
     double u; /* the unit of the design, to which text, gaps and lines are proportional */
-    struct canvas_font small, large, heading, subheading, stamp;
+    struct page_fonts font;
     struct axis across, down, values;
     struct text title, subtitle;
-    struct entry {
-        size_t sample; /* 0: none */
-        char text[LINE];
-        double x, y; /* position from the left and top of the legend, pixels */
-    } entry[ENTRIES];
-    size_t entries;
-    double legend_h;
-    struct rgb edge;               /* colour of the edge of the contact */
-    double gutter;                 /* width right of a plot for the numbers of media */
-    double left_w, right_w;        /* space beside the plot, margins included   */
-    double top;                    /* position of the page on its canvas        */
-    size_t columns, rows;          /* columns and rows of maps */
-    double map_w, map_h;           /* size of each map, whole pixels            */
-    double across_step, down_step; /* distance from one to the next, pixels     */
-    struct box plot;               /* size of all maps, whole pixels */
+    struct page_legend legend;
+    struct rgb edge; /* colour of the edge of the contact */
+    struct page_space space;
+    struct page_maps maps;
+    struct box plot; /* size of all maps, whole pixels */
     size_t w, h;
     double dpi; /* pixels of the page per inch of paper */
 };

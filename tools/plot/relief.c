@@ -450,7 +450,7 @@ draw_side(struct scene *s, const struct side *side)
         return; /* seen end on */
     line(s, side->a, side->b, 1.6 * u, page_ink);
     ticks_choose(&ticks, a->lo, a->hi,
-                 fmin(8, fmax(2, length / ((side->out[1] > 0 ? 3.4 : 1.8) * p->small.size))));
+                 fmin(8, fmax(2, length / ((side->out[1] > 0 ? 3.4 : 1.8) * p->font.small.size))));
     for (long long k = ticks.first; k <= ticks.last; k++) {
         double t = axis_place(a, ticks_at(&ticks, k)), x, y, part;
 
@@ -462,25 +462,25 @@ draw_side(struct scene *s, const struct side *side)
         part = 0.5 - 0.5 * fmin(fmax(1.6 * side->out[0], -1), 1);
         ticks_text_to(text, &ticks, k);
         if (side->keep_off &&
-            hypot(x - (t < 0.5 ? x0 : x1), y - (t < 0.5 ? y0 : y1)) < 1.6 * p->small.size &&
+            hypot(x - (t < 0.5 ? x0 : x1), y - (t < 0.5 ? y0 : y1)) < 1.6 * p->font.small.size &&
             (t < 0.5) == (y0 > y1))
             continue;
-        widest = fmax(widest, canvas_text_width(p->c, &p->small, text));
-        canvas_text(p->c, &p->small, x + 15 * u * side->out[0],
-                    y + 15 * u * side->out[1] + (0.36 + 0.42 * side->out[1]) * p->small.size, part,
-                    text);
+        widest = fmax(widest, canvas_text_width(p->c, &p->font.small, text));
+        canvas_text(p->c, &p->font.small, x + 15 * u * side->out[0],
+                    y + 15 * u * side->out[1] + (0.36 + 0.42 * side->out[1]) * p->font.small.size,
+                    part, text);
     }
     if (fabs(x1 - x0) < 0.02 * length) {
-        if (canvas_text_width(p->c, &p->large, a->label) > length - p->small.size)
+        if (canvas_text_width(p->c, &p->font.large, a->label) > length - p->font.small.size)
             widest = widest_number(p); /* it extends downwards beside a mark of the floor */
-        canvas_text_upwards(p->c, &p->large, x0 - widest - 26 * u, 0.5 * (y0 + y1), a->label);
+        canvas_text_upwards(p->c, &p->font.large, x0 - widest - 26 * u, 0.5 * (y0 + y1), a->label);
     } else {
-        double far = 24 * u + fabs(side->out[0]) * widest + fabs(side->out[1]) * p->small.size;
+        double far = 24 * u + fabs(side->out[0]) * widest + fabs(side->out[1]) * p->font.small.size;
         double part = 0.5 - 0.5 * fmin(fmax(1.6 * side->out[0], -1), 1);
 
-        canvas_text(p->c, &p->large, 0.5 * (x0 + x1) + far * side->out[0],
-                    0.5 * (y0 + y1) + far * side->out[1] + 0.8 * p->large.size * side->out[1], part,
-                    a->label);
+        canvas_text(p->c, &p->font.large, 0.5 * (x0 + x1) + far * side->out[0],
+                    0.5 * (y0 + y1) + far * side->out[1] + 0.8 * p->font.large.size * side->out[1],
+                    part, a->label);
     }
 }
 
@@ -523,7 +523,7 @@ static double
 below_box(const struct scene *s)
 {
     const struct page *p = s->page;
-    double below = 18 * p->u + 1.3 * p->small.size, bottom = (p->plot.y + p->plot.h);
+    double below = 18 * p->u + 1.3 * p->font.small.size, bottom = (p->plot.y + p->plot.h);
     struct side side[3];
 
     set_sides(s, side);
@@ -533,7 +533,7 @@ below_box(const struct scene *s)
         project(s, side[k].a, &x[0], &y[0]);
         project(s, side[k].b, &x[1], &y[1]);
         below = fmax(below, 0.5 * (y[0] + y[1]) - bottom + 30 * p->u +
-                                side[k].out[1] * (p->small.size + 1.2 * p->large.size));
+                                side[k].out[1] * (p->font.small.size + 1.2 * p->font.large.size));
     }
     return below;
 }
@@ -571,9 +571,10 @@ lay_out(struct page *p, struct rc_err *err)
 
     p->plot.w = p->plot.h = floor(600 * u);
     page_measure(p);
-    p->left_w = 24 * u + 1.4 * p->large.size + widest_number(p) + 40 * u;
-    p->right_w = 110 * u + 28 * u + 14 * u + p->values.widest + 1.8 * p->large.size + 24 * u;
-    s->scale = ((double)p->w - p->left_w - p->right_w) / box.w;
+    p->space.left = 24 * u + 1.4 * p->font.large.size + widest_number(p) + 40 * u;
+    p->space.right =
+        110 * u + 28 * u + 14 * u + p->values.widest + 1.8 * p->font.large.size + 24 * u;
+    s->scale = ((double)p->w - p->space.left - p->space.right) / box.w;
     if (s->scale * box.w < least * u)
         return rc_err_set(err,
                           "on a page of %zu pixels with text of that size there is no room for a "
@@ -584,7 +585,7 @@ lay_out(struct page *p, struct rc_err *err)
     s->oy = -s->scale * box.y;
     page_measure(p); /* the bar is as high as the box */
     figure_legend(p);
-    page_settle(p, p->left_w, 22 * u, below_box(s));
+    page_settle(p, p->space.left, 22 * u, below_box(s));
     s->ox += p->plot.x;
     s->oy += p->plot.y;
     return RC_OK;

@@ -39,19 +39,35 @@ static const char *const helper_name[HELPERS] = {
     "nx",        "ny",   "dx",          "dy",       "estar", "radius", "rms_slope",
     "converged", "case", "indentation", "approach", "jumps", "source", "load"};
 
-struct curves {
-    struct tool *tool;
-    const struct curve_style *style;
+/* The columns of the command line. */
+struct choice {
     char *names;                 /* the argument, divided into words */
     const char *column[COLUMNS]; /* the first is x               */
     size_t columns;              /* x and y                      */
     char *by_names, *error_names;
     const char *by[GROUP_COLUMNS], *error[COLUMNS];
     size_t bys, errors;
-    size_t asked;        /* all of the requested columns; those above follow them */
+    size_t asked; /* all of the requested columns; those above follow them */
+};
+
+/* Points that are means of rows. */
+struct averages {
+    double *own[SERIES];
+    size_t n, fewest, most; /* rows in such a point */
+};
+
+struct law_line {
+    struct law_given given;
+    double x[SAMPLES], y[SAMPLES];
+};
+
+struct curves {
+    struct tool *tool;
+    const struct curve_style *style;
+    struct choice choice;
     struct table *table; /* one a file                   */
     size_t tables;
-    struct law_given given;
+    struct law_line law;
     bool short_of;           /* a row is not converged */
     bool zigzag;             /* a warning about a line that turns back was printed */
     bool history;            /* approaches count from the first touch of the initial shape */
@@ -59,9 +75,7 @@ struct curves {
     size_t words;
     struct graph_series series[SERIES];
     char name[SERIES][NAME], legend[SERIES * NAME], note[NAME];
-    double *own[SERIES];    /* points that are means */
-    size_t n, fewest, most; /* rows in such a point */
-    double law_x[SAMPLES], law_y[SAMPLES];
+    struct averages means;
     char title[NAME], axis[NAME];
 };
 
@@ -97,11 +111,11 @@ begin_small(char *title)
 }
 
 static const char *
-title_of(const struct curves *c, size_t k)
+title_of(const struct choice *choice, bool history, size_t k)
 {
-    const char *name = c->column[k];
+    const char *name = choice->column[k];
 
-    if (c->history && strcmp(name, helper_name[APPROACH]) == 0)
+    if (history && strcmp(name, helper_name[APPROACH]) == 0)
         name = helper_name[INDENTATION];
     return figure_of(name) == NULL ? name : figure_of(name)->title;
 }
@@ -147,14 +161,14 @@ curve_log(const struct curve_style *s, char axis)
 
 /* Divides a list at its commas into names, after the n names of `word`. text: the argument of the option. */
 static void
-split_list(struct curves *c, const char *option, const char *text, const char *must, char *list,
+split_list(struct tool *tool, const char *option, const char *text, const char *must, char *list,
            const char **word, size_t most, size_t *n)
 {
     for (char *s = list, *comma; s != NULL; s = comma) {
         if ((comma = strchr(s, ',')) != NULL)
             *comma++ = '\0';
         if (*s == '\0' || *n == most)
-            tool_usage(c->tool, "--%s %s: it must be %s, %zu at most", option, text, must, most);
+            tool_usage(tool, "--%s %s: it must be %s, %zu at most", option, text, must, most);
         word[(*n)++] = s;
     }
 }
@@ -165,12 +179,14 @@ split_names(struct curves *c, const char *columns)
     static const char must[] = "X:Y or X:Y,Y,..., names of columns";
     char *colon;
 
-    c->names = tool_copy(c->tool, columns);
-    if ((colon = strchr(c->names, ':')) == NULL || colon == c->names || strchr(colon + 1, ':'))
+    c->choice.names = tool_copy(c->tool, columns);
+    if ((colon = strchr(c->choice.names, ':')) == NULL || colon == c->choice.names ||
+        strchr(colon + 1, ':'))
         tool_usage(c->tool, "--curve %s: it must be %s", columns, must);
     *colon = '\0';
-    c->column[c->columns++] = c->names;
-    split_list(c, "curve", columns, must, colon + 1, c->column, COLUMNS, &c->columns);
+    c->choice.column[c->choice.columns++] = c->choice.names;
+    split_list(c->tool, "curve", columns, must, colon + 1, c->choice.column, COLUMNS,
+               &c->choice.columns);
 }
 
 static void
@@ -179,29 +195,31 @@ split_options(struct curves *c)
     const struct curve_style *s = c->style;
 
     if (s->by != NULL)
-        split_list(c, "by", s->by, "names of columns", c->by_names = tool_copy(c->tool, s->by),
-                   c->by, GROUP_COLUMNS, &c->bys);
+        split_list(c->tool, "by", s->by, "names of columns",
+                   c->choice.by_names = tool_copy(c->tool, s->by), c->choice.by, GROUP_COLUMNS,
+                   &c->choice.bys);
     if (s->error != NULL)
-        split_list(c, "error", s->error, "names of columns",
-                   c->error_names = tool_copy(c->tool, s->error), c->error, COLUMNS, &c->errors);
-    if (c->errors > 0 && c->errors != c->columns - 1)
+        split_list(c->tool, "error", s->error, "names of columns",
+                   c->choice.error_names = tool_copy(c->tool, s->error), c->choice.error, COLUMNS,
+                   &c->choice.errors);
+    if (c->choice.errors > 0 && c->choice.errors != c->choice.columns - 1)
         tool_usage(c->tool, "--error %s: it must be one column for each of --curve", s->error);
-    c->asked = c->columns + c->bys + c->errors;
+    c->choice.asked = c->choice.columns + c->choice.bys + c->choice.errors;
 }
 
 static const char *
-asked_name(const struct curves *c, size_t k)
+asked_name(const struct choice *choice, size_t k)
 {
-    return k < c->columns            ? c->column[k]
-           : k < c->columns + c->bys ? c->by[k - c->columns]
-                                     : c->error[k - c->columns - c->bys];
+    return k < choice->columns                 ? choice->column[k]
+           : k < choice->columns + choice->bys ? choice->by[k - choice->columns]
+                                               : choice->error[k - choice->columns - choice->bys];
 }
 
 static bool
-is_label(const struct curves *c, size_t k)
+is_label(const struct choice *choice, size_t k)
 {
-    return (k >= c->columns && k < c->columns + c->bys) || k == c->asked + SOURCE ||
-           k == c->asked + LOAD;
+    return (k >= choice->columns && k < choice->columns + choice->bys) ||
+           k == choice->asked + SOURCE || k == choice->asked + LOAD;
 }
 
 static void
@@ -213,13 +231,14 @@ read_tables(struct curves *c)
     for (size_t f = 0; f < files; f++) {
         struct table *table = &c->table[c->tables++];
 
-        table->columns = c->asked + HELPERS;
+        table->columns = c->choice.asked + HELPERS;
         table->column = tool_room(c->tool, table->columns, sizeof *table->column, "a table");
         for (size_t k = 0; k < table->columns; k++) {
-            table->column[k].optional = k >= c->asked;
+            table->column[k].optional = k >= c->choice.asked;
             table->column[k].either = k == 0;
-            table->column[k].label = is_label(c, k);
-            table->column[k].name = k < c->asked ? asked_name(c, k) : helper_name[k - c->asked];
+            table->column[k].label = is_label(&c->choice, k);
+            table->column[k].name =
+                k < c->choice.asked ? asked_name(&c->choice, k) : helper_name[k - c->choice.asked];
         }
         table_read(table, c->tool, c->tool->operands == 0 ? "-" : c->tool->operand[f]);
     }
@@ -228,7 +247,7 @@ read_tables(struct curves *c)
 static const double *
 helper(const struct curves *c, const struct table *table, enum helper which)
 {
-    return table->column[c->asked + which].v;
+    return table->column[c->choice.asked + which].v;
 }
 
 /* In a history each approach counts from the current shape; in a curve over these approaches work would seem
@@ -242,8 +261,8 @@ count_from_one_shape(struct curves *c, struct table *table)
     for (size_t k = 0; k < table->rows; k++)
         history = history || isfinite(from_first[k]);
     c->history = c->history || history;
-    for (size_t k = 0; k < c->columns && history; k++)
-        if (strcmp(c->column[k], helper_name[APPROACH]) == 0)
+    for (size_t k = 0; k < c->choice.columns && history; k++)
+        if (strcmp(c->choice.column[k], helper_name[APPROACH]) == 0)
             memcpy(table->column[k].v, from_first, table->rows * sizeof *from_first);
 }
 
@@ -252,14 +271,14 @@ static void
 check_units(struct curves *c)
 {
     for (size_t f = 0; f < c->tables; f++)
-        for (size_t k = 0; k < c->columns; k++) {
+        for (size_t k = 0; k < c->choice.columns; k++) {
             const char *here = unit_of(&c->table[f], k);
             size_t first = k == 0 ? 0 : 1;
 
             if (strcmp(here, unit_of(c->table, first)) != 0)
                 tool_die(c->tool,
                          "%s: %s is in %s, %s in %s: an axis has one unit: draw two pictures",
-                         c->table[f].source, c->column[k], here, c->column[first],
+                         c->table[f].source, c->choice.column[k], here, c->choice.column[first],
                          unit_of(c->table, first));
         }
 }
@@ -293,9 +312,9 @@ word_of(const struct table *table, size_t column, size_t row)
 /* True if rows of a table come from several sources with several rows each: a line through all of them would
  * have no meaning. */
 static bool
-has_sources(const struct curves *c, const struct table *table)
+has_sources(size_t asked, const struct table *table)
 {
-    const struct column *source = &table->column[c->asked + SOURCE];
+    const struct column *source = &table->column[asked + SOURCE];
     size_t rows[SERIES] = {0};
 
     if (table->pieces > 1 || source->word_count < 2 || source->word_count >= SERIES)
@@ -314,11 +333,12 @@ has_sources(const struct curves *c, const struct table *table)
 static void
 group_rows(struct curves *c, struct table *table)
 {
-    const size_t by[GROUP_COLUMNS] = {c->columns, c->columns + 1}, source = c->asked + SOURCE;
+    const size_t by[GROUP_COLUMNS] = {c->choice.columns, c->choice.columns + 1},
+                 source = c->choice.asked + SOURCE;
 
-    if (c->bys > 0 || c->style->spread)
-        groups_sort(table, c->tool, by, c->bys, !c->style->spread);
-    else if (has_sources(c, table))
+    if (c->choice.bys > 0 || c->style->spread)
+        groups_sort(table, c->tool, by, c->choice.bys, !c->style->spread);
+    else if (has_sources(c->choice.asked, table))
         groups_sort(table, c->tool, &source, 1, true);
 }
 
@@ -368,13 +388,13 @@ say_piece(const struct curves *c, const struct table *table, size_t p, char text
     char word[NAME];
 
     *text = '\0';
-    for (size_t b = 0; b < c->bys; b++) {
-        say_label(table, c->columns + b, row, word);
+    for (size_t b = 0; b < c->choice.bys; b++) {
+        say_label(table, c->choice.columns + b, row, word);
         add_word(text, word);
     }
     for (size_t h = SOURCE; *text == '\0' && h <= LOAD; h++)
-        if (tells_pieces(table, c->asked + h))
-            say_label(table, c->asked + h, row, text);
+        if (tells_pieces(table, c->choice.asked + h))
+            say_label(table, c->choice.asked + h, row, text);
     if (*text == '\0')
         snprintf(text, NAME, "%s %.0f", isnan(number) ? "curve" : "case",
                  isnan(number) ? (double)p + 1 : number);
@@ -440,13 +460,13 @@ take_words(struct curves *c)
 static struct graph_series *
 new_series(struct curves *c)
 {
-    if (c->n == SERIES)
+    if (c->means.n == SERIES)
         tool_die(c->tool,
                  "more than %d curves in one picture: name fewer columns "
                  "or files, or a --by of fewer values",
                  SERIES - 1);
-    c->series[c->n].place = c->n;
-    return &c->series[c->n++];
+    c->series[c->means.n].place = c->means.n;
+    return &c->series[c->means.n++];
 }
 
 enum stretch {
@@ -512,9 +532,9 @@ add_stretches(struct curves *c, const double *x, const double *y, const double *
         return;
     }
     s = new_series(c);
-    c->own[c->n - 1] = v;
-    snprintf(c->name[c->n - 1], NAME, "%s", name);
-    s->name = c->name[c->n - 1];
+    c->means.own[c->means.n - 1] = v;
+    snprintf(c->name[c->means.n - 1], NAME, "%s", name);
+    s->name = c->name[c->means.n - 1];
     s->kind = what == JUMP ? GRAPH_LAW : GRAPH_MARKS;
     s->x = v;
     s->y = v + 2 * rows;
@@ -528,11 +548,12 @@ is_path(struct curves *c, const struct table *table, size_t from, size_t to)
     bool unloads = false;
     enum stretch *step;
 
-    if (c->style->spread || c->style->points || c->errors > 0 || c->words > 0 || to - from < 2)
+    if (c->style->spread || c->style->points || c->choice.errors > 0 || c->words > 0 ||
+        to - from < 2)
         return false;
     if (isfinite(helper(c, table, JUMPS)[from]))
         return true;
-    if (!isfinite(helper(c, table, INDENTATION)[from]) || c->bys == GROUP_COLUMNS)
+    if (!isfinite(helper(c, table, INDENTATION)[from]) || c->choice.bys == GROUP_COLUMNS)
         return false;
     step = find_steps(c, table, from, to);
     for (size_t k = 1; k < to - from; k++)
@@ -575,22 +596,22 @@ set_points(struct curves *c, const struct table *table, size_t k, size_t from, s
     s->n = to - from;
     if (c->style->spread) {
         spread_take(&spread, c->tool, x, y, s->n);
-        c->own[c->n - 1] = spread.x;
-        c->fewest = spread.least < c->fewest ? spread.least : c->fewest;
-        c->most = spread.most > c->most ? spread.most : c->most;
+        c->means.own[c->means.n - 1] = spread.x;
+        c->means.fewest = spread.least < c->means.fewest ? spread.least : c->means.fewest;
+        c->means.most = spread.most > c->means.most ? spread.most : c->means.most;
         s->x = spread.x;
         s->y = spread.y;
         s->low = spread.low;
         s->high = spread.high;
         s->n = spread.n;
-    } else if (c->errors > 0) {
-        error = table->column[c->columns + c->bys + k - 1].v + from;
+    } else if (c->choice.errors > 0) {
+        error = table->column[c->choice.columns + c->choice.bys + k - 1].v + from;
         bars = tool_room(c->tool, 2 * s->n, sizeof *bars, "error bars");
         for (size_t i = 0; i < s->n; i++) {
             bars[i] = y[i] - fabs(error[i]);
             bars[s->n + i] = y[i] + fabs(error[i]);
         }
-        c->own[c->n - 1] = bars;
+        c->means.own[c->means.n - 1] = bars;
         s->low = bars;
         s->high = bars + s->n;
     }
@@ -620,7 +641,7 @@ warn_of_zigzag(struct curves *c, const struct table *table, size_t from, size_t 
         tool_warn(c->tool,
                   "%s: the line turns back %zu times along %s: --spread makes a point of rows that "
                   "share it, --by COLUMN a curve of each group, --points leaves out the line",
-                  table->source, turns, c->column[0]);
+                  table->source, turns, c->choice.column[0]);
 }
 
 static void
@@ -632,9 +653,9 @@ add_curve(struct curves *c, const struct table *table, size_t k, size_t p)
 
     if (c->tables > 1)
         add_word(name, base_name(table->source));
-    if (c->columns > 2)
-        add_word(name, title_of(c, k));
-    if (table->pieces > 1 || c->bys > 0) {
+    if (c->choice.columns > 2)
+        add_word(name, title_of(&c->choice, c->history, k));
+    if (table->pieces > 1 || c->choice.bys > 0) {
         say_piece(c, table, p, text);
         add_word(name, text);
     }
@@ -646,12 +667,13 @@ add_curve(struct curves *c, const struct table *table, size_t k, size_t p)
     }
     warn_of_zigzag(c, table, from, to);
     s = new_series(c);
-    memcpy(c->name[c->n - 1], name, NAME);
-    s->name = *name == '\0' ? NULL : c->name[c->n - 1];
+    memcpy(c->name[c->means.n - 1], name, NAME);
+    s->name = *name == '\0' ? NULL : c->name[c->means.n - 1];
     s->kind = c->style->points || c->words > 0 ? GRAPH_POINTS : GRAPH_MARKS;
-    if (c->bys == GROUP_COLUMNS) {
-        s->place = word_number(c, c->columns, word_of(table, c->columns, from));
-        s->mark = 1 + word_number(c, c->columns + 1, word_of(table, c->columns + 1, from));
+    if (c->choice.bys == GROUP_COLUMNS) {
+        s->place = word_number(c, c->choice.columns, word_of(table, c->choice.columns, from));
+        s->mark =
+            1 + word_number(c, c->choice.columns + 1, word_of(table, c->choice.columns + 1, from));
     }
     set_points(c, table, k, from, to, s);
 }
@@ -659,7 +681,7 @@ add_curve(struct curves *c, const struct table *table, size_t k, size_t p)
 static void
 add_curves(struct curves *c, const struct table *table)
 {
-    for (size_t k = 1; k < c->columns; k++)
+    for (size_t k = 1; k < c->choice.columns; k++)
         for (size_t p = 0; p < table->pieces; p++)
             add_curve(c, table, k, p);
 }
@@ -670,17 +692,17 @@ say_bars(struct curves *c)
 {
     char rows[64];
 
-    if (c->style->spread && c->most > 1) {
-        snprintf(rows, sizeof rows, c->fewest == c->most ? "%zu" : "%zu to %zu", c->fewest,
-                 c->most);
+    if (c->style->spread && c->means.most > 1) {
+        snprintf(rows, sizeof rows, c->means.fewest == c->means.most ? "%zu" : "%zu to %zu",
+                 c->means.fewest, c->means.most);
         snprintf(c->note, NAME,
                  "means of the rows that share %.80s (%s each) · bars: their standard deviation",
-                 c->column[0], rows);
+                 c->choice.column[0], rows);
     }
-    for (size_t k = 0; k < c->errors; k++) {
+    for (size_t k = 0; k < c->choice.errors; k++) {
         size_t n = strlen(c->note);
 
-        snprintf(c->note + n, NAME - n, "%s%.60s", n == 0 ? "bars: ± " : ", ", c->error[k]);
+        snprintf(c->note + n, NAME - n, "%s%.60s", n == 0 ? "bars: ± " : ", ", c->choice.error[k]);
     }
 }
 
@@ -734,13 +756,13 @@ settle_given(struct curves *c)
 {
     const char *law = c->style->law, *lacks;
 
-    c->given = c->style->given;
-    c->given.estar = given_in_tables(c, ESTAR, c->given.estar);
-    c->given.radius = given_in_tables(c, RADIUS, c->given.radius);
+    c->law.given = c->style->given;
+    c->law.given.estar = given_in_tables(c, ESTAR, c->law.given.estar);
+    c->law.given.radius = given_in_tables(c, RADIUS, c->law.given.radius);
     if (strcmp(law, "persson") == 0)
-        c->given.rms_slope = given_in_tables(c, SLOPE, c->given.rms_slope);
-    c->given.area = area_in_tables(c);
-    if ((lacks = law_lacks(law, &c->given)) != NULL)
+        c->law.given.rms_slope = given_in_tables(c, SLOPE, c->law.given.rms_slope);
+    c->law.given.area = area_in_tables(c);
+    if ((lacks = law_lacks(law, &c->law.given)) != NULL)
         tool_usage(c->tool, "--law %s needs %s: give it", law, lacks);
 }
 
@@ -748,16 +770,17 @@ settle_given(struct curves *c)
 static void
 add_law(struct curves *c)
 {
-    const char *law = c->style->law, *x = last_part(c->column[0]), *y = last_part(c->column[1]);
+    const char *law = c->style->law, *x = last_part(c->choice.column[0]),
+               *y = last_part(c->choice.column[1]);
     bool log = curve_log(c->style, 'x');
     double lo = INFINITY, hi = -INFINITY;
     struct graph_series *s;
 
-    if (c->columns > 2 || !law_knows(law, x, y))
+    if (c->choice.columns > 2 || !law_knows(law, x, y))
         tool_usage(c->tool, "--law %s relates %s%s, which --curve does not draw", law,
-                   law_named(law)->says, c->columns > 2 ? ", one at a time" : "");
+                   law_named(law)->says, c->choice.columns > 2 ? ", one at a time" : "");
     settle_given(c);
-    if (law_needs_area(law, &c->given, x, y) && isnan(c->given.area))
+    if (law_needs_area(law, &c->law.given, x, y) && isnan(c->law.given.area))
         tool_die(c->tool,
                  "--law %s: for %s over %s it needs the area of the map, the columns nx, ny, dx "
                  "and dy",
@@ -776,14 +799,14 @@ add_law(struct curves *c)
     for (int k = 0; k < SAMPLES; k++) {
         double t = (double)k / (SAMPLES - 1);
 
-        c->law_x[k] = log ? lo * pow(hi / lo, t) : lo + t * (hi - lo);
-        c->law_y[k] = law_value(law, &c->given, x, c->law_x[k], y);
+        c->law.x[k] = log ? lo * pow(hi / lo, t) : lo + t * (hi - lo);
+        c->law.y[k] = law_value(law, &c->law.given, x, c->law.x[k], y);
     }
     s = new_series(c);
     *s = (struct graph_series){.name = law_named(law)->title,
                                .kind = GRAPH_LAW,
-                               .x = c->law_x,
-                               .y = c->law_y,
+                               .x = c->law.x,
+                               .y = c->law.y,
                                .n = SAMPLES};
 }
 
@@ -794,39 +817,39 @@ describe(struct curves *c)
 {
     char *x = c->title;
 
-    for (size_t k = 1; k < c->columns; k++) {
+    for (size_t k = 1; k < c->choice.columns; k++) {
         size_t n = strlen(c->axis);
 
-        add_word(c->axis, title_of(c, k));
-        if (k > 1 && figure_of(c->column[k]) != NULL)
+        add_word(c->axis, title_of(&c->choice, c->history, k));
+        if (k > 1 && figure_of(c->choice.column[k]) != NULL)
             begin_small(c->axis + n + 2);
     }
     snprintf(c->title, NAME, "%.150s against ", c->axis);
     x += strlen(x);
-    snprintf(x, NAME - (size_t)(x - c->title), "%.90s", title_of(c, 0));
-    if (figure_of(c->column[0]) != NULL)
+    snprintf(x, NAME - (size_t)(x - c->title), "%.90s", title_of(&c->choice, c->history, 0));
+    if (figure_of(c->choice.column[0]) != NULL)
         begin_small(x);
 }
 
 static struct canvas *
 draw(struct curves *c, struct drawn *drawn)
 {
-    const char *y = last_part(c->column[1]);
+    const char *y = last_part(c->choice.column[1]);
     bool flow = strncmp(y, "flow_", 5) == 0 || strncmp(y, "critical_", 9) == 0;
     struct graph graph = {
         .paper = wording_paper(c->style, c->title, drawn->source, drawn),
-        .x = {title_of(c, 0), unit_of(c->table, 0), curve_log(c->style, 'x'), NAN, NAN, NULL,
-              c->word, c->words},
+        .x = {title_of(&c->choice, c->history, 0), unit_of(c->table, 0), curve_log(c->style, 'x'),
+              NAN, NAN, NULL, c->word, c->words},
         .y = {c->axis, unit_of(c->table, 1), curve_log(c->style, 'y'), NAN, NAN},
         .zero = flow ? "sealed (no flow)" : NULL,
         .series = c->series,
-        .n = c->n,
+        .n = c->means.n,
         .note = *c->note == '\0' ? NULL : c->note,
     };
 
     wording_axis(c->tool, c->style, 'x', &graph.x);
     wording_axis(c->tool, c->style, 'y', &graph.y);
-    wording_legend(c->tool, c->style, c->series, c->n, c->legend, sizeof c->legend);
+    wording_legend(c->tool, c->style, c->series, c->means.n, c->legend, sizeof c->legend);
     return tool_made(c->tool, NULL, graph_draw(&graph, &c->tool->err));
 }
 
@@ -838,11 +861,11 @@ curves_free(struct curves *c)
         free(c->table[f].column);
     }
     free(c->table);
-    for (size_t k = 0; k < c->n; k++)
-        free(c->own[k]);
-    free(c->names);
-    free(c->by_names);
-    free(c->error_names);
+    for (size_t k = 0; k < c->means.n; k++)
+        free(c->means.own[k]);
+    free(c->choice.names);
+    free(c->choice.by_names);
+    free(c->choice.error_names);
     free(c);
 }
 
@@ -856,7 +879,7 @@ curves_draw(struct tool *t, const char *columns, const struct curve_style *style
     t->remedy = "give fewer rows";
     c->tool = t;
     c->style = style;
-    c->fewest = SIZE_MAX;
+    c->means.fewest = SIZE_MAX;
     split_names(c, columns);
     split_options(c);
     read_tables(c);
