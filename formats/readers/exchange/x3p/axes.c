@@ -23,8 +23,8 @@ static enum rc_status
 find_step(const struct rc_x3p *x, struct points *p, bool is_x, double *step, bool *falls,
           struct rc_err *err)
 {
-    size_t n = is_x ? x->nx : x->ny, apart = is_x ? 1 : x->nx, skip = is_x ? 0 : x->before_y;
-    enum rc_raw raw = is_x ? x->raw_x : x->raw_y;
+    size_t n = is_x ? x->nx : x->ny, apart = is_x ? 1 : x->nx, skip = is_x ? 0 : x->at.before_y;
+    enum rc_raw raw = is_x ? x->at.raw_x : x->at.raw_y;
     RC_OWNED double *place = malloc(n * sizeof *place);
     double first, even;
 
@@ -60,7 +60,7 @@ take_heights(const struct rc_x3p *x, struct points *p, bool x_falls, bool y_fall
 
         i = x_falls ? x->nx - 1 - i : i;
         j = y_falls ? x->ny - 1 - j : j;
-        v[j * x->nx + i] = place_of(p, k, x->before_z, x->raw);
+        v[j * x->nx + i] = place_of(p, k, x->at.before_z, x->raw);
     }
 }
 
@@ -68,8 +68,8 @@ enum rc_status
 rc_x3p_axes(struct rc_x3p *x, const struct rc_file *file, double *v, struct rc_notes *notes,
             struct rc_err *err)
 {
-    size_t member, size = x->n * (x->before_z + rc_raw_width(x->raw));
-    struct points p = {.stride = x->before_z + rc_raw_width(x->raw)};
+    size_t member, size = x->n * (x->at.before_z + rc_raw_width(x->raw));
+    struct points p = {.stride = x->at.before_z + rc_raw_width(x->raw)};
     bool x_falls = false, y_falls = false;
     RC_OWNED unsigned char *data = NULL;
     double step;
@@ -78,17 +78,17 @@ rc_x3p_axes(struct rc_x3p *x, const struct rc_file *file, double *v, struct rc_n
         (data = rc_x3p_unpack_points(x, member, size, notes, err)) == NULL)
         return RC_FAIL;
     p.b = (struct rc_bytes){.data = data, .size = size};
-    if (x->absolute_x) {
+    if (x->at.absolute_x) {
         if (find_step(x, &p, true, &step, &x_falls, err) != RC_OK)
             return RC_FAIL;
-        x->dx = step * fabs(x->x_increment);
-        x_falls = x_falls != (x->x_increment < 0);
+        x->dx = step * fabs(x->at.x_increment);
+        x_falls = x_falls != (x->at.x_increment < 0);
     }
-    if (x->absolute_y) {
+    if (x->at.absolute_y) {
         if (find_step(x, &p, false, &step, &y_falls, err) != RC_OK)
             return RC_FAIL;
-        x->dy = step * fabs(x->y_increment);
-        y_falls = y_falls != (x->y_increment < 0);
+        x->dy = step * fabs(x->at.y_increment);
+        y_falls = y_falls != (x->at.y_increment < 0);
     }
     if (v != NULL)
         take_heights(x, &p, x_falls, y_falls, v);

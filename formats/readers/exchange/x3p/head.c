@@ -80,17 +80,17 @@ real(const char *name, const char *text, double otherwise, double *value, struct
 
 /* Makes memory in the list for n numbers, which never exceeds the bytes of the source. */
 static enum rc_status
-grow(struct rc_x3p *x, size_t n, struct rc_err *err)
+grow(struct rc_x3p_list *list, size_t n, struct rc_err *err)
 {
-    size_t capacity = x->capacity == 0 ? 1024 : 2 * x->capacity;
+    size_t capacity = list->capacity == 0 ? 1024 : 2 * list->capacity;
     double *more;
 
-    if (n <= x->capacity)
+    if (n <= list->capacity)
         return RC_OK;
-    if ((more = realloc(x->list, capacity * sizeof *more)) == NULL)
+    if ((more = realloc(list->value, capacity * sizeof *more)) == NULL)
         return rc_err_set(err, "out of memory for %zu heights", capacity);
-    x->list = more;
-    x->capacity = capacity;
+    list->value = more;
+    list->capacity = capacity;
     return RC_OK;
 }
 
@@ -102,9 +102,9 @@ is(const char *text, const char *word)
 
 /* A profile with a position for each point; the axes precede the data. */
 static bool
-is_absolute(const struct rc_x3p *x)
+is_absolute(char *const *text)
 {
-    return is(x->text[RC_X3P_FEATURE], "PRF") && is(x->text[RC_X3P_CX_AXIS], "A");
+    return is(text[RC_X3P_FEATURE], "PRF") && is(text[RC_X3P_CX_AXIS], "A");
 }
 
 static enum rc_status
@@ -131,15 +131,16 @@ judge_feature(struct rc_x3p *x, struct rc_err *err)
     if (!x->profile && strcmp(feature, "SUR") != 0)
         return rc_err_set(err, "FeatureType is '%s': it must be SUR or PRF",
                           rc_word_shown(feature));
-    x->absolute = is_absolute(x);
+    x->at.absolute = is_absolute(x->text);
     x->binary = x->text[RC_X3P_POINTS] != NULL && *x->text[RC_X3P_POINTS] != '\0';
     if (!x->profile && x->binary) {
-        x->absolute_x = is(x->text[RC_X3P_CX_AXIS], "A");
-        x->absolute_y = is(x->text[RC_X3P_CY_AXIS], "A");
+        x->at.absolute_x = is(x->text[RC_X3P_CX_AXIS], "A");
+        x->at.absolute_y = is(x->text[RC_X3P_CY_AXIS], "A");
     }
-    if (!x->absolute && !x->absolute_x && judge_axis("CX", x->text[RC_X3P_CX_AXIS], err) != RC_OK)
+    if (!x->at.absolute && !x->at.absolute_x &&
+        judge_axis("CX", x->text[RC_X3P_CX_AXIS], err) != RC_OK)
         return RC_FAIL;
-    return x->profile || x->absolute_y ? RC_OK : judge_axis("CY", x->text[RC_X3P_CY_AXIS], err);
+    return x->profile || x->at.absolute_y ? RC_OK : judge_axis("CY", x->text[RC_X3P_CY_AXIS], err);
 }
 
 /* "x;z", or "x;y;z" where y is absolute too; z may be missing, x may not. */
@@ -159,13 +160,13 @@ take_point(struct rc_x3p *x, const char *text, struct rc_err *err)
         end++;
     }
     if (end == NULL || *end != '\0' || k != n || !isfinite(value[0]))
-        return rc_err_set(err, "Datum %zu is '%s': %s are expected", x->listed + 1,
+        return rc_err_set(err, "Datum %zu is '%s': %s are expected", x->list.n + 1,
                           rc_word_shown(text), n == 3 ? "x;y;z" : "x;z");
-    if (grow(x, 2 * x->listed + 2, err) != RC_OK)
+    if (grow(&x->list, 2 * x->list.n + 2, err) != RC_OK)
         return RC_FAIL;
-    x->list[2 * x->listed] = value[0];
-    x->list[2 * x->listed + 1] = value[n - 1];
-    x->listed++;
+    x->list.value[2 * x->list.n] = value[0];
+    x->list.value[2 * x->list.n + 1] = value[n - 1];
+    x->list.n++;
     return RC_OK;
 }
 
@@ -175,32 +176,32 @@ take_datum(struct rc_x3p *x, const char *text, struct rc_err *err)
     double value = NAN; /* an empty one is a missing point */
     const char *end = *text == '\0' ? text : rc_number_read(text, true, &value);
 
-    if (x->listed == 0 && x->text[RC_X3P_FEATURE] != NULL && judge_feature(x, err) != RC_OK)
+    if (x->list.n == 0 && x->text[RC_X3P_FEATURE] != NULL && judge_feature(x, err) != RC_OK)
         return RC_FAIL; /* a clearer reason than that of a number */
-    if (is_absolute(x))
+    if (is_absolute(x->text))
         return take_point(x, text, err);
     if (end != NULL && *end == ';')
         return rc_err_set(
             err, "Datum %zu is '%s': lists with coordinates are not read, only matrices of heights",
-            x->listed + 1, rc_word_shown(text));
+            x->list.n + 1, rc_word_shown(text));
     if (end == NULL || *end != '\0')
-        return rc_err_set(err, "Datum %zu is '%s': that is not a number", x->listed + 1,
+        return rc_err_set(err, "Datum %zu is '%s': that is not a number", x->list.n + 1,
                           rc_word_shown(text));
-    if (grow(x, x->listed + 1, err) != RC_OK)
+    if (grow(&x->list, x->list.n + 1, err) != RC_OK)
         return RC_FAIL;
-    x->list[x->listed++] = value;
+    x->list.value[x->list.n++] = value;
     return RC_OK;
 }
 
 /* Elements r11 to r33 of the rotation matrix. */
 static enum rc_status
-take_rotation(struct rc_x3p *x, const char *name, const char *text, struct rc_err *err)
+take_rotation(bool *turned, const char *name, const char *text, struct rc_err *err)
 {
     double value;
 
     if (real("the rotation matrix", text, name[0] == name[1], &value, err) != RC_OK)
         return RC_FAIL;
-    x->turned = x->turned || fabs(value - (name[0] == name[1])) > 1e-9;
+    *turned = *turned || fabs(value - (name[0] == name[1])) > 1e-9;
     return RC_OK;
 }
 
@@ -226,7 +227,7 @@ take_element(void *arg, const char *path, const char *text, struct rc_err *err)
     if (strcmp(path, "Record3/DataList/Datum") == 0)
         return take_datum(x, text, err);
     if (strncmp(path, rotation, strlen(rotation)) == 0 && strlen(path) == strlen(rotation) + 2)
-        return take_rotation(x, path + strlen(rotation), text, err);
+        return take_rotation(&x->turned, path + strlen(rotation), text, err);
     for (size_t f = 0; f < RC_X3P_FIELDS; f++) {
         if (strcmp(path, fields[f].path) != 0)
             continue;
@@ -281,10 +282,11 @@ judge_scales(struct rc_x3p *x, struct rc_err *err)
         real("the increment of CY", x->text[RC_X3P_CY_INCREMENT], NAN, &x->dy, err) != RC_OK ||
         real("the increment of CZ", x->text[RC_X3P_CZ_INCREMENT], 1, &x->increment, err) != RC_OK ||
         real("the offset of CZ", x->text[RC_X3P_CZ_OFFSET], 0, &x->offset, err) != RC_OK ||
-        real("the increment of CX", x->text[RC_X3P_CX_INCREMENT], 1, &x->x_increment, err) !=
+        real("the increment of CX", x->text[RC_X3P_CX_INCREMENT], 1, &x->at.x_increment, err) !=
             RC_OK ||
-        real("the offset of CX", x->text[RC_X3P_CX_OFFSET], 0, &x->x_offset, err) != RC_OK ||
-        real("the increment of CY", x->text[RC_X3P_CY_INCREMENT], 1, &x->y_increment, err) != RC_OK)
+        real("the offset of CX", x->text[RC_X3P_CX_OFFSET], 0, &x->at.x_offset, err) != RC_OK ||
+        real("the increment of CY", x->text[RC_X3P_CY_INCREMENT], 1, &x->at.y_increment, err) !=
+            RC_OK)
         return RC_FAIL;
     if (x->increment == 0)
         return rc_err_set(err, "the increment of CZ is 0 in main.xml: all heights would be one");
@@ -315,16 +317,16 @@ judge_types(struct rc_x3p *x, struct rc_err *err)
 {
     if (judge_type("CZ", x->text[RC_X3P_CZ_TYPE], &x->raw, err) != RC_OK)
         return RC_FAIL;
-    if (x->absolute || x->absolute_x) {
-        if (judge_type("CX", x->text[RC_X3P_CX_TYPE], &x->raw_x, err) != RC_OK)
+    if (x->at.absolute || x->at.absolute_x) {
+        if (judge_type("CX", x->text[RC_X3P_CX_TYPE], &x->at.raw_x, err) != RC_OK)
             return RC_FAIL;
-        x->before_y = x->before_z = rc_raw_width(x->raw_x);
+        x->at.before_y = x->at.before_z = rc_raw_width(x->at.raw_x);
     }
-    if (!x->absolute_y && !(x->absolute && is(x->text[RC_X3P_CY_AXIS], "A")))
+    if (!x->at.absolute_y && !(x->at.absolute && is(x->text[RC_X3P_CY_AXIS], "A")))
         return RC_OK;
-    if (judge_type("CY", x->text[RC_X3P_CY_TYPE], &x->raw_y, err) != RC_OK)
+    if (judge_type("CY", x->text[RC_X3P_CY_TYPE], &x->at.raw_y, err) != RC_OK)
         return RC_FAIL;
-    x->before_z += rc_raw_width(x->raw_y);
+    x->at.before_z += rc_raw_width(x->at.raw_y);
     return RC_OK;
 }
 
@@ -334,9 +336,9 @@ judge(struct rc_x3p *x, struct rc_err *err)
     if (judge_feature(x, err) != RC_OK || judge_sizes(x, err) != RC_OK ||
         judge_scales(x, err) != RC_OK || judge_types(x, err) != RC_OK)
         return RC_FAIL;
-    if (!x->binary && x->listed != x->n)
+    if (!x->binary && x->list.n != x->n)
         return rc_err_set(err, "the header promises %zu x %zu heights, main.xml lists %zu", x->nx,
-                          x->ny, x->listed);
+                          x->ny, x->list.n);
     return RC_OK;
 }
 

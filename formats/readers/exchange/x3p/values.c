@@ -124,7 +124,7 @@ take_values(void *arg, const unsigned char *bytes, size_t n, struct rc_err *err)
 enum rc_status
 rc_x3p_find_points(struct rc_x3p *x, size_t *member, struct rc_err *err)
 {
-    uint64_t size, wanted = (uint64_t)x->n * (x->before_z + rc_raw_width(x->raw));
+    uint64_t size, wanted = (uint64_t)x->n * (x->at.before_z + rc_raw_width(x->raw));
 
     if (follow(x, x->text[RC_X3P_POINTS], member, err) != RC_OK ||
         rc_zip_read_size(x->archive, *member, &size, err) != RC_OK)
@@ -197,7 +197,7 @@ rc_x3p_unpack_points(struct rc_x3p *x, size_t member, size_t size, struct rc_not
 static enum rc_status
 read_profile(struct rc_x3p *x, double *xz, struct rc_notes *notes, struct rc_err *err)
 {
-    size_t member, size = x->n * (x->before_z + rc_raw_width(x->raw));
+    size_t member, size = x->n * (x->at.before_z + rc_raw_width(x->raw));
     struct rc_bytes bytes;
     RC_OWNED unsigned char *data = NULL;
 
@@ -206,9 +206,9 @@ read_profile(struct rc_x3p *x, double *xz, struct rc_notes *notes, struct rc_err
         return RC_FAIL;
     bytes = (struct rc_bytes){.data = data, .size = size};
     for (size_t k = 0; k < x->n; k++) {
-        bytes.at = k * (x->before_z + rc_raw_width(x->raw));
-        rc_bytes_values(&bytes, x->raw_x, &xz[2 * k], 1);
-        bytes.at = k * (x->before_z + rc_raw_width(x->raw)) + x->before_z;
+        bytes.at = k * (x->at.before_z + rc_raw_width(x->raw));
+        rc_bytes_values(&bytes, x->at.raw_x, &xz[2 * k], 1);
+        bytes.at = k * (x->at.before_z + rc_raw_width(x->raw)) + x->at.before_z;
         rc_bytes_values(&bytes, x->raw, &xz[2 * k + 1], 1);
     }
     return RC_OK;
@@ -226,19 +226,19 @@ rc_x3p_profile(struct rc_x3p *x, struct rc_notes *notes, struct rc_err *err)
     z = p + x->n;
     xz = p + 2 * x->n;
     if (!x->binary)
-        memcpy(xz, x->list, 2 * x->n * sizeof *xz);
+        memcpy(xz, x->list.value, 2 * x->n * sizeof *xz);
     else if (read_profile(x, xz, notes, err) != RC_OK)
         return NULL;
     for (size_t k = 0; k < x->n; k++)
         z[k] = xz[2 * k + 1];
     if (apply_mask(x, z, notes, err) != RC_OK)
         return NULL;
-    falls = x->n > 1 && (xz[2] - xz[0]) * x->x_increment < 0;
+    falls = x->n > 1 && (xz[2] - xz[0]) * x->at.x_increment < 0;
     for (size_t k = 0; k < x->n; k++) {
         size_t from = falls ? x->n - 1 - k : k;
 
         xz[2 * k + 1] = z[from] * x->increment + x->offset;
-        p[k] = xz[2 * from] * x->x_increment + x->x_offset;
+        p[k] = xz[2 * from] * x->at.x_increment + x->at.x_offset;
         if (!isfinite(p[k]) || (k > 0 && !(p[k] > p[k - 1])))
             return rc_err_null(err, "the positions change direction at point %zu", from + 1);
     }
@@ -252,9 +252,9 @@ rc_x3p_values(struct rc_x3p *x, const struct rc_file *file, size_t member, doubl
               struct rc_notes *notes, struct rc_err *err)
 {
     if (!x->binary)
-        memcpy(v, x->list, x->n * sizeof *v);
-    else if (x->absolute_x || x->absolute_y ? rc_x3p_axes(x, file, v, notes, err) != RC_OK
-                                            : read_points(x, member, v, notes, err) != RC_OK)
+        memcpy(v, x->list.value, x->n * sizeof *v);
+    else if (x->at.absolute_x || x->at.absolute_y ? rc_x3p_axes(x, file, v, notes, err) != RC_OK
+                                                  : read_points(x, member, v, notes, err) != RC_OK)
         return RC_FAIL;
     if (apply_mask(x, v, notes, err) != RC_OK)
         return RC_FAIL;

@@ -50,7 +50,7 @@ x3p_close(void *opened)
     struct rc_x3p *x = opened;
 
     rc_zip_read_free(x->archive);
-    free(x->list);
+    free(x->list.value);
     for (size_t f = 0; f < RC_X3P_FIELDS; f++)
         free(x->text[f]);
 }
@@ -127,8 +127,8 @@ fill_heights(const struct rc_file *file, const struct rc_map *map, double *v, st
                 "is read as if it were that");
     if (x->turned)
         rc_note(map->notes, "the file turns its axes by a rotation matrix: it is not applied");
-    return x->absolute ? lay_nodes(x, file, map->wish, v, map->notes, err)
-                       : rc_x3p_values(x, file, x->points, v, map->notes, err);
+    return x->at.absolute ? lay_nodes(x, file, map->wish, v, map->notes, err)
+                          : rc_x3p_values(x, file, x->points, v, map->notes, err);
 }
 
 static void
@@ -153,9 +153,9 @@ x3p_find(const struct rc_file *file, struct rc_maps *maps, struct rc_err *err)
     struct rc_x3p *x = rc_maps_open(maps, sizeof *x, x3p_close, err);
 
     if (x == NULL || x3p_open(x, file, err) != RC_OK ||
-        (x->absolute && lay_nodes(x, file, maps->wish, NULL, NULL, err) != RC_OK) ||
-        (!x->absolute && x->binary && rc_x3p_find_points(x, &x->points, err) != RC_OK) ||
-        ((x->absolute_x || x->absolute_y) && rc_x3p_axes(x, file, NULL, NULL, err) != RC_OK))
+        (x->at.absolute && lay_nodes(x, file, maps->wish, NULL, NULL, err) != RC_OK) ||
+        (!x->at.absolute && x->binary && rc_x3p_find_points(x, &x->points, err) != RC_OK) ||
+        ((x->at.absolute_x || x->at.absolute_y) && rc_x3p_axes(x, file, NULL, NULL, err) != RC_OK))
         return RC_FAIL;
     add_map(x, maps);
     return RC_OK;

@@ -36,6 +36,21 @@ enum rc_x3p_field {
     RC_X3P_FIELDS = RC_X3P_FIRST_KEY + 11
 };
 
+/* Where the numbers of a point are, and what they mean. */
+struct rc_x3p_points {
+    bool absolute;               /* a profile with a position for each point */
+    bool absolute_x, absolute_y; /* the same of a map                                      */
+    enum rc_raw raw_x, raw_y;    /* numbers of a point: x, y if that axis is absolute too, and z */
+    size_t before_y, before_z;   /* bytes of a point that come before y, before z            */
+    double x_increment, x_offset, y_increment;
+};
+
+/* Heights that were in main.xml; positions and heights by turns. */
+struct rc_x3p_list {
+    double *value;
+    size_t n, capacity;
+};
+
 struct rc_x3p {
     struct rc_zip_read *archive;
     size_t main, points;       /* members; points: where they are binary                       */
@@ -50,13 +65,8 @@ struct rc_x3p {
     size_t nx, ny, n; /* n = nx*ny                                                    */
     double dx, dy;    /* m, NAN when not given                                        */
     double increment, offset;
-    bool absolute;               /* a profile with a position for each point */
-    bool absolute_x, absolute_y; /* the same of a map                                      */
-    enum rc_raw raw_x, raw_y;    /* numbers of a point: x, y if that axis is absolute too, and z */
-    size_t before_y, before_z;   /* bytes of a point that come before y, before z            */
-    double x_increment, x_offset, y_increment;
-    double *list;            /* heights that were in main.xml; positions and heights by turns */
-    size_t listed, capacity; /* numbers in the list, and its capacity */
+    struct rc_x3p_points at;
+    struct rc_x3p_list list;
 };
 
 /* Reads and checks main.xml: RC_FAIL if the data is not a map on a regular grid. */
