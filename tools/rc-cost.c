@@ -249,29 +249,29 @@ do_case(struct costs *run, struct rc_grid *g, const struct rc_grid *hardness)
                           .heights = g,
                           .shape = rc_grid_shape(g),
                           .about = COST_PRESSURE,
-                          .periodic = args.physics.periodic,
-                          .leak = args.leak,
-                          .depths = stresses ? args.depths : NULL,
-                          .nu = number(args.nu, nu),
-                          .mu = args.mu == 0 ? NULL : number(args.mu, mu),
+                          .line.periodic = args.physics.periodic,
+                          .line.leak = args.leak,
+                          .line.depths = stresses ? args.depths : NULL,
+                          .line.nu = number(args.nu, nu),
+                          .line.mu = args.mu == 0 ? NULL : number(args.mu, mu),
                           .limit = args.limit,
                           .budget = args.budget,
                           .error = args.error,
                           .choosing = choosing(),
                           .shown = args.plot != NULL || args.report != NULL,
-                          .grid = {-1, -1, -1, -1}};
+                          .files.grid = {-1, -1, -1, -1}};
 
     if (++run->cases > 1 && (choosing() || args.plot != NULL))
         tool_refuse(&run->t, g, "%s is for one case: give one height map",
                     args.plot != NULL ? "a picture" : "a command");
     c.about |= (args.yield != NULL ? COST_YIELD : 0) | (args.adhesion != NULL ? COST_ADHESION : 0) |
                (args.leak != NULL ? COST_LEAK : 0) | (stresses ? COST_STRESS : 0);
-    c.words = tool_result_words(&run->t, c.word, COST_WORDS / 2);
+    c.line.words = tool_result_words(&run->t, c.line.word, COST_WORDS / 2);
     cost_trials(&c, args.kernels, args.methods);
-    c.grid[0] = write_map(run, g, hardness);
-    c.solution = cost_file(&run->t);
-    c.output = cost_file(&run->t);
-    if ((c.nowhere = open("/dev/null", O_WRONLY | O_CLOEXEC)) < 0)
+    c.files.grid[0] = write_map(run, g, hardness);
+    c.files.solution = cost_file(&run->t);
+    c.files.output = cost_file(&run->t);
+    if ((c.files.nowhere = open("/dev/null", O_WRONLY | O_CLOEXEC)) < 0)
         tool_die(&run->t, "/dev/null: %s", strerror(errno));
     plan(run, &c);
     if (!args.dry_run && tool_interrupted() == 0) {
@@ -279,12 +279,12 @@ do_case(struct costs *run, struct rc_grid *g, const struct rc_grid *hardness)
         cost_run_trials(&c);
         tell_results(run, &c);
     }
-    for (size_t k = 0; k < sizeof c.grid / sizeof *c.grid; k++)
-        if (c.grid[k] >= 0)
-            close(c.grid[k]);
-    close(c.solution);
-    close(c.output);
-    close(c.nowhere);
+    for (size_t k = 0; k < sizeof c.files.grid / sizeof *c.files.grid; k++)
+        if (c.files.grid[k] >= 0)
+            close(c.files.grid[k]);
+    close(c.files.solution);
+    close(c.files.output);
+    close(c.files.nowhere);
     free(c.pressure);
     free(c.solved);
     free(c.stressed);

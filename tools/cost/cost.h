@@ -77,16 +77,27 @@ enum {
     COST_WORDS = 192 /* most words of a command line */
 };
 
+/* The contact as options of rc-solve, and text of the command line, or NULL. */
+struct cost_line {
+    const char *word[COST_WORDS];
+    size_t words;
+    bool periodic;
+    const char *leak, *depths, *nu, *mu;
+};
+
+struct cost_files {
+    int grid[4]; /* the map, and the map with 1/2, 1/4, 1/8 of its nodes a side; -1: not made */
+    int solution, output; /* solution of the reference, output of the last trial */
+    int nowhere;          /* /dev/null */
+};
+
 struct cost_case {
     struct tool *tool;
     const struct rc_grid *heights;
     struct rc_shape shape;
     unsigned about;
-    const char *word[COST_WORDS]; /* the contact as options of rc-solve */
-    size_t words;
-    bool periodic;
-    const char *leak, *depths, *nu, *mu; /* text of the command line, or NULL */
-    double limit, began;                 /* s: limit of all trials; start of the first one */
+    struct cost_line line;
+    double limit, began; /* s: limit of all trials; start of the first one */
     /* s, relative error: wanted time or accuracy of the command; NAN: not given */
     double budget, error;
     bool choosing, shown; /* a command is wanted; all trials are shown nevertheless */
@@ -98,11 +109,8 @@ struct cost_case {
     double base_slabs;        /* slabs by default of rc-solve; NAN: not known yet */
     struct cost_trial *trial; /* trials of pressures, then of stresses */
     size_t pressures, trials, room;
-    /* files: the map, and the map with 1/2, 1/4, 1/8 of its nodes a side; -1: not made */
-    int grid[4];
-    int solution, output; /* files: solution of the reference, output of the last trial */
-    int nowhere;          /* /dev/null */
-    char *said;           /* standard error of the last program */
+    struct cost_files files;
+    char *said; /* standard error of the last program */
 };
 
 /* Makes all trials of the case; c->about and c->periodic must be set. `kernels` and `methods`: bit k stands

@@ -43,25 +43,25 @@ grid_of(struct cost_case *c, const struct cost_trial *m)
     char size[64];
     struct line l;
 
-    if (c->grid[k] >= 0)
-        return c->grid[k];
-    c->grid[k] = cost_file(c->tool);
+    if (c->files.grid[k] >= 0)
+        return c->files.grid[k];
+    c->files.grid[k] = cost_file(c->tool);
     snprintf(size, sizeof size, "%zux%zu", m->shape.nx, m->shape.ny);
     begin(c, &l, "rc-pick");
     put(&l, "--quiet", "--resample");
     put(&l, size, NULL);
-    if (cost_run(c, l.word, c->grid[0], c->grid[k], INFINITY, "coarser grids", &status) ==
-        PROCESS_FAILED)
+    if (cost_run(c, l.word, c->files.grid[0], c->files.grid[k], INFINITY, "coarser grids",
+                 &status) == PROCESS_FAILED)
         tool_refuse(c->tool, c->heights, "%s", cost_message(c->said));
-    return c->grid[k];
+    return c->files.grid[k];
 }
 
 static void
 solve_line(struct cost_case *c, const struct cost_trial *m, struct line *l)
 {
     begin(c, l, "rc-solve");
-    for (size_t k = 0; k < c->words && l->n + 24 < COST_WORDS; k++)
-        put(l, c->word[k], NULL);
+    for (size_t k = 0; k < c->line.words && l->n + 24 < COST_WORDS; k++)
+        put(l, c->line.word[k], NULL);
     l->n = cost_trial_words(m, l->word, l->n);
 }
 
@@ -128,7 +128,7 @@ cost_plan(struct cost_case *c, struct cost_trial *m)
 static double *
 pressure_of(struct cost_case *c, const struct cost_trial *m)
 {
-    FILE *file = cost_file_read(c->tool, c->output);
+    FILE *file = cost_file_read(c->tool, c->files.output);
     struct rc_err err;
     struct rc_reader *reader = rc_reader_new(file, 0, 0, &err);
     struct rc_grid *g;
@@ -229,10 +229,10 @@ leak(struct cost_case *c, struct cost_trial *m, double allowed, const char *name
     struct line l;
 
     begin(c, &l, "rc-leak");
-    put(&l, "--direction", c->leak);
+    put(&l, "--direction", c->line.leak);
     put(&l, "--quiet", NULL);
     put(&l, "--report", "/dev/fd/2");
-    end = cost_run(c, l.word, c->output, c->nowhere, allowed, name, &status);
+    end = cost_run(c, l.word, c->files.output, c->files.nowhere, allowed, name, &status);
     if (end == PROCESS_ENDED)
         take(c, m, c->said, true);
     return end;
@@ -273,9 +273,9 @@ run_pressure(struct cost_case *c, struct cost_trial *m, double allowed)
     cost_name(name, m);
     solve_line(c, m, &l);
     put(&l, "--quiet", NULL);
-    put(&l, "--output", c->leak != NULL ? "pressure,gap" : "pressure");
+    put(&l, "--output", c->line.leak != NULL ? "pressure,gap" : "pressure");
     put(&l, "--report", "/dev/fd/2");
-    end = cost_run(c, l.word, in, c->output, allowed, name, &status);
+    end = cost_run(c, l.word, in, c->files.output, allowed, name, &status);
     if (end == PROCESS_ENDED && !keep(c, m))
         end = PROCESS_DIED;
     if (end == PROCESS_ENDED) {
@@ -296,7 +296,7 @@ run_pressure(struct cost_case *c, struct cost_trial *m, double allowed)
             m->is.error = distance(c->shape.nx * c->shape.ny, p, c->pressure);
         free(p);
     }
-    if (end == PROCESS_ENDED && c->leak != NULL)
+    if (end == PROCESS_ENDED && c->line.leak != NULL)
         end = leak(c, m, allowed - (tool_now() - start), name);
     if (end == PROCESS_ENDED)
         m->state = COST_DONE;
@@ -350,15 +350,15 @@ void
 cost_solve_reference(struct cost_case *c)
 {
     struct cost_trial *r = &c->reference;
-    int scratch = c->output;
+    int scratch = c->files.output;
 
     tool_demand_memory(c->tool, c->heights, memory_for(c));
     if (r->about & COST_YIELD)
         find_slabs(c);
-    c->output = c->solution;
+    c->files.output = c->files.solution;
     if (r->state != COST_STOPPED && tool_interrupted() == 0)
         run_pressure(c, r, c->limit);
-    c->output = scratch;
+    c->files.output = scratch;
     if (tool_interrupted() != 0)
         tool_refuse(c->tool, c->heights, "interrupted before anything was measured");
     if (r->state != COST_DONE)
@@ -374,9 +374,9 @@ stress_line(struct cost_case *c, const struct cost_trial *m, struct line *l,
             char tol[RC_NUMBER_SIZE])
 {
     begin(c, l, "rc-stress");
-    put(l, "--depths", c->depths);
-    put(l, c->nu != NULL ? "--nu" : NULL, c->nu);
-    put(l, c->mu != NULL ? "--mu" : NULL, c->mu);
+    put(l, "--depths", c->line.depths);
+    put(l, c->line.nu != NULL ? "--nu" : NULL, c->line.nu);
+    put(l, c->line.mu != NULL ? "--mu" : NULL, c->line.mu);
     put(l, "--kernel", m->kernel);
     put(l, m->tol > 0 ? "--tol" : NULL, rc_number_text(tol, m->tol));
     put(l, "--quiet", NULL);
@@ -420,7 +420,7 @@ compare_stresses(struct cost_case *c, const struct cost_trial *m, double until, 
     int child[2], in;
 
     snprintf(name, sizeof name, "/dev/fd/%d",
-             c->solution); /* a new descriptor has its own position */
+             c->files.solution); /* a new descriptor has its own position */
 
     for (int k = 0; k < 2; k++) {
         stress_line(c, k == 0 ? m : &exact, &l[k], tol[k]);
@@ -463,8 +463,8 @@ run_stress(struct cost_case *c, struct cost_trial *m, double allowed)
     do {
         stress_line(c, m, &l, tol);
         put(&l, "--report", "/dev/fd/2");
-        end = cost_run(c, l.word, c->solution, c->nowhere, until - tool_now(), cost_name(name, m),
-                       &status);
+        end = cost_run(c, l.word, c->files.solution, c->files.nowhere, until - tool_now(),
+                       cost_name(name, m), &status);
         if (end == PROCESS_ENDED && !keep(c, m))
             end = PROCESS_DIED;
     } while (end == PROCESS_ENDED && cost_again(m->is.runs, m->is.seconds));

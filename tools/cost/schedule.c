@@ -39,7 +39,7 @@ expect_stress(const struct cost_case *c, const struct cost_trial *t)
 {
     const struct cost_trial *exact = &c->trial[c->pressures];
     const double sums = t->kernel == exact->kernel ? 1 : 7.0 / 3;
-    const struct rc_conv_options by = {.boundary = c->periodic ? RC_PERIODIC : RC_FREE,
+    const struct rc_conv_options by = {.boundary = c->line.periodic ? RC_PERIODIC : RC_FREE,
                                        .engine = t->kernel,
                                        .tol = t->tol,
                                        .threads = c->tool->threads},
@@ -123,9 +123,9 @@ fits(const struct cost_case *c, struct cost_trial *m, double left)
 }
 
 static double
-left(const struct cost_case *c)
+left(double began, double limit)
 {
-    return c->limit - (tool_now() - c->began);
+    return limit - (tool_now() - began);
 }
 
 /* Fraction of the limit: trials with a longer expected time come last, because they may use up the time.
@@ -135,10 +135,10 @@ static const double slow = 1 / 30.0;
 /* True if the trial took longer than another trial with the same and further work: other programs then took
  * part of its time. */
 static bool
-disturbed(const struct cost_case *c, const struct cost_trial *m)
+disturbed(const struct cost_trial *trial, size_t pressures, const struct cost_trial *m)
 {
-    for (size_t k = 0; k < c->pressures; k++) {
-        const struct cost_trial *o = &c->trial[k];
+    for (size_t k = 0; k < pressures; k++) {
+        const struct cost_trial *o = &trial[k];
 
         if (o->state == COST_DONE && strcmp(o->method, m->method) == 0 &&
             strcmp(o->kernel, m->kernel) == 0 && o->coarse <= m->coarse && o->tol <= m->tol &&
@@ -160,10 +160,10 @@ again(const struct cost_case *c, const struct cost_trial *m)
 {
     const double runs = m->is.runs, seconds = m->is.seconds;
 
-    if (m->state != COST_DONE || seconds + c->around > left(c))
+    if (m->state != COST_DONE || seconds + c->around > left(c->began, c->limit))
         return false;
     return cost_again(runs, seconds) || (runs < 2 && seconds < slow * c->limit) ||
-           (runs < 5 && disturbed(c, m));
+           (runs < 5 && disturbed(c->trial, c->pressures, m));
 }
 
 /* Repeats trials in turns, so that a disturbance does not affect one trial alone; not while repetitions
@@ -179,7 +179,7 @@ repeat(struct cost_case *c)
             if (again(c, &c->trial[k])) {
                 const double runs = c->trial[k].is.runs;
 
-                cost_trial_run(c, &c->trial[k], left(c));
+                cost_trial_run(c, &c->trial[k], left(c->began, c->limit));
                 more = more || c->trial[k].is.runs > runs;
             }
     }
@@ -189,7 +189,7 @@ repeat(struct cost_case *c)
 static void
 run_stresses(struct cost_case *c)
 {
-    double end = tool_now() + left(c) / 2;
+    double end = tool_now() + left(c->began, c->limit) / 2;
 
     for (size_t k = c->pressures; k < c->trials && tool_interrupted() == 0; k++) {
         struct cost_trial *m = &c->trial[k];
@@ -234,8 +234,8 @@ cost_run_trials(struct cost_case *c)
             run_stresses(c);
         } else if (m == NULL) {
             break;
-        } else if (fits(c, m, left(c))) {
-            cost_trial_run(c, m, left(c));
+        } else if (fits(c, m, left(c->began, c->limit))) {
+            cost_trial_run(c, m, left(c->began, c->limit));
         }
     }
     repeat(c);

@@ -114,7 +114,7 @@ put_head(const struct cost_case *c, FILE *out)
     char body[COST_BODY];
 
     fprintf(out, "# %s: %zu x %zu nodes, %s, ", tool_where(c->tool, c->heights), c->shape.nx,
-            c->shape.ny, c->periodic ? "periodic" : "free");
+            c->shape.ny, c->line.periodic ? "periodic" : "free");
     if (isnan(approach))
         fprintf(out, "load %.9g N", cost_number(c->solved, "load"));
     else
@@ -137,11 +137,11 @@ put_head(const struct cost_case *c, FILE *out)
                 "map, each trial's own is in its column: below 1.5 the grid pins the edge of the "
                 "contact\n",
                 r->is.cohesive_nodes);
-    if (c->leak != NULL)
+    if (c->line.leak != NULL)
         fprintf(out,
                 "# flow along %s: the reference has a conductance of %.9g m3; flow_error: relative "
                 "to it, each on its own grid\n",
-                c->leak, r->is.flow_conductance);
+                c->line.leak, r->is.flow_conductance);
     fprintf(out, "# error: sum |p - reference| / sum reference, on the map's own grid; area, peak, "
                  "approach: relative to the reference; estimate: error that the solver estimates "
                  "for its own grid\n");
@@ -149,9 +149,9 @@ put_head(const struct cost_case *c, FILE *out)
 
 /* The depths of the stresses, from the report of the exact ones. */
 static size_t
-depths(const struct cost_case *c, double *first, double *last)
+depths(const char *stressed, double *first, double *last)
 {
-    const char *at = strstr(c->stressed == NULL ? "" : c->stressed, "\"depths\": [");
+    const char *at = strstr(stressed == NULL ? "" : stressed, "\"depths\": [");
     size_t n = 0;
     char *end;
 
@@ -171,7 +171,7 @@ static void
 put_stress_head(const struct cost_case *c, FILE *out)
 {
     double first, last;
-    size_t n = depths(c, &first, &last);
+    size_t n = depths(c->stressed, &first, &last);
 
     fprintf(out,
             "\n# stresses under the reference: six components and Mises at %zu depths, %.3g to "
@@ -300,7 +300,7 @@ report_trial(const struct cost_case *c, const struct cost_trial *m, struct repor
         report_text(out, "arithmetic", m->arithmetic);
     report_number(out, "tol", m->tol, NULL);
     if (stress)
-        report_count(out, "depths", depths(c, &first, &last), NULL);
+        report_count(out, "depths", depths(c->stressed, &first, &last), NULL);
     else
         report_count(out, "coarse", m->coarse, NULL);
     report_figures(c, m, true, out);
@@ -355,9 +355,9 @@ put_files(const struct tool *t, FILE *out)
 /* On a coarser grid rc-pick averages the cells first. A sphere that rc-solve adds equals its cell means on
  * any grid, up to a constant. */
 static void
-put_command(const struct cost_case *c, const struct cost_trial *m, FILE *out)
+put_command(const struct cost_line *line, const struct tool *t, const struct cost_trial *m,
+            FILE *out)
 {
-    const struct tool *t = c->tool;
     const char *word[COST_WORDS];
     size_t n;
 
@@ -367,8 +367,8 @@ put_command(const struct cost_case *c, const struct cost_trial *m, FILE *out)
         fputs(" | ", out);
     }
     fputs("rc-solve", out);
-    for (size_t k = 0; k < c->words; k++)
-        put_word(out, c->word[k]);
+    for (size_t k = 0; k < line->words; k++)
+        put_word(out, line->word[k]);
     n = cost_trial_words(m, word, 0);
     for (size_t k = 0; k < n; k++)
         put_word(out, word[k]);
@@ -380,7 +380,7 @@ put_command(const struct cost_case *c, const struct cost_trial *m, FILE *out)
 }
 
 static bool
-better(const struct cost_case *c, const struct cost_trial *a, const struct cost_trial *b)
+better(double budget, const struct cost_trial *a, const struct cost_trial *b)
 {
     double seconds, error;
 
@@ -388,7 +388,7 @@ better(const struct cost_case *c, const struct cost_trial *a, const struct cost_
         return true;
     seconds = a->is.seconds - b->is.seconds;
     error = a->is.error - b->is.error;
-    return isnan(c->budget) ? seconds < 0 : error < 0 || (error == 0 && seconds < 0);
+    return isnan(budget) ? seconds < 0 : error < 0 || (error == 0 && seconds < 0);
 }
 
 void
@@ -403,7 +403,7 @@ cost_command(const struct cost_case *c, FILE *out)
 
         if (m->state != COST_DONE || !m->converged)
             continue;
-        if ((timed ? m->is.seconds <= c->budget : cost_is_near(c, m)) && better(c, m, best))
+        if ((timed ? m->is.seconds <= c->budget : cost_is_near(c, m)) && better(c->budget, m, best))
             best = m;
         if (nearest == NULL ||
             (timed ? m->is.seconds < nearest->is.seconds : m->is.error < nearest->is.error))
@@ -415,7 +415,7 @@ cost_command(const struct cost_case *c, FILE *out)
         tool_warn(c->tool,
                   "%s: %.3g s, off by %.2g %% of the pressure (estimate on its own grid %s)",
                   cost_name(name, best), best->is.seconds, 100 * best->is.error, own);
-        put_command(c, best, out);
+        put_command(&c->line, c->tool, best, out);
     } else if (nearest != NULL) {
         tool_die(c->tool, "no trial was %s: the best was %s, %.3g s, error %.1e; raise %s",
                  timed ? "fast enough" : "accurate enough", cost_name(name, nearest),

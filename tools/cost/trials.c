@@ -138,7 +138,7 @@ add_stresses(struct cost_case *c)
         const double *tol = k == 0 ? first_tols : e->order == 1 ? other_tols : rounding;
         size_t n = k == 0 ? COUNT(first_tols) : e->order == 1 ? COUNT(other_tols) : 1;
 
-        if (e->precise || (c->periodic && !e->periodic))
+        if (e->precise || (c->line.periodic && !e->periodic))
             continue; /* stresses are always in double precision */
         for (size_t i = 0; i < n; i++)
             add(c, (struct cost_trial){.about = COST_STRESS,
@@ -152,15 +152,15 @@ add_stresses(struct cost_case *c)
 /* Double precision throughout, to 1e-12; for a body that yields, more increments than any trial and the most
  * slabs. */
 static struct cost_trial
-reference_of(const struct cost_case *c)
+reference_of(unsigned about)
 {
     struct cost_trial r = elastic(0, 0);
     const struct rc_engine_info *e;
 
-    r.tol = c->about & COST_ADHESION ? 1e-11 : c->about & COST_YIELD ? 1e-6 : 1e-12;
-    if (c->about & COST_ADHESION) {
+    r.tol = about & COST_ADHESION ? 1e-11 : about & COST_YIELD ? 1e-6 : 1e-12;
+    if (about & COST_ADHESION) {
         r.method = "gap";
-    } else if (c->about & COST_YIELD) {
+    } else if (about & COST_YIELD) {
         r.increments = 2 * increments[COUNT(increments) - 1];
         r.stack = stacks[COUNT(stacks) - 1];
     } else {
@@ -172,14 +172,14 @@ reference_of(const struct cost_case *c)
     }
     r.reference = true;
     r.coarse = 1;
-    r.about = c->about & ~(unsigned)COST_STRESS;
+    r.about = about & ~(unsigned)COST_STRESS;
     return r;
 }
 
 void
 cost_trials(struct cost_case *c, size_t kernels, size_t methods)
 {
-    add(c, reference_of(c));
+    add(c, reference_of(c->about));
     c->reference = c->trial[0];
     c->trials = 0;
     if (c->about & COST_ADHESION)
