@@ -248,8 +248,8 @@ main(int argc, char **argv)
     open_two(&t, &b);
     while ((a = tool_channel(&t, "height", true)) != NULL) {
         next_second(&t, &b, a);
-        t.missing |= b.t.missing;
-        t.infinite |= b.t.infinite;
+        t.input.missing |= b.t.input.missing;
+        t.input.infinite |= b.t.input.infinite;
         demand_heights(&t, a);
         demand_heights(&b.t, b.g);
         add(&t, a, b.g);

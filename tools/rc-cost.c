@@ -162,15 +162,15 @@ plan(struct costs *run, struct cost_case *c)
         tell(run, text);
         return;
     }
-    fprintf(run->t.out, "%s\n", text);
+    fprintf(run->t.output.file, "%s\n", text);
     for (size_t k = 0; k < c->pressures; k++) {
         struct cost_trial *m = &c->trial[k];
 
         if (m->state == COST_OPEN)
-            fprintf(run->t.out, "  %-40s about %8.2g s, %.0f MiB\n", cost_name(name, m),
+            fprintf(run->t.output.file, "  %-40s about %8.2g s, %.0f MiB\n", cost_name(name, m),
                     m->expected, m->mebibytes);
         else
-            fprintf(run->t.out, "  %-40s %s\n", cost_name(name, m), m->why);
+            fprintf(run->t.output.file, "  %-40s %s\n", cost_name(name, m), m->why);
     }
 }
 
@@ -206,12 +206,12 @@ tell_results(struct costs *run, struct cost_case *c)
             tool_warn(&run->t, "%s: the estimate %.1e is below the true error %.1e",
                       cost_name(name, &c->trial[k]), c->trial[k].is.estimate, c->trial[k].is.error);
         }
-    if (run->t.report_alone)
+    if (run->t.output.report_alone)
         return;
     if (choosing())
-        cost_command(c, run->t.out);
+        cost_command(c, run->t.output.file);
     else
-        cost_table(c, run->t.out);
+        cost_table(c, run->t.output.file);
 }
 
 /* ---- the run ---- */

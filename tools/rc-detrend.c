@@ -99,7 +99,7 @@ outliers(struct tool *t, struct rc_grid *g, const struct step *step, struct rc_e
     if (rc_outliers(rc_shape_of(g), times, map_says(g, "periodic", "yes"), t->threads, g->v, &count,
                     err) != RC_OK)
         return RC_FAIL;
-    t->missing = true;
+    t->input.missing = true;
     tool_note(t, "%s: %zu of %zu points are outliers", where, count, nodes);
     if ((double)count > outliers_much * (double)nodes)
         tool_warn(t,

@@ -327,7 +327,7 @@ print_formats(struct tool *t)
     char list[32];
 
     for (const struct rc_export *const *e = rc_exports; *e != NULL; e++)
-        fprintf(t->out, "%-10s  %-12s  %-16s  %-7s  %s\n", (*e)->name, (*e)->suffixes,
+        fprintf(t->output.file, "%-10s  %-12s  %-16s  %-7s  %s\n", (*e)->name, (*e)->suffixes,
                 (*e)->types == 0 ? "text" : types_text(list, (*e)->types),
                 (*e)->several ? "several"
                 : (*e)->stack ? "a stack"
@@ -350,7 +350,7 @@ main(int argc, char **argv)
     frame = read_frames(&t, &frames);
     if (frames > 0)
         foretell(&t, frame[0]);
-    tool_must(&t, frame[0], rc_export_write(format, t.out, frame, frames, &wish, &t.err));
+    tool_must(&t, frame[0], rc_export_write(format, t.output.file, frame, frames, &wish, &t.err));
     tool_note(&t, "%zu frame%s as %s", frames, frames == 1 ? "" : "s", format->name);
     for (size_t k = 0; k < frames; k++)
         rc_grid_free(frame[k]);

@@ -556,7 +556,7 @@ show_plan(struct run *run, const struct rc_shape *shape)
     const size_t memory = tool_memory_with(run->needs);
     const double seconds = expect(run, &r);
     const struct numbers *d = &run->depths;
-    FILE *out = run->t.out;
+    FILE *out = run->t.output.file;
 
     fprintf(out, "case %zu: %zu x %zu nodes, %s boundary\n", rc_grid_case(first), first->nx,
             first->ny, run->options.boundary == RC_PERIODIC ? "periodic" : "free");

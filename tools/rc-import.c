@@ -237,7 +237,7 @@ source_open(struct tool *t, const char *name, const struct rc_wish *wish, struct
             struct rc_err *err)
 {
     *s = (struct source){0};
-    t->source = import_source(name);
+    t->input.source = import_source(name);
     if ((s->data = import_read(t, name, &s->file, err)) == NULL)
         return RC_FAIL;
     s->name = s->file.name;
@@ -255,7 +255,7 @@ source_open(struct tool *t, const char *name, const struct rc_wish *wish, struct
         return RC_FAIL;
     s->n = rc_maps_list(s->maps, s->channel, CHANNELS_MOST);
     if (s->n > CHANNELS_MOST) {
-        tool_warn(t, "%s: only the first %d of its %zu channels are looked at", t->source,
+        tool_warn(t, "%s: only the first %d of its %zu channels are looked at", t->input.source,
                   CHANNELS_MOST, s->n);
         s->n = CHANNELS_MOST;
     }
@@ -282,7 +282,7 @@ static void
 print_formats(struct tool *t)
 {
     for (const struct rc_format *const *f = rc_formats; *f != NULL; f++)
-        fprintf(t->out, "%-10s  %-20s  %s\n", (*f)->name, (*f)->suffixes, (*f)->summary);
+        fprintf(t->output.file, "%-10s  %-20s  %s\n", (*f)->name, (*f)->suffixes, (*f)->summary);
 }
 
 static const char *
@@ -313,7 +313,7 @@ range_of(struct tool *t, const struct source *s, const struct rc_wish *wish, siz
     range[0] = INFINITY;
     range[1] = -INFINITY;
     if ((g = rc_format_read(s->maps, &lax, index, NULL, &err)) == NULL) {
-        tool_fail(t, "%s: channel %zu: %s", t->source, index + 1, err.text);
+        tool_fail(t, "%s: channel %zu: %s", t->input.source, index + 1, err.text);
         return false;
     }
     for (size_t k = 0; k < g->nx * g->ny; k++) {
@@ -333,16 +333,16 @@ print_list(struct tool *t, const struct source *s, const struct rc_wish *wish)
 
     if (pick_channel(s, wish, &pick, NULL) != RC_OK)
         pick.index = s->n;
-    shown_words(t->out, t->source, strlen(t->source));
-    fprintf(t->out, ": %s\n", s->maps->format->name);
-    fprintf(t->out, "%9s %8s %8s %12s %12s %-6s %12s %12s %s\n", "channel", "nx", "ny", "dx/m",
-            "dy/m", "unit", "least", "greatest", "name");
+    shown_words(t->output.file, t->input.source, strlen(t->input.source));
+    fprintf(t->output.file, ": %s\n", s->maps->format->name);
+    fprintf(t->output.file, "%9s %8s %8s %12s %12s %-6s %12s %12s %s\n", "channel", "nx", "ny",
+            "dx/m", "dy/m", "unit", "least", "greatest", "name");
     for (size_t k = 0; k < s->n; k++) {
         const struct rc_channel *c = &s->channel[k];
         double range[2];
         bool known = range_of(t, s, wish, k, range);
 
-        fprintf(t->out, "%c %7zu %8zu %8zu %12s %12s %-6s %12s %12s %s\n",
+        fprintf(t->output.file, "%c %7zu %8zu %8zu %12s %12s %-6s %12s %12s %s\n",
                 k == pick.index ? '*' : ' ', k + 1, c->nx, c->ny, number_or_dash(dx, c->dx),
                 number_or_dash(dy, c->dy), c->unit[0] == '\0' ? "-" : c->unit,
                 number_or_dash(low, known ? range[0] : NAN),
@@ -360,8 +360,8 @@ list_file(struct tool *t, const char *name, const struct rc_wish *wish)
     if (source_open(t, name, wish, &s, &err) == RC_OK) {
         print_list(t, &s, wish);
     } else {
-        fflush(t->out); /* so that messages and list appear in order on a terminal */
-        tool_fail(t, "%s: %s", t->source, err.text);
+        fflush(t->output.file); /* so that messages and list appear in order on a terminal */
+        tool_fail(t, "%s: %s", t->input.source, err.text);
     }
     source_close(&s);
 }
@@ -400,7 +400,7 @@ say_extremes(struct tool *t, const struct rc_notes *notes)
                   "%s: between the nodes the file has a point %.2g of its span of heights above "
                   "the highest "
                   "node and one %.2g below the lowest: a finer --even STEP comes nearer",
-                  t->source, notes->above, notes->below);
+                  t->input.source, notes->above, notes->below);
 }
 
 /* Resamples a profile to the step of --even, and prints which nodes are unknown and which extremes are
@@ -420,7 +420,7 @@ even_out(struct tool *t, const struct source *s, const struct rc_wish *wish, str
         tool_warn(t,
                   "%s: %zu of %zu nodes are missing: the points next to them are, or are more than "
                   "%d steps apart",
-                  t->source, missing, g->nx, RC_EVEN_GAP);
+                  t->input.source, missing, g->nx, RC_EVEN_GAP);
     /* the history records the step, unless --dx does */
     args.even = wish->even_step > 0 ? wish->even_step : g->ny == 1 && isnan(wish->dx) ? g->dx : NAN;
     return RC_OK;
@@ -472,13 +472,13 @@ write_heights(struct tool *t, const struct source *s, const struct rc_wish *wish
     if (notes.held > 0)
         tool_memory_beside(t, notes.held, 0);
     if (pick.said[0] != '\0')
-        tool_warn(t, "%s: %s", t->source, pick.said);
+        tool_warn(t, "%s: %s", t->input.source, pick.said);
     else if (s->maps->format->columns && s->n > 1 && args.channel == NULL)
         tool_warn(t, "%s: '%s' is read; other columns are channels: %s; --channel takes one",
-                  t->source, s->channel[pick.index].name,
+                  t->input.source, s->channel[pick.index].name,
                   import_names(s->channel, s->n, pick.index, names));
     for (size_t k = 0; k < notes.n; k++)
-        tool_warn(t, "%s: %s", t->source, notes.text[k]);
+        tool_warn(t, "%s: %s", t->input.source, notes.text[k]);
     if (wish->missing != NULL)
         take_missing(wish->missing, g,
                      notes.metres > 0 && strcmp(g->unit, "m") == 0 ? notes.metres : 1);
@@ -489,8 +489,8 @@ write_heights(struct tool *t, const struct source *s, const struct rc_wish *wish
         rc_grid_free(g);
         return RC_FAIL;
     }
-    tool_note(t, "%s: %s, channel %zu '%s', %zu x %zu nodes", t->source, s->maps->format->name,
-              pick.index + 1, s->channel[pick.index].name, g->nx, g->ny);
+    tool_note(t, "%s: %s, channel %zu '%s', %zu x %zu nodes", t->input.source,
+              s->maps->format->name, pick.index + 1, s->channel[pick.index].name, g->nx, g->ny);
     tool_write(t, g);
     rc_grid_free(g);
     return RC_OK;
@@ -505,9 +505,9 @@ import_file(struct tool *t, const char *name, const struct rc_wish *wish, size_t
                 write_heights(t, &s, wish, number, &t->err) == RC_OK;
 
     if (!good && !args.keep_going)
-        tool_die(t, "%s: %s", t->source, t->err.text);
+        tool_die(t, "%s: %s", t->input.source, t->err.text);
     if (!good)
-        tool_fail(t, "%s: %s", t->source, t->err.text);
+        tool_fail(t, "%s: %s", t->input.source, t->err.text);
     source_close(&s);
     return good;
 }
@@ -521,7 +521,7 @@ main(int argc, char **argv)
 
     tool_start(&t, &info, argc, argv, &args);
     t.remedy = "the file itself takes memory too";
-    t.missing = t.infinite = true; /* unit, as in the file */
+    t.input.missing = t.input.infinite = true; /* unit, as in the file */
     wish = make_wish(&t);
     if (args.formats) {
         print_formats(&t);

@@ -138,7 +138,7 @@ static void
 show_json(struct tool *t, const struct rc_grid *g, const struct rc_statistics *s,
           const struct info_figures *f)
 {
-    struct report r = {.tool = t, .name = "--json", .file = t->out};
+    struct report r = {.tool = t, .name = "--json", .file = t->output.file};
     struct rc_statistics shown = *s;
     struct result result;
 
@@ -146,7 +146,7 @@ show_json(struct tool *t, const struct rc_grid *g, const struct rc_statistics *s
         shown.rms_slope = NAN;
     report_begin(&r);
     report_count(&r, "case", rc_grid_case(g), NULL);
-    report_count(&r, "frame", t->frame, NULL);
+    report_count(&r, "frame", t->input.frame, NULL);
     report_text(&r, "channel", g->channel);
     report_count(&r, "nx", g->nx, NULL);
     report_count(&r, "ny", g->ny, NULL);
@@ -299,16 +299,16 @@ show_text(struct tool *t, const struct rc_grid *g, const struct rc_statistics *s
 {
     struct result result;
 
-    fprintf(t->out, "%s", first ? "" : "\n");
-    put_text(t->out, tool_where(t, g), WHERE);
+    fprintf(t->output.file, "%s", first ? "" : "\n");
+    put_text(t->output.file, tool_where(t, g), WHERE);
     if (is_pressure(g)) {
         result_of(g, f->touch, s, &result);
-        put_result(t->out, g, &result);
+        put_result(t->output.file, g, &result);
     }
-    put_grid(t->out, g);
-    put_statistics(t->out, g, s);
-    info_text(&args.wanted, f, t->out);
-    put_keys(t->out, g);
+    put_grid(t->output.file, g);
+    put_statistics(t->output.file, g, s);
+    info_text(&args.wanted, f, t->output.file);
+    put_keys(t->output.file, g);
 }
 
 /* The last frame `contact`, and the last case whose pressure was shown without one (0: none), with its number
@@ -386,7 +386,7 @@ main(int argc, char **argv)
         rc_measure(&shape, g->v, &statistics);
         info_compute(&args.wanted, &t, g, touch, &figures);
         info_report(&args.wanted.out, &args.wanted, &figures, &statistics);
-        if (args.json && !t.report_alone)
+        if (args.json && !t.output.report_alone)
             show_json(&t, g, &statistics, &figures);
         else if (args.wanted.report == NULL)
             show_text(&t, g, &statistics, &figures, first);

@@ -154,7 +154,7 @@ write_frame(struct run *run, const struct leak_case *c, const struct rc_leak *le
     frames[kind].get(leak, g->v);
     for (size_t k = 0; k < rc_grid_nodes(g) && scale != 1; k++)
         g->v[k] *= scale;
-    run->t.missing = kind == PRESSURE || kind == FLUX; /* contact has none */
+    run->t.input.missing = kind == PRESSURE || kind == FLUX; /* contact has none */
     tool_write(&run->t, g);
 }
 

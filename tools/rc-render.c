@@ -253,10 +253,10 @@ write_picture(struct tool *t, const struct rc_grid *g, const struct paper *paper
     snprintf(made, size, "%s%s%s", history == NULL ? "" : history, history == NULL ? "" : " | ",
              own);
     snprintf(software, sizeof software, "rc-render %s", rc_version());
-    if ((c != NULL
-             ? canvas_write(c, canvas_format(ending_of(t->out_name)), text, texts, t->out, &t->err)
-             : picture_write(t->out, g->nx, g->ny, paper->dpi, text, texts, next_row, &d,
-                             &t->err)) != RC_OK)
+    if ((c != NULL ? canvas_write(c, canvas_format(ending_of(t->out_name)), text, texts,
+                                  t->output.file, &t->err)
+                   : picture_write(t->output.file, g->nx, g->ny, paper->dpi, text, texts, next_row,
+                                   &d, &t->err)) != RC_OK)
         tool_die(t, "%s", t->err.text);
     free(made);
 }

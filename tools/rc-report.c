@@ -682,7 +682,7 @@ main(int argc, char **argv)
     write_page(&run);
     close_text(&run, &run.page);
     remove_folder(); /* before the reader of a pipe can end this tool */
-    fwrite(run.page.text, 1, run.page.size, t->out);
+    fwrite(run.page.text, 1, run.page.size, t->output.file);
     free(run.commands.text);
     free(run.said.text);
     free(run.page.text);

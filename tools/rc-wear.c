@@ -563,7 +563,7 @@ judge(struct drive *d, struct rc_model *m)
     tool_warn(&d->t, "%s: %s: the output ends with the distance before",
               tool_where(&d->t, d->course.g), text);
     tool_fails_with(&d->t, EXIT_SHORT);
-    d->silent = d->ended = true;
+    d->is.silent = d->is.ended = true;
     d->course.number--;
 }
 
@@ -575,7 +575,7 @@ set_keys(struct drive *d, struct rc_model *m, struct rc_grid *g)
 
     if (run->coat > 0)
         tool_set_number(&d->t, g, "coat_left", run->left);
-    d->ended = d->status != RC_MORE && f->distance < d->point[d->at].at[RC_DISTANCE];
+    d->is.ended = d->status != RC_MORE && f->distance < d->point[d->at].at[RC_DISTANCE];
     tool_set_number(&d->t, g, "wear_1", run->law.k[0]);
     tool_set_number(&d->t, g, "wear_2", run->law.k[1]);
     if (run->energy != NULL)
@@ -621,10 +621,11 @@ show_plan(struct run *run, const struct rc_grid *g)
     if (run->energy != NULL)
         return;
     if (run->law.track == 0 || run->law.k[1] == 0)
-        fprintf(run->d.t.out, "  explicit steps: about %.3g, each at most 0.9 dx/(k E*) = %s\n",
+        fprintf(run->d.t.output.file,
+                "  explicit steps: about %.3g, each at most 0.9 dx/(k E*) = %s\n",
                 ceil(last / limit), shown_in_unit(limit, "m"));
     if (run->law.part != NULL)
-        fprintf(run->d.t.out,
+        fprintf(run->d.t.output.file,
                 "  coefficient by node: a contact takes about 12 to 35 convolutions, more than 100 "
                 "where a step is above 1000 dx/(k E*), beside 6 of a uniform one\n");
 }
@@ -766,8 +767,8 @@ main(int argc, char **argv)
                                    .tells = tells,
                                    .beside = run.maps,
                                    .reads = reads,
-                                   .judge = judge,
-                                   .keys = set_keys,
+                                   .calls.judge = judge,
+                                   .calls.keys = set_keys,
                                    .course.stepped = put_step},
                              .beside = {{"wear-coefficient", &run.map[COEFFICIENT]},
                                         {"hardness", &run.map[HARD]},

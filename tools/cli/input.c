@@ -62,12 +62,12 @@ open_next(struct tool *t)
     const char *name = t->operands == 0 ? "-" : t->operand[t->input.next];
 
     t->input.next++;
-    t->frame = 0;
+    t->input.frame = 0;
     if (strcmp(name, "-") == 0) {
         t->input.file = stdin;
-        t->source = "standard input";
+        t->input.source = "standard input";
     } else {
-        t->source = name;
+        t->input.source = name;
         if ((t->input.file = fopen(name, "rb")) == NULL)
             tool_die(t, "%s: %s%s%s", name, strerror(errno),
                      is_unit(name) ? ": a unit follows its number without a blank, as in 60" : "",
@@ -76,9 +76,9 @@ open_next(struct tool *t)
     if (t->ranks != NULL && (t->input.file == stdin || fseeko(t->input.file, 0, SEEK_CUR) != 0))
         tool_usage(
             t, "%s: several processes read a file, each its part of it: name one instead of a pipe",
-            t->source);
+            t->input.source);
     if (isatty(fileno(t->input.file)))
-        tool_usage(t, "%s is a terminal: pipe a grid stream in or name a file", t->source);
+        tool_usage(t, "%s is a terminal: pipe a grid stream in or name a file", t->input.source);
     setvbuf(t->input.file, NULL, _IOFBF, TOOL_BUFFER);
     pipe_widen(fileno(t->input.file));
     t->input.reader =
@@ -136,17 +136,17 @@ cannot_read(struct tool *t, const struct rc_err *err)
         fail_as_before(t, failure, status);
     if (rc_reader_foreign(t->input.reader, &head) && head != NULL && t->info->foreign != NULL &&
         (remedy = t->info->foreign(head)) != NULL)
-        tool_die(t, "%s is not a grid stream: %s", t->source, remedy);
+        tool_die(t, "%s is not a grid stream: %s", t->input.source, remedy);
     if (rc_reader_foreign(t->input.reader, &head) && head != NULL)
         tool_die(t, "%s",
                  foreign_message(text, sizeof text, t->info->name,
-                                 t->input.file == stdin ? "-" : t->source, head));
+                                 t->input.file == stdin ? "-" : t->input.source, head));
     if (rc_reader_foreign(t->input.reader, &head))
-        tool_die(t, "%s is empty, the stream stops before it begins: %s", t->source,
+        tool_die(t, "%s is empty, the stream stops before it begins: %s", t->input.source,
                  pipe_is(fileno(t->input.file))
                      ? "the program before this one in the pipe wrote no output"
                      : "make it again");
-    tool_die(t, "%s, frame %zu: %s", t->source, t->frame + 1, err->text);
+    tool_die(t, "%s, frame %zu: %s", t->input.source, t->input.frame + 1, err->text);
 }
 
 struct not_finite
@@ -173,11 +173,11 @@ note_not_finite(struct tool *t, const struct rc_grid *g)
 {
     struct not_finite n;
 
-    if (t->missing && t->infinite)
+    if (t->input.missing && t->input.infinite)
         return;
     n = not_finite(t, g);
-    t->missing |= n.missing > 0;
-    t->infinite |= n.infinite > 0;
+    t->input.missing |= n.missing > 0;
+    t->input.infinite |= n.infinite > 0;
 }
 
 /* Reads the header of the next frame of the open input to `ahead`. False at the end of the input, which is
@@ -210,7 +210,7 @@ take_ahead(struct tool *t)
     t->input.ahead = NULL;
     if (rc_reader_values(t->input.reader, g, &err) != RC_OK)
         cannot_read(t, &err);
-    t->frame++;
+    t->input.frame++;
     check_keys(t, g);
     check_convergence(t, g);
     note_not_finite(t, g);
@@ -245,7 +245,7 @@ static void
 begin_case(struct tool *t, size_t number)
 {
     t->current.number = number;
-    t->current.source = t->source;
+    t->current.source = t->input.source;
     t->current.found = 0;
     t->current.names[0] = '\0';
 }
@@ -296,7 +296,7 @@ tool_channel_with(struct tool *t, const char *channel, tool_take *take, void *ct
     struct rc_grid *g, *kept = NULL;
 
     if ((g = tool_read(t)) == NULL && t->current.number == 0)
-        tool_die(t, "%s: the stream has no frame", t->source);
+        tool_die(t, "%s: the stream has no frame", t->input.source);
     if (g == NULL)
         return NULL;
     begin_case(t, rc_grid_case(g));
@@ -402,7 +402,7 @@ tool_channel(struct tool *t, const char *channel, bool pass)
     }
     end_case(t, channel);
     if (t->current.number == 0)
-        tool_die(t, "%s: the stream has no frame", t->source);
+        tool_die(t, "%s: the stream has no frame", t->input.source);
     return NULL;
 }
 

@@ -131,7 +131,7 @@ die(struct tool *t, int status, char *text)
 void
 fail_as_before(struct tool *t, const char *message, int status)
 {
-    tool_note(t, "%s: the program that wrote it failed: %s", t->source, message);
+    tool_note(t, "%s: the program that wrote it failed: %s", t->input.source, message);
     tool_progress_end(t);
     output_abandon(t, message, status);
     exit(status);
@@ -143,12 +143,12 @@ tool_where_to(const struct tool *t, const struct rc_grid *g, char text[WHERE])
     const char *source = g == NULL ? NULL : rc_grid_get(g, "source");
 
     if (source == NULL)
-        source = t->source == NULL ? "standard input" : t->source;
+        source = t->input.source == NULL ? "standard input" : t->input.source;
     if (g == NULL)
         snprintf(text, WHERE, "%s", source);
     else
-        snprintf(text, WHERE, "%s, case %zu, frame %zu (%s)", source, rc_grid_case(g), t->frame,
-                 g->channel);
+        snprintf(text, WHERE, "%s, case %zu, frame %zu (%s)", source, rc_grid_case(g),
+                 t->input.frame, g->channel);
     return rc_text_harmless(text, '?');
 }
 

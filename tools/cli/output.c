@@ -165,20 +165,21 @@ output_open(struct tool *t)
         if (binary && isatty(STDOUT_FILENO))
             tool_die(t,
                      "standard output is a terminal: pipe it into the next tool or give -o FILE");
-        t->out = stdout;
+        t->output.file = stdout;
     } else {
         if (stat(t->out_name, &st) == 0 && S_ISDIR(st.st_mode))
             tool_die(t, "-o %s: this is a folder", t->out_name);
-        if ((t->out = whole_file_open(&output, t->out_name)) == NULL)
+        if ((t->output.file = whole_file_open(&output, t->out_name)) == NULL)
             tool_die(t, "-o %s: %s", t->out_name, strerror(errno));
-        if (binary && isatty(fileno(t->out)))
+        if (binary && isatty(fileno(t->output.file)))
             tool_die(t, "-o %s: this is a terminal", t->out_name);
     }
     if (binary)
-        setvbuf(t->out, NULL, _IOFBF, TOOL_BUFFER);
+        setvbuf(t->output.file, NULL, _IOFBF, TOOL_BUFFER);
     if (binary)
-        pipe_widen(fileno(t->out));
-    if (t->writes == WRITES_STREAM && (t->output.writer = rc_writer_new(t->out, &t->err)) == NULL)
+        pipe_widen(fileno(t->output.file));
+    if (t->writes == WRITES_STREAM &&
+        (t->output.writer = rc_writer_new(t->output.file, &t->err)) == NULL)
         tool_die(t, "%s", t->err.text);
 }
 
@@ -188,17 +189,17 @@ demand_no_new(struct tool *t, const struct rc_grid *g)
 {
     struct not_finite n;
 
-    if (t->missing && t->infinite)
+    if (t->input.missing && t->input.infinite)
         return;
     n = not_finite(t, g);
-    if (n.infinite > 0 && !t->infinite)
+    if (n.infinite > 0 && !t->input.infinite)
         tool_refuse(t, g,
                     "%zu of %zu values of %s are too large for %s: are the units of heights, "
                     "spacings, loads and moduli right?%s",
                     n.infinite, g->nx * g->ny, g->channel,
                     g->type == RC_F32 ? "single precision" : "a number",
                     g->type == RC_F32 ? " --type f64 holds more" : "");
-    if (n.missing > 0 && !t->missing)
+    if (n.missing > 0 && !t->input.missing)
         tool_refuse(t, g,
                     "%zu of %zu values of %s are undefined, because numbers were too large or too "
                     "small: are the units of heights, spacings, loads and moduli right?",
@@ -210,7 +211,7 @@ tool_write(struct tool *t, struct rc_grid *g)
 {
     enum rc_type type = g->type;
 
-    if (t->report_alone)
+    if (t->output.report_alone)
         return;
     if (t->ranks != NULL && t->output.writer == NULL)
         open_shared(t);
@@ -240,7 +241,7 @@ output_end(struct tool *t)
     t->output.share = NULL;
     if (!ranks_speak(t))
         whole_file_share(&output, ""); /* the first process renames it */
-    if (!whole_file_put(&output, t->out))
+    if (!whole_file_put(&output, t->output.file))
         tool_die(t, "%s: writing failed (%s)", name, strerror(errno));
 }
 
@@ -262,10 +263,11 @@ stream_to_fail(const struct tool *t)
         return NULL;
     if (whole_file_is_half(&output) || t->output.ended)
         return NULL;
-    if (t->out == NULL) /* while the command line is read */
+    if (t->output.file == NULL) /* while the command line is read */
         return t->output.expected && before && pipe_is(STDOUT_FILENO) ? stdout : NULL;
-    return t->output.writer != NULL && (t->output.began || (before && pipe_is(fileno(t->out))))
-               ? t->out
+    return t->output.writer != NULL &&
+                   (t->output.began || (before && pipe_is(fileno(t->output.file))))
+               ? t->output.file
                : NULL;
 }
 

@@ -80,7 +80,7 @@ tool_start(struct tool *t, const struct tool_info *info, int argc, char **argv, 
         t->out_name = NULL;
     } else if (t->out_name == NULL && reports_to_output(t)) {
         t->writes = WRITES_TEXT;
-        t->report_alone = true;
+        t->output.report_alone = true;
     }
     if (t->writes == WRITES_STREAM)
         ending_refuse_picture(t, t->out_name);

@@ -135,8 +135,8 @@ enum tool_reads {
 
 enum tool_writes {
     WRITES_STREAM, /* RCG1; never to a terminal                                            */
-    WRITES_BYTES,  /* tool.out, binary; never to a terminal                                */
-    WRITES_TEXT,   /* tool.out                                                             */
+    WRITES_BYTES,  /* tool.output.file, binary; never to a terminal                        */
+    WRITES_TEXT,   /* tool.output.file                                                     */
 };
 
 struct tool;
@@ -191,11 +191,11 @@ struct tool {
     const char *remedy;  /* advice in the message when memory is short; NULL: a smaller map */
     struct ranks *ranks; /* the processes that share the maps (ranks.h); NULL: a single one */
     /* streams */
-    const char *source;     /* name of the current input, for messages    */
-    size_t frame;           /* number in the current source, from 1       */
-    bool missing, infinite; /* the input has NaN or infinity, or the tool makes it on purpose: the
-                               output may have it */
     struct {
+        const char *source;     /* name of the current input, for messages    */
+        size_t frame;           /* number in the current source, from 1       */
+        bool missing, infinite; /* the input has NaN or infinity, or the tool makes it on purpose:
+                                   the output may have it */
         FILE *file;
         struct rc_reader *reader;
         const struct rc_share *share; /* with several processes: this process's part of the file */
@@ -203,16 +203,16 @@ struct tool {
         struct rc_grid *ahead; /* the next frame without its values; NULL: not read yet        */
         bool warned_short;
     } input;
-    FILE *out;
     struct {
+        FILE *file;
         struct rc_writer *writer;
         const struct rc_share *share;
         enum rc_type type;
         bool type_given, began, ended; /* began, ended: state of the stream */
         bool expected; /* a stream is expected on standard output, according to the command line */
+        bool report_alone; /* standard output holds only the report                       */
     } output;
-    bool report_alone; /* standard output holds only the report                               */
-    struct {           /* the current case of tool_channel; number 0: none yet                */
+    struct { /* the current case of tool_channel; number 0: none yet                */
         size_t number, found;
         const char *source; /* where it began                                             */
         char names[512];    /* its channels, for the message about a missing one          */

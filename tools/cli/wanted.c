@@ -217,8 +217,8 @@ hold(const struct wanted *w, struct tool *t, struct rc_grid *g)
 static void
 set_place(struct tool *t, const struct place *place)
 {
-    t->source = place->source;
-    t->frame = place->frame;
+    t->input.source = place->source;
+    t->input.frame = place->frame;
 }
 
 /* Reads a frame. At the end of a case the next frame waits until the selected ones were taken. */
@@ -233,7 +233,7 @@ read_on(const struct wanted *w, struct tool *t)
         if (f->n > 0)
             set_place(t, &f->place);
         g = tool_read(t);
-        f->place = (struct place){t->source, t->frame};
+        f->place = (struct place){t->input.source, t->input.frame};
         if (f->first < f->n && (g == NULL || rc_grid_case(g) != f->seen[f->first].number)) {
             sort_out(w, t, true);
             f->first = f->n;
@@ -274,7 +274,7 @@ no_channel(const struct wanted *w, struct tool *t, const char *name, size_t n)
         if (i == k)
             name_list_add(&l, f->seen[k].channel);
     }
-    tool_die(t, "%s: no frame with the channel %.*s, only %s", t->source, (int)n, name,
+    tool_die(t, "%s: no frame with the channel %.*s, only %s", t->input.source, (int)n, name,
              name_list_end(&l));
 }
 
@@ -292,7 +292,7 @@ no_case(const struct wanted *w, struct tool *t, double number)
         snprintf(text, sizeof text, "%zu", last);
         name_list_add(&l, text);
     }
-    tool_die(t, "%s: no case %.0f%s%s: there are cases %s", t->source, number,
+    tool_die(t, "%s: no case %.0f%s%s: there are cases %s", t->input.source, number,
              w->channel == NULL ? "" : " with ", w->channel == NULL ? "" : w->channel,
              name_list_end(&l));
 }
@@ -311,7 +311,7 @@ no_depth(const struct wanted *w, struct tool *t, double depth)
         if (i == k)
             name_list_add(&l, rc_number(seen[k].depth));
     }
-    tool_die(t, "%s: no frame at depth %s m: %s%s%s", t->source, rc_number(depth),
+    tool_die(t, "%s: no frame at depth %s m: %s%s%s", t->input.source, rc_number(depth),
              l.n == 0 ? "no frame has a depth" : "there are ", name_list_end(&l),
              l.n == 0 ? "" : " m");
 }
@@ -330,7 +330,7 @@ demand_channels(const struct wanted *w, struct tool *t, bool taken)
                 break;
         if (i == f->n && taken)
             tool_die(t, "%s: no frame with the channel %.*s among the requested cases and depths",
-                     t->source, (int)n, name);
+                     t->input.source, (int)n, name);
         if (i == f->n)
             no_channel(w, t, name, n);
     }
@@ -360,7 +360,7 @@ demand_section(const struct wanted *w, struct tool *t)
         i++;
     if (w->section != NULL && i == w->frames->n)
         tool_die(t, "%s: there is no section across %s, such as rc-stress --section %s=0 makes",
-                 t->source, w->section, w->section);
+                 t->input.source, w->section, w->section);
 }
 
 /* Decides after the last frame. */
@@ -370,7 +370,7 @@ settle(const struct wanted *w, struct tool *t)
     struct wanted_frames *f = w->frames;
 
     if (f->n == 0)
-        tool_die(t, "%s: the stream has no frame", t->source);
+        tool_die(t, "%s: the stream has no frame", t->input.source);
     demand_channels(w, t, false);
     demand_cases(w, t);
     demand_section(w, t);

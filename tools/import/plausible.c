@@ -32,14 +32,14 @@ import_judge(struct tool *t, const struct rc_grid *g, const struct rc_wish *wish
         tool_warn(t,
                   "%s: the %s is %.4g m%s, which is implausible: if the file means another unit, "
                   "--dx%s the spacing",
-                  t->source, g->ny > 1 ? "map" : "profile", x, by,
+                  t->input.source, g->ny > 1 ? "map" : "profile", x, by,
                   g->ny > 1 ? " and --dy give" : " gives");
     if (isnan(wish->z_unit) && span > fmax(x, y))
         tool_warn(t,
                   "%s: the heights span %.4g m, more than the %.4g m of the longer side, which is "
                   "implausible: if the unit is wrong, give --z-unit for the heights, or --dx for "
                   "the spacing",
-                  t->source, span, fmax(x, y));
+                  t->input.source, span, fmax(x, y));
 }
 
 /* ---- marks of missing points ---- */
@@ -103,7 +103,7 @@ judge_end(struct tool *t, const struct rc_grid *g, double unit, const struct end
     tool_warn(t,
               "%s: %zu of %zu values are %s in the file (%s %s), far from all others: if it marks "
               "missing points, --missing=%s says so",
-              t->source, end->n, g->nx * g->ny, number, in_unit, g->unit, number);
+              t->input.source, end->n, g->nx * g->ny, number, in_unit, g->unit, number);
 }
 
 void

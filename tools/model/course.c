@@ -159,7 +159,7 @@ course_show(struct tool *t, const struct rc_grid *g, struct rc_expected expected
 
     if (!isnan(expected.convolutions))
         snprintf(work, sizeof work, "%.0f convolutions, ", expected.convolutions);
-    fprintf(t->out, "%s: %zu x %zu nodes%s\n  about %s%zu MiB, %.2g s with %zu threads\n",
+    fprintf(t->output.file, "%s: %zu x %zu nodes%s\n  about %s%zu MiB, %.2g s with %zu threads\n",
             tool_where(t, g), g->nx, g->ny, what, work, (memory >> 20) + 1,
             course_seconds(t, g, expected.seconds, points), t->threads);
 }

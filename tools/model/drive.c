@@ -184,8 +184,8 @@ mark_case(struct drive *d)
     for (const struct tool_frame *f = d->beside; f != NULL && f->channel != NULL; f++)
         course_mark_map(c, f->channel, *f->frame);
     course_mark_map(c, c->g->channel, c->g);
-    if (d->mark != NULL)
-        d->mark(d);
+    if (d->calls.mark != NULL)
+        d->calls.mark(d);
 }
 
 /* The axes of the point, and all points before it. */
@@ -223,8 +223,8 @@ kind_of(const struct rc_model *m, const char *name)
 static void
 set_keys(struct drive *d, struct rc_model *m, struct rc_grid *g, const struct rc_point *at)
 {
-    if (d->all_keys != NULL) {
-        d->all_keys(d, m, g);
+    if (d->calls.all_keys != NULL) {
+        d->calls.all_keys(d, m, g);
         return;
     }
     tool_set(&d->t, g, "converged", d->status == RC_OK ? "yes" : "no");
@@ -237,15 +237,15 @@ set_keys(struct drive *d, struct rc_model *m, struct rc_grid *g, const struct rc
             isfinite(at->at[k]))
             tool_set_number(&d->t, g, axis->name, at->at[k]);
     }
-    if (d->keys != NULL)
-        d->keys(d, m, g);
+    if (d->calls.keys != NULL)
+        d->calls.keys(d, m, g);
 }
 
 /* The values of a frame: those of the tool, or of the model, found in the buffer. NULL: there are none. */
 static const double *
 values_of(struct drive *d, struct rc_model *m, struct rc_grid *as, const char *word, double *buffer)
 {
-    const double *own = d->frame != NULL ? d->frame(d, m, as, word) : NULL;
+    const double *own = d->calls.frame != NULL ? d->calls.frame(d, m, as, word) : NULL;
 
     if (own != NULL)
         return own;
@@ -267,7 +267,7 @@ put_frames(struct drive *d, struct rc_model *m, const struct rc_point *at)
         const struct rc_frame_kind *kind = kind_of(m, word);
         struct rc_grid frame;
         const double *v =
-            *d->output >> k & 1 ? values_of(d, m, as, word, d->spare ? g->v : as->v) : NULL;
+            *d->output >> k & 1 ? values_of(d, m, as, word, d->is.spare ? g->v : as->v) : NULL;
         if (v == NULL)
             continue;
         frame = *as;                  /* as the reader of the stream sees it */
@@ -293,15 +293,15 @@ put_row(struct drive *d, const struct rc_model *m, const struct rc_point *at)
     if (!report_wanted(r))
         return;
     report_begin(r);
-    if (d->row != NULL) {
-        d->row(d, m);
+    if (d->calls.row != NULL) {
+        d->calls.row(d, m);
         report_finish_row(r);
         return;
     }
     report_map(r, d->course.g, d->course.number);
     report_count(r, "threads", d->t.threads, NULL);
-    if (d->columns != NULL)
-        d->columns(d, m);
+    if (d->calls.columns != NULL)
+        d->calls.columns(d, m);
     report_model(r, m, at, d->point[d->at].given);
     report_bool(r, "converged", d->status == RC_OK);
     report_object(r, "seconds");
@@ -328,9 +328,9 @@ drive_where(const struct drive *d, const struct rc_grid *g, char *text, size_t s
 {
     const char *source = rc_grid_get(g, "source");
     size_t at = (size_t)snprintf(text, size, "%s, case %zu",
-                                 source != NULL        ? source
-                                 : d->t.source != NULL ? d->t.source
-                                                       : "standard input",
+                                 source != NULL              ? source
+                                 : d->t.input.source != NULL ? d->t.input.source
+                                                             : "standard input",
                                  d->course.number);
     char value[SHOWN_NUMBER];
 
@@ -492,15 +492,15 @@ end_point(struct drive *d, struct rc_model *m)
     struct rc_point at;
 
     tool_must(&d->t, d->course.g, rc_model_look(m, &at, &d->t.err));
-    d->silent = false;
-    (d->judge != NULL ? d->judge : drive_judge_point)(d, m);
-    if (!d->silent)
+    d->is.silent = false;
+    (d->calls.judge != NULL ? d->calls.judge : drive_judge_point)(d, m);
+    if (!d->is.silent)
         put_frames(d, m, &at);
-    if (d->keep != NULL)
-        d->keep(d, m);
-    if (!d->silent)
+    if (d->calls.keep != NULL)
+        d->calls.keep(d, m);
+    if (!d->is.silent)
         put_row(d, m, &at);
-    if (d->keep == NULL)
+    if (d->calls.keep == NULL)
         drive_keep(d, m);
 }
 
@@ -511,23 +511,23 @@ drive_points(struct drive *d, const struct rc_grid *g, struct rc_model *m)
 
     c->g = g;
     mark_case(d);
-    d->ended = false;
-    for (d->at = 0; d->at < d->points && !d->ended; d->at++) {
+    d->is.ended = false;
+    for (d->at = 0; d->at < d->points && !d->is.ended; d->at++) {
         if (d->at > 0 && tool_interrupted() != 0)
             break; /* the first point is written in any case */
         d->began = tool_now();
         c->number++;
         c->checkpoint = d->checkpoint;
         mark_point(d);
-        if (d->begin != NULL)
-            d->begin(d, m);
+        if (d->calls.begin != NULL)
+            d->calls.begin(d, m);
         course_set(c, m, &d->point[d->at]);
         d->setup = tool_now() - d->began;
         tool_catch_signals(); /* a tool may release them for the first plan */
         d->status = course_run(c, m);
         end_point(d, m);
     }
-    if (!d->lasts)
+    if (!d->is.lasts)
         rc_model_free(m);
 }
 

@@ -132,22 +132,12 @@ struct drive_advice {
     const char *figure, *advice;
 };
 
-struct drive {
-    struct tool t;
-    const struct drive_args *args;
-    const size_t *output;    /* bits of --output                               */
-    const char *const *list; /* its words: names of frames of the model, or "height" */
-    /* functions of the tool; each may be NULL */
-    const struct drive_advice *advice;
-    const char *const *tells; /* names of figures that --verbose prints; the last is NULL */
-    /* What the model depends on beside the options and the main map of the case: other maps, and keys of the
-     * main map. `changeable`: options that may differ when a run is resumed, although they change the result.
-     * The lists end with NULL. `mark` sets further marks of a case. */
-    const struct tool_frame *beside;
-    const char *const *reads, *const *changeable;
-    void (*mark)(struct drive *d);
-    const char *bound; /* option of a number that may rise; NULL: none */
-    bool independent;  /* no point depends on those before it */
+struct drive;
+struct rc_model;
+
+/* Functions of the tool; each may be NULL. */
+struct drive_calls {
+    void (*mark)(struct drive *d); /* sets further marks of a case */
     void (*keys)(struct drive *d, struct rc_model *m, struct rc_grid *frame);
     void (*columns)(struct drive *d, const struct rc_model *m); /* before those of the model */
     /* For a tool with more output than usual. It adds text before a point (plan), warnings, and all
@@ -158,9 +148,33 @@ struct drive {
     void (*all_keys)(struct drive *d, const struct rc_model *m, struct rc_grid *frame);
     const double *(*frame)(struct drive *d, struct rc_model *m, struct rc_grid *frame,
                            const char *word);
-    const char *unit; /* unit of frames that are not of the model; NULL: that of the heights */
     void (*keep)(struct drive *d, struct rc_model *m);
     void (*row)(struct drive *d, const struct rc_model *m);
+};
+
+struct drive_is {
+    bool ended;  /* set by `keys` or `judge`: later points of the case are left out */
+    bool lasts;  /* set by the tool, which frees the model: it serves further cases */
+    bool silent; /* set by `judge`: the point has no frames and no row */
+    bool spare;  /* set by the tool: the values of the heights are free for those of frames */
+};
+
+struct drive {
+    struct tool t;
+    const struct drive_args *args;
+    const size_t *output;    /* bits of --output                               */
+    const char *const *list; /* its words: names of frames of the model, or "height" */
+    struct drive_calls calls;
+    const struct drive_advice *advice;
+    const char *const *tells; /* names of figures that --verbose prints; the last is NULL */
+    /* What the model depends on beside the options and the main map of the case: other maps, and keys of the
+     * main map. `changeable`: options that may differ when a run is resumed, although they change the result.
+     * The lists end with NULL. */
+    const struct tool_frame *beside;
+    const char *const *reads, *const *changeable;
+    const char *bound; /* option of a number that may rise; NULL: none */
+    bool independent;  /* no point depends on those before it */
+    const char *unit;  /* unit of frames that are not of the model; NULL: that of the heights */
     /* set by drive_open and drive_case */
     struct report report;
     struct course course;
@@ -168,10 +182,7 @@ struct drive {
     const struct drive_axis *axes;
     struct rc_point *point;
     size_t points, at; /* at: the point that is reached */
-    bool ended;        /* set by `keys` or `judge`: later points of the case are left out */
-    bool lasts;        /* set by the tool, which frees the model: it serves further cases */
-    bool silent;       /* set by `judge`: the point has no frames and no row */
-    bool spare;        /* set by the tool: the values of the heights are free for those of frames */
+    struct drive_is is;
     enum rc_status status;
     double began, setup; /* seconds: start of the point; until its first step */
 };

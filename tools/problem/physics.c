@@ -342,7 +342,8 @@ physics_heights(struct tool *t, const struct physics *a, struct rc_grid *g)
                     g->unit);
     if (!isnan(a->radius))
         add_form(t, a, g);
-    if (t->missing || t->infinite || !isnan(a->radius)) /* a frame that was read, or the form */
+    if (t->input.missing || t->input.infinite ||
+        !isnan(a->radius)) /* a frame that was read, or the form */
         tool_demand_finite(t, g, "fill them with rc-detrend --fill");
     check_profile(t, a, g);
     warn(t, a, g);

@@ -249,8 +249,8 @@ judge(struct drive *d, struct rc_model *m)
     add_slip(run, m);
     if (!s->converged)
         tool_fails_with(&d->t, EXIT_SHORT);
-    d->silent = s->corner->silent && tool_interrupted() == 0;
-    if (!d->silent)
+    d->is.silent = s->corner->silent && tool_interrupted() == 0;
+    if (!d->is.silent)
         slip_judge(run, s);
 }
 
@@ -264,13 +264,13 @@ follow(struct slip_run *run)
         run->slipped =
             tool_room(&d->t, 3 * rc_grid_nodes(run->p), sizeof *run->slipped, "the slip");
     run->state = (struct slip_state){.dissipated_total = 0};
-    d->frame = slip_frame;
+    d->calls.frame = slip_frame;
     d->unit = "m";
-    d->mark = mark;
-    d->begin = begin;
-    d->judge = judge;
-    d->all_keys = set_keys;
-    d->row = slip_report;
+    d->calls.mark = mark;
+    d->calls.begin = begin;
+    d->calls.judge = judge;
+    d->calls.all_keys = set_keys;
+    d->calls.row = slip_report;
     d->points = run->corners;
     d->point = tool_room(&d->t, run->corners, sizeof *d->point, "a path");
     for (size_t k = 0; k < run->corners; k++)

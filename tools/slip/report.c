@@ -152,7 +152,7 @@ slip_passes(const struct slip_run *run)
 void
 slip_say_plan(struct slip_run *run, const struct rc_expected *expected)
 {
-    FILE *out = run->d.t.out;
+    FILE *out = run->d.t.output.file;
     const struct slip_pair *b = &run->bodies;
     const size_t memory = course_peak(expected->memory);
 

@@ -178,13 +178,13 @@ move(struct slip_run *run)
         return;
     }
     tool_demand_memory(&d->t, run->p, m == own.path && run->number > 0 ? 0 : expected.memory);
-    d->lasts = m == own.path;
-    d->frame = slip_frame;
+    d->is.lasts = m == own.path;
+    d->calls.frame = slip_frame;
     d->unit = "m";
     d->advice = advice;
-    d->begin = begin;
-    d->all_keys = set_keys;
-    d->row = slip_report;
+    d->calls.begin = begin;
+    d->calls.all_keys = set_keys;
+    d->calls.row = slip_report;
     d->points = 1;
     d->point = &to;
     d->course.number = rc_grid_case(run->p) > run->number ? rc_grid_case(run->p) - 1 : run->number;

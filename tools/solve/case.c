@@ -222,7 +222,7 @@ judge_load(struct drive *d, struct rc_model *m)
     if (!s->contact.converged && !run->apart)
         tool_fails_with(&d->t, EXIT_SHORT);
     /* the frames are found in the input map if it is no longer needed */
-    d->spare =
+    d->is.spare =
         !solve_wanted(run->args, SOLVE_HEIGHT) && !run->physics->history && d->at + 1 == d->points;
 }
 
@@ -303,13 +303,13 @@ do_loads(struct run *run)
     struct drive *d = &run->d;
 
     run->model = make_model(run, &problem);
-    d->mark = mark;
-    d->begin = begin_load;
-    d->judge = judge_load;
-    d->all_keys = set_keys;
-    d->frame = own_values;
-    d->keep = keep_shape;
-    d->row = solve_report;
+    d->calls.mark = mark;
+    d->calls.begin = begin_load;
+    d->calls.judge = judge_load;
+    d->calls.all_keys = set_keys;
+    d->calls.frame = own_values;
+    d->calls.keep = keep_shape;
+    d->calls.row = solve_report;
     d->independent = !run->physics->history && SOLVE_FIRST(run, follows) == NULL;
     if (d->points == 1)
         d->course.number = rc_grid_case(run->g) - 1;

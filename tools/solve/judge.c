@@ -24,7 +24,7 @@ solve_where(const struct run *run, const struct rc_grid *g, char *text, size_t s
                 axes + at, sizeof axes - at, ", %s %s", rc_axis_info(k)->name,
                 shown_in_unit(run->d.point[run->d.at].at[k], rc_axis_info(k)->unit));
     if (source == NULL)
-        source = run->d.t.source == NULL ? "standard input" : run->d.t.source;
+        source = run->d.t.input.source == NULL ? "standard input" : run->d.t.input.source;
     if (a->load.n > 0) {
         name = "load";
         unit = a->load.per_metre ? "N/m" : "N";

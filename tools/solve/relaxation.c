@@ -319,7 +319,7 @@ look(struct run *run, struct rc_model *m, struct solution *s)
     s->increments = (double)own.found->increments;
     run->apart = s->contact.contact_nodes == 0;
     if (run->d.at == 0 && own.before && tool_interrupted() == 0) {
-        run->d.silent = true;
+        run->d.is.silent = true;
         run->d.course.number--;
         return false;
     }

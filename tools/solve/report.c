@@ -58,7 +58,7 @@ report_effect(struct run *run, const char *name, const char *state)
 static void
 print_effect(struct run *run, const char *name, const char *state)
 {
-    fprintf(run->d.t.out, "  %-15s %s\n", name, state);
+    fprintf(run->d.t.output.file, "  %-15s %s\n", name, state);
 }
 
 /* ---- report ---- */
@@ -297,11 +297,12 @@ solve_plan(struct run *run, const struct rc_problem *problem)
     SOLVE_EACH (run, more, work)
         each += more->work(run);
     memory = ranks_most(&run->d.t, (double)before + (double)memory_of(run, problem));
-    fprintf(run->d.t.out, "%s: %zu x %zu nodes, %zu %s%s, engine %s\n", tool_where(&run->d.t, g),
-            g->nx, g->ny, run->cases, points != NULL ? points->noun : "load",
-            run->cases == 1 ? "" : "s", engine);
+    fprintf(run->d.t.output.file, "%s: %zu x %zu nodes, %zu %s%s, engine %s\n",
+            tool_where(&run->d.t, g), g->nx, g->ny, run->cases,
+            points != NULL ? points->noun : "load", run->cases == 1 ? "" : "s", engine);
     show_effects(run, why, print_effect);
-    fprintf(run->d.t.out, "  about %.0f convolutions%s, %zu MiB, %.2g s with %zu threads\n", each,
+    fprintf(run->d.t.output.file, "  about %.0f convolutions%s, %zu MiB, %.2g s with %zu threads\n",
+            each,
             run->cases == 1  ? ""
             : points != NULL ? points->after
                              : " for the first load, fewer for the next",

@@ -327,7 +327,7 @@ enum rc_status
 stress_report_plan(const struct tool *t, const struct rc_grid *p, const struct rc_stress_options *o,
                    const struct numbers *depths, size_t memory, struct rc_err *err)
 {
-    FILE *out = t->out;
+    FILE *out = t->output.file;
     double seconds;
 
     if (expect(t, p, o, depths, memory, &seconds, err) != RC_OK)
