@@ -17,6 +17,8 @@ enum {
     RC_KEYS_MOST = 24
 };
 
+/* A map of a file. A reader sets what its file says; for most files 0 is right for most members, so that the
+ * members stay in one list. */
 struct rc_map {
     char name[64];
     char unit[16];      /* SI unit: "m", "V", ...; "" if unknown                              */

@@ -1079,6 +1079,7 @@ rc_adhesion_solver_step(struct rc_adhesion_solver *a, struct rc_err *err)
 
 /* ---- results ---- */
 
+/* The record is flat, as struct rc_contact. */
 #define FIGURE(member) RC_FIGURE(struct rc_adhesion_state, member)
 const struct rc_figure rc_figures_adhesion[] = {
     {FIGURE(attractive_load), "N", "Load of attraction", .says = "sum of the attraction, positive"},

@@ -6,6 +6,7 @@
 #include <math.h>
 #include <string.h>
 
+/* A record of figures is flat, however long, because rows name its members. */
 #define FIGURE(member) RC_FIGURE(struct rc_contact, member)
 #define AS(column, member) RC_FIGURE_AS(column, struct rc_contact, member)
 const struct rc_figure rc_figures_contact[] = {
