@@ -84,7 +84,7 @@ struct effect {
      * solution. */
     size_t (*memory)(struct run *run, const struct rc_problem *problem);
     size_t (*bytes)(const struct run *run);
-    size_t (*later)(const struct run *run);
+    size_t later;
 
     /* Before a point; the largest checkpoint is chosen. */
     void (*begin)(struct run *run, struct rc_model *m, const struct rc_problem *problem);
@@ -111,7 +111,7 @@ struct effect {
     const double *(*frame)(struct run *run, struct rc_model *m, struct rc_grid *as,
                            const char *word);
 
-    /* Its state, "on" or "left out: why"; `off`: without it. */
+    /* Its state, "on" or "left out: why"; `off`: without it, else `state` says that too. */
     const char *off;
     const char *(*state)(const struct run *run);
     enum solve_place place;

@@ -39,9 +39,9 @@ show_effects(struct run *run, const char *engine,
         const struct effect *e = solve_effects[k];
         if (e->name != NULL)
             show(run, e->name,
-                 !is_active(run, e) ? e->off
-                 : e->state != NULL ? e->state(run)
-                                    : "on");
+                 !is_active(run, e) && e->off != NULL ? e->off
+                 : e->state != NULL                   ? e->state(run)
+                                                      : "on");
     }
     for (size_t f = 0; solve_frames[f] != NULL; f++)
         if (!is_effect(solve_frames[f])) /* otherwise its state is there already */
@@ -245,7 +245,7 @@ memory_of(struct run *run, const struct rc_problem *problem)
     SOLVE_EACH (run, e, bytes)
         maps += e->bytes(run);
     SOLVE_EACH (run, e, later)
-        later = e->later(run) > later ? e->later(run) : later;
+        later = e->later > later ? e->later : later;
     return expected.memory + small + (maps + later) * rc_grid_nodes(run->g);
 }
 

@@ -14,7 +14,7 @@ enum {
 
 static const char *conductivities; /* of both bodies, or NULL */
 static struct {
-    bool wanted;
+    bool found;       /* by each solution */
     double k[2];      /* SI */
     const char *unit; /* W/K or S; NULL: the conductivities have no unit */
 } conductance;
@@ -30,27 +30,24 @@ static const struct opt conductivity_options[] = {
 static bool
 ask_conductance(struct run *run)
 {
-    (void)run;
-    return conductivities != NULL;
-}
+    struct tool *t = &run->d.t;
 
-static void
-read_conductance(struct run *run)
-{
-    if (unit_conductivities(conductivities, conductance.k, &conductance.unit, &run->d.t.err) !=
-        RC_OK)
-        tool_usage(&run->d.t, "--conductivity %s: %s", conductivities, run->d.t.err.text);
-    conductance.wanted = run->physics->pair.one.layers == 0;
-    if (!conductance.wanted)
-        tool_warn(&run->d.t, "--conductivity does not work with --layer, because the analogy of "
-                             "conductance and stiffness fails: the conductance is left out");
+    if (conductivities == NULL)
+        return false;
+    if (unit_conductivities(conductivities, conductance.k, &conductance.unit, &t->err) != RC_OK)
+        tool_usage(t, "--conductivity %s: %s", conductivities, t->err.text);
+    conductance.found = run->physics->layer.n == 0;
+    if (!conductance.found)
+        tool_warn(t, "--conductivity does not work with --layer, because the analogy of "
+                     "conductance and stiffness fails: the conductance is left out");
+    return conductance.found;
 }
 
 static bool
 look_apart(struct run *run, struct rc_model *m, struct solution *s)
 {
     (void)m;
-    if (run->apart && conductance.wanted)
+    if (run->apart)
         s->conductance = (struct rc_conductance){NAN, 0, 0};
     return true;
 }
@@ -58,7 +55,7 @@ look_apart(struct run *run, struct rc_model *m, struct solution *s)
 static void
 find_conductance(struct run *run, struct rc_solver *solver, struct solution *s)
 {
-    if (conductance.wanted && isnan(s->conductance.value))
+    if (isnan(s->conductance.value))
         tool_must(&run->d.t, run->g,
                   rc_solver_conductance(solver, conductance.k[0], conductance.k[1], &s->conductance,
                                         &run->d.t.err));
@@ -68,22 +65,16 @@ static double
 conductance_work(const struct run *run)
 {
     (void)run;
-    return conductance.wanted ? STIFFNESS + 1 : 0;
-}
-
-/* The map of patches is freed before. */
-static size_t
-conductance_bytes(const struct run *run)
-{
-    (void)run;
-    return conductance.wanted ? RC_CONDUCTANCE_BYTES : 0;
+    return STIFFNESS + 1;
 }
 
 static const char *
 conductance_state(const struct run *run)
 {
     (void)run;
-    return conductance.wanted ? "on" : "left out: layers, for which no analogy holds";
+    return conductance.found        ? "on"
+           : conductivities != NULL ? "left out: layers, for which no analogy holds"
+                                    : "left out: no --conductivity";
 }
 
 static void
@@ -98,12 +89,10 @@ const struct effect solve_effect_conductivity = {
     .title = "output",
     .options = conductivity_options,
     .ask = ask_conductance,
-    .read = read_conductance,
     .look = look_apart,
     .find = find_conductance,
     .work = conductance_work,
-    .later = conductance_bytes,
-    .off = "left out: no --conductivity",
+    .later = RC_CONDUCTANCE_BYTES, /* the map of patches is freed before */
     .state = conductance_state,
     .place = COLUMNS_OF_BOUNDS,
     .columns = true,
@@ -112,36 +101,34 @@ const struct effect solve_effect_conductivity = {
 
 /* ---- stiffness ---- */
 
-static struct {
-    bool given;
-    bool wanted;
-    const char *why_not;
-} stiffness;
+static bool given;
 
 /* clang-format off */
 static const struct opt stiffness_options[] = {
-    {.name = "stiffness", .type = OPT_FLAG, .base = &stiffness.given,
+    {.name = "stiffness", .type = OPT_FLAG, .base = &given,
      .help = "compute d load / d approach (default: with a list)"},
     {.name = NULL},
 };
 /* clang-format on */
 
-static void
-read_stiffness(struct run *run)
+static bool
+is_asked(const struct run *run)
 {
-    const struct effect *without = SOLVE_FIRST(run, no_stiffness);
+    return given || (physics_steps(run->physics)->n > 1 && SOLVE_FIRST(run, no_stiffness) == NULL);
+}
 
-    stiffness.why_not = without != NULL ? without->no_stiffness : "one load and no --stiffness";
-    stiffness.wanted = stiffness.given || (run->steps->n > 1 && without == NULL);
+static bool
+ask_stiffness(struct run *run)
+{
+    return is_asked(run);
 }
 
 static void
 find_stiffness(struct run *run, struct rc_solver *solver, struct solution *s)
 {
-    if (!stiffness.wanted)
-        return;
-    find_conductance(run, solver, s);
-    if (conductance.wanted && s->contact.plastic_nodes == 0)
+    if (conductance.found)
+        find_conductance(run, solver, s);
+    if (conductance.found && s->contact.plastic_nodes == 0)
         s->stiffness = s->conductance.stiffness;
     else
         tool_must(&run->d.t, run->g, rc_solver_stiffness(solver, &s->stiffness, &run->d.t.err));
@@ -150,25 +137,19 @@ find_stiffness(struct run *run, struct rc_solver *solver, struct solution *s)
 static double
 stiffness_work(const struct run *run)
 {
-    return stiffness.wanted && !(conductance.wanted && isinf(run->bound_min)) ? STIFFNESS : 0;
-}
-
-static size_t
-stiffness_bytes(const struct run *run)
-{
-    (void)run;
-    return stiffness.wanted ? RC_STIFFNESS_BYTES : 0;
+    return conductance.found && isinf(run->bound_min) ? 0 : STIFFNESS;
 }
 
 static const char *
 stiffness_state(const struct run *run)
 {
     static char text[64];
+    const struct effect *without = SOLVE_FIRST(run, no_stiffness);
 
-    (void)run;
-    if (stiffness.wanted)
+    if (is_asked(run))
         return "on";
-    snprintf(text, sizeof text, "left out: %s", stiffness.why_not);
+    snprintf(text, sizeof text, "left out: %s",
+             without != NULL ? without->no_stiffness : "one load and no --stiffness");
     return text;
 }
 
@@ -176,9 +157,9 @@ const struct effect solve_effect_stiffness = {
     .name = "stiffness",
     .title = "output",
     .options = stiffness_options,
-    .read = read_stiffness,
+    .ask = ask_stiffness,
     .find = find_stiffness,
     .work = stiffness_work,
-    .later = stiffness_bytes,
+    .later = RC_STIFFNESS_BYTES,
     .state = stiffness_state,
 };
