@@ -63,7 +63,7 @@ heat, steps|rc-heat $steels --speed 1m/s --time 1ms --time-steps 8 p512.rcg"
 printf '%-18s %8s %8s %6s\n' command told/s run/s ratio
 grep -E "^(${3:-.*})\|" <<<"$rows" | while IFS='|' read -r name command; do
     IFS=' ' read -ra words <<<"$command"
-    told=$("${words[@]}" --quiet --dry-run 2>/dev/null | sed -nE 's/.*[ ,]([0-9.e+-]+) s( with.*)?$/\1/p' | tail -n 1)
+    told=$("${words[@]}" --quiet --dry-run --report - 2>/dev/null | sed -n "s/.*\"expected_seconds\": \([0-9.e+-]*\).*/\1/p" | tail -n 1)
     start=${EPOCHREALTIME/./}
     "${words[@]}" --quiet -o /dev/null || echo "exit $?: $command"
     awk -v n="$name" -v t="${told:-nan}" -v us=$((${EPOCHREALTIME/./} - start)) 'BEGIN {

@@ -83,8 +83,9 @@ enum rc_figure_kind {
 };
 enum rc_figure_role {
     RC_FIGURE_RESULT,
-    RC_FIGURE_ERROR, /* a part of the estimated error: `by` names the option that lowers it */
-    RC_FIGURE_COST
+    RC_FIGURE_ERROR, /* an estimated relative error, or a part of one, of `of`; `by` lowers it */
+    RC_FIGURE_CHECK, /* tells how far the results can be trusted: nodes of a patch, a slope   */
+    RC_FIGURE_COST   /* work: iterations, convolutions, nodes                                 */
 };
 /* A row of a table of figures; the last row of a table has no name. RC_FIGURE gives the first three. */
 struct rc_figure {
@@ -98,8 +99,10 @@ struct rc_figure {
     /* explanation, a part of a sentence; NULL: the title is enough */
     const char *says;
     enum rc_figure_role role;
-    /* the field of the problem that governs it */
+    /* of an error: the member of the problem that lowers it, or "grid" for the spacing */
     const char *by;
+    /* of an error: the figure or frame that it belongs to */
+    const char *of;
     /* a warning is printed above it, or below it if `least` is set; 0: no limit */
     double limit;
     bool least;

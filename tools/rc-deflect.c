@@ -8,7 +8,8 @@ static struct args {
     double estar, tol;
     size_t order, correction;
     const char *kernel;
-    bool periodic;
+    bool periodic, dry_run;
+    const char *report;
 } args = {.estar = NAN, .tol = NAN, .kernel = "auto"};
 
 #define AT(field) .at = offsetof(struct args, field)
@@ -32,6 +33,10 @@ static const struct opt opts[] = {
      .result = true, .arg = "M",
      .needs = RULES({.with = "order"}),
      .help = "multi-level sums: corrections over 2M+1 by 2M+1 nodes"},
+    {.name = "report", .type = OPT_REPORT, AT(report), .arg = "FILE",
+     .help = "write one JSON object per case, or a row of FILE.tsv or .csv"},
+    {.name = "dry-run", .type = OPT_FLAG, AT(dry_run), .text = true,
+     .help = "print what would be computed, its memory and time, and exit"},
     {.name = NULL},
 };
 /* clang-format on */
@@ -111,9 +116,70 @@ demand_memory(struct tool *t, const struct rc_grid *p, const struct rc_conv_opti
     t->remedy = NULL;
 }
 
-static void
-do_case(struct tool *t, const struct rc_grid *p)
+/* The effects: computed, or why not. */
+static const struct effect_state *
+effects(const struct rc_conv_options *options, const struct layers *layers)
 {
+    static struct effect_state list[3];
+
+    list[0] =
+        (struct effect_state){"layers", layers->text != NULL ? "on" : "left out: one material"};
+    list[1] = (struct effect_state){
+        "padding", options->boundary == RC_FREE ? "on" : "left out: the map is periodic"};
+    return list;
+}
+
+static void
+put_report(struct report *r, const struct rc_grid *p, const struct rc_conv *conv,
+           const struct rc_conv_options *options, const struct layers *layers, const double *u,
+           const double seconds[2])
+{
+    double lowest = -INFINITY, highest = -INFINITY, sum = 0; /* lowest: of -u */
+
+    for (size_t k = 0; k < rc_grid_nodes(p); k++) {
+        lowest = fmax(lowest, -u[k]);
+        highest = fmax(highest, u[k]);
+        sum += u[k];
+    }
+    report_begin(r);
+    report_map(r, p, rc_grid_case(p));
+    report_text(r, "boundary", options->boundary == RC_PERIODIC ? "periodic" : "free");
+    report_text(r, "kernel", rc_conv_engine(conv));
+    report_count(r, "threads", r->tool->threads, NULL);
+    report_value(r, "min_displacement", -ranks_most(r->tool, lowest));
+    report_value(r, "max_displacement", ranks_most(r->tool, highest));
+    report_value(r, "mean_displacement", ranks_sum(r->tool, sum) / ((double)p->nx * (double)p->ny));
+    /* relative to the sum of |K| |p| */
+    report_number(r, "displacement_error_estimate", rc_conv_error(conv), NULL);
+    report_number(r, "tol", options->tol, NULL);
+    report_carried(r, rc_grid_get(p, "converged"));
+    report_effects(r, effects(options, layers));
+    report_seconds(
+        r, (const struct report_phase[]){{"setup", seconds[0]}, {"sum", seconds[1]}, {NULL, 0}},
+        seconds[0] + seconds[1]);
+    report_memory(r);
+    report_finish_row(r);
+}
+
+static void
+show_plan(struct tool *t, struct report *r, const struct rc_grid *p,
+          const struct rc_conv_options *options, const struct layers *layers)
+{
+    const struct demand d = {p, options};
+    const char *reason;
+    const struct plan plan = plan_begin(t, r, p, rc_grid_case(p),
+                                        options->boundary == RC_PERIODIC ? "periodic" : "free", "");
+
+    plan_say(&plan, "kernel", "%s", rc_conv_choice(rc_shape_of(p), options, &reason));
+    plan_effects(&plan, effects(options, layers));
+    plan_end(&plan, 1, "", rc_conv_seconds(rc_shape_of(p), options),
+             tool_memory_with(memory_by(&d, options->engine)));
+}
+
+static void
+do_case(struct tool *t, struct report *r, const struct rc_grid *p)
+{
+    double began = tool_now(), seconds[2];
     struct rc_conv_options options = {.boundary = contact_boundary(t, p, args.periodic),
                                       .engine = args.kernel,
                                       .tol = isnan(args.tol) ? 0 : args.tol,
@@ -129,31 +195,44 @@ do_case(struct tool *t, const struct rc_grid *p)
     RC_OWN(rc_grid, u) = NULL;
 
     tool_demand_finite(t, p, "recompute the map");
+    if (args.dry_run) {
+        show_plan(t, r, p, &options, &layers);
+        layers_free(&layers);
+        return;
+    }
     demand_memory(t, p, &options);
     conv = tool_made(t, p, rc_conv_new(rc_shape_of(p), &pair, &options, &t->err));
     tool_note(t, "summed by %s, because %s; error at most %.1e of the sum of |K| |p|",
               rc_conv_engine(conv), rc_conv_reason(conv), rc_conv_error(conv));
+    seconds[0] = tool_now() - began;
     u = tool_frame_like(t, p, NULL, "displacement", "m");
     if (pair.estar > 0)
         tool_set_number(t, u, "estar", pair.estar);
     tool_set(t, u, "boundary", options.boundary == RC_PERIODIC ? "periodic" : "free");
     tool_sign(t, u);
+    began = tool_now();
     rc_conv_apply(conv, p->v, u->v);
+    seconds[1] = tool_now() - began;
+    tool_write(t, u);
+    if (report_wanted(r))
+        put_report(r, p, conv, &options, &layers, u->v, seconds);
     rc_conv_free(conv);
     layers_free(&layers);
-    tool_write(t, u);
 }
 
 int
 main(int argc, char **argv)
 {
     struct tool t;
+    struct report report;
     struct rc_grid *p;
 
     tool_start(&t, &info, argc, argv, &args);
+    report_open(&report, &t, args.report);
     while ((p = tool_channel(&t, "pressure", false)) != NULL) {
-        do_case(&t, p);
+        do_case(&t, &report, p);
         rc_grid_free(p);
     }
+    report_close(&report);
     return tool_finish(&t);
 }

@@ -408,6 +408,26 @@ new_frame(struct run *run, const struct rc_shape *result, int c)
     return g;
 }
 
+/* The criteria and effects: computed, or why not. */
+static const struct effect_state *
+effects(const struct run *run)
+{
+    static struct effect_state list[RC_FATIGUES + 4];
+    const bool traction = run->options.mu != 0 || run->position[0].traction[0] != NULL ||
+                          run->position[0].traction[1] != NULL;
+
+    for (int c = 0; c < RC_FATIGUES; c++)
+        list[c] = (struct effect_state){rc_criterion_names[c],
+                                        wanted(c) ? "on" : "left out: not in --criteria"};
+    list[RC_FATIGUES] = (struct effect_state){
+        "pass", args.pass != NULL ? "on" : "left out: no --pass, the cases are the history"};
+    list[RC_FATIGUES + 1] = (struct effect_state){
+        "friction", traction ? "on" : "left out: mu = 0 and no frames of traction"};
+    list[RC_FATIGUES + 2] =
+        (struct effect_state){"residual", args.residual != NULL ? "on" : "left out: no --residual"};
+    return list;
+}
+
 /* ---- the report ---- */
 
 static void
@@ -419,6 +439,7 @@ begin_row(struct run *run, struct report *out)
     report_begin(out);
     report_map(out, first, rc_grid_case(first));
     report_text(out, "boundary", run->options.boundary == RC_PERIODIC ? "periodic" : "free");
+    report_count(out, "threads", run->t.threads, NULL);
     report_text(out, "pass", pass[0] == '\0' ? NULL : pass);
     report_count(out, "positions", run->positions, NULL);
 }
@@ -444,6 +465,11 @@ static void
 report_all(struct run *run, const struct rc_fatigue *f, double **by_depth, double began)
 {
     struct report *out = &run->report;
+    const char *converged = NULL;
+
+    for (size_t k = 0; k < run->positions && (converged == NULL || strcmp(converged, "no") != 0);
+         k++)
+        converged = rc_grid_get(run->position[k].p, "converged");
 
     begin_row(run, out);
     report_text(out, "dangvan_compression", args.dangvan);
@@ -455,7 +481,10 @@ report_all(struct run *run, const struct rc_fatigue *f, double **by_depth, doubl
         if (wanted(c))
             report_numbers(out, rc_criterion_names[c], by_depth[c], sizeof(double), run->depths.n);
     report_end(out);
-    report_number(out, "seconds", tool_now() - began, "s");
+    report_number(out, "tol", run->options.tol, NULL);
+    report_carried(out, converged);
+    report_effects(out, effects(run));
+    report_seconds(out, (const struct report_phase[]){{NULL, 0}}, tool_now() - began);
     report_memory(out);
     report_finish_row(out);
 }
@@ -556,23 +585,16 @@ show_plan(struct run *run, const struct rc_shape *shape)
     const size_t memory = tool_memory_with(run->needs);
     const double seconds = expect(run, &r);
     const struct numbers *d = &run->depths;
-    FILE *out = run->t.output.file;
+    const struct plan plan =
+        plan_begin(&run->t, &run->report, first, rc_grid_case(first),
+                   run->options.boundary == RC_PERIODIC ? "periodic" : "free", "");
 
-    fprintf(out, "case %zu: %zu x %zu nodes, %s boundary\n", rc_grid_case(first), first->nx,
-            first->ny, run->options.boundary == RC_PERIODIC ? "periodic" : "free");
-    if (args.pass != NULL)
-        fprintf(out, "  %-14salong %s\n", "pass", args.pass);
-    else
-        fprintf(out, "  %-14s%zu\n", "positions", run->positions);
-    fprintf(out, "  %-14s%zu, %g to %g m\n", "depths", d->n, d->v[0], d->v[d->n - 1]);
-    fprintf(out, "  %-14s%zu at each depth\n", "histories", r.nx * r.ny);
-    for (int c = 0; c < RC_FATIGUES; c++)
-        fprintf(out, "  %-14s%s\n", rc_criterion_names[c], wanted(c) ? "on" : "left out");
-    fprintf(out, "  %-14sabout %zu MiB\n", "memory", (memory >> 20) + 1);
-    if (isnan(seconds))
-        fprintf(out, "  %-14sunknown\n", "time");
-    else
-        fprintf(out, "  %-14sabout %.2g s\n", "time", seconds);
+    if (args.pass == NULL)
+        plan_say(&plan, "positions", "%zu", run->positions);
+    plan_say(&plan, "depths", "%zu, %g to %g m", d->n, d->v[0], d->v[d->n - 1]);
+    plan_say(&plan, "histories", "%zu at each depth", r.nx * r.ny);
+    plan_effects(&plan, effects(run));
+    plan_end(&plan, NAN, "", seconds, memory);
 }
 
 static void

@@ -362,6 +362,39 @@ write_frame(struct run *run, const struct rc_grid *like, struct rc_heat *h, size
     tool_write(&run->t, g);
 }
 
+static const char *
+boundary(const struct run *run)
+{
+    return run->problem.boundary == RC_PERIODIC ? "periodic" : "free";
+}
+
+/* The effects of this case: computed, or why not. */
+static const struct effect_state *
+effects(const struct run *run)
+{
+    static const char *const partition[] = {
+        [RC_HEAT_MATCHED] = "on: equal temperatures at each node",
+        [RC_HEAT_BLOK] = "on: one share, for equal largest temperatures",
+        [RC_HEAT_CHARRON] = "on: one share, of bodies that do not move",
+        [RC_HEAT_SHARE] = "left out: --partition gives the share"};
+    static const char at_rest[] = "left out: the heat does not move over it";
+    static struct effect_state list[7];
+    const struct rc_heat_problem *p = &run->problem;
+    const bool below = args.depths.n > 1 || args.depths.v[0] > 0;
+
+    list[0] = (struct effect_state){"partition", partition[p->partition]};
+    list[1] = (struct effect_state){"transient",
+                                    p->time > 0 ? "on" : "left out: no --time, a steady state"};
+    for (int b = 0; b < 2; b++)
+        list[2 + b] = (struct effect_state){
+            b == 0 ? "motion_1" : "motion_2",
+            p->body[b].velocity[0] != 0 || p->body[b].velocity[1] != 0 ? "on" : at_rest};
+    list[4] = (struct effect_state){
+        "bulk", p->body[0].bulk != p->body[1].bulk ? "on" : "left out: equal bulk temperatures"};
+    list[5] = (struct effect_state){"depths", below ? "on" : "left out: no --depths below 0"};
+    return list;
+}
+
 static void
 put_report(struct run *run, const struct rc_grid *g, const struct rc_heat_figures *f,
            double seconds)
@@ -370,11 +403,13 @@ put_report(struct run *run, const struct rc_grid *g, const struct rc_heat_figure
 
     report_begin(r);
     report_map(r, g, rc_grid_case(g));
-    report_text(r, "boundary", run->problem.boundary == RC_PERIODIC ? "periodic" : "free");
+    report_text(r, "boundary", boundary(run));
     report_count(r, "threads", run->t.threads, NULL);
     report_value(r, "speed", run->speed);
     report_table(r, rc_figures("heat"), f);
-    report_number(r, "seconds", seconds, "s");
+    report_number(r, "tol", args.tol, NULL);
+    report_effects(r, effects(run));
+    report_seconds(r, (const struct report_phase[]){{NULL, 0}}, seconds);
     report_memory(r);
     report_finish_row(r);
 }
@@ -433,13 +468,16 @@ static void
 show_plan(struct run *run, const struct rc_grid *g)
 {
     struct rc_expected expected;
+    struct plan plan;
     size_t below = 0;
 
     for (size_t k = 0; k < args.depths.n && (args.output & 3) != 0; k++)
         below += args.depths.v[k] > 0;
     tool_must(&run->t, g,
               rc_heat_expect(rc_shape_of(g), &run->problem, below, &expected, &run->t.err));
-    course_show(&run->t, g, expected, 1, "");
+    plan = plan_begin(&run->t, &run->report, g, rc_grid_case(g), boundary(run), "");
+    plan_effects(&plan, effects(run));
+    course_plan(&plan, g, expected, 1);
     free(run->touch);
     run->touch = NULL;
 }

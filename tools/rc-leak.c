@@ -177,7 +177,11 @@ show_plan(struct run *run, const struct leak_case *c)
 {
     const double fluid = (isnan(c->contact) ? 1 : 1 - c->contact) * (double)rc_grid_nodes(c->gap);
 
-    course_show(&run->t, c->gap, rc_leak_expect((size_t)fluid, run->t.threads), 1, "");
+    const struct plan plan = plan_begin(&run->t, &run->report, c->gap, rc_grid_case(c->gap),
+                                        rc_grid_get(c->gap, "boundary"), "");
+
+    plan_effects(&plan, leak_effects(c));
+    course_plan(&plan, c->gap, rc_leak_expect((size_t)fluid, run->t.threads), 1);
 }
 
 static void

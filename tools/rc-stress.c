@@ -270,9 +270,9 @@ plan_case(struct run *run, const struct rc_grid *p)
 {
     double memory = ranks_most(&run->t, (double)tool_memory_with(memory_for(run, p)));
 
-    tool_must(
-        &run->t, p,
-        stress_report_plan(&run->t, p, &run->options, &run->depths, (size_t)memory, &run->t.err));
+    tool_must(&run->t, p,
+              stress_report_plan(&run->t, &run->out, p, &run->options, &run->depths, (size_t)memory,
+                                 &run->t.err));
 }
 
 static void

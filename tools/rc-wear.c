@@ -612,22 +612,64 @@ put_step(struct course *c, struct rc_model *m)
 }
 
 static void
-show_plan(struct run *run, const struct rc_grid *g)
+asked(struct drive *d, const struct rc_model *m)
 {
+    (void)m;
+    report_number(&d->report, "tol", args.tol, NULL);
+}
+
+/* The effects: computed, or why not. */
+static const struct effect_state *
+effects(struct drive *d)
+{
+    static struct effect_state list[10];
+    const struct run *run = (const struct run *)(const void *)d;
+    const struct rc_grid *g = d->course.g;
+    const bool hard = run->map[HARD] != NULL || rc_grid_get(g, "hardness") != NULL;
+    const bool coated = rc_grid_get(g, "layers") != NULL;
+
+    list[0] = (struct effect_state){"wear_1", run->law.k[0] > 0 || run->energy != NULL
+                                                  ? "on"
+                                                  : "left out: the coefficient of body 1 is 0"};
+    list[1] = (struct effect_state){
+        "wear_2", run->law.k[1] > 0 ? "on" : "left out: no coefficient of body 2"};
+    list[2] = (struct effect_state){
+        "coefficient_map",
+        run->law.part != NULL ? "on" : "left out: one coefficient for all nodes"};
+    list[3] = (struct effect_state){
+        "track", run->law.track > 0 ? "on" : "left out: no --motion track:LENGTH"};
+    list[4] = (struct effect_state){"two_bodies",
+                                    run->law.two_bodies ? "on" : "left out: no --motion sliding"};
+    list[5] = (struct effect_state){
+        "dissipation", run->energy != NULL
+                           ? "on: each node loses the coefficient times its energy of a cycle"
+                           : "left out: no --cycles of a frame dissipation"};
+    list[6] = (struct effect_state){
+        "hardness", hard ? "on" : "left out: the contact was solved without a hardness"};
+    list[7] = (struct effect_state){"layers", coated ? "on" : "left out: one material"};
+    list[8] = (struct effect_state){
+        "heat", "left out: wear and heat do not change each other here: see rc-heat"};
+    return list;
+}
+
+static void
+show_plan(struct drive *d, const struct plan *plan)
+{
+    const struct run *run = (const struct run *)(const void *)d;
+    const struct rc_grid *g = d->course.g;
     const double scale = rate(run, g) * run->law.estar;
     const double limit = 0.9 * g->dx / scale;
-    const double last = run->d.point[run->d.points - 1].at[RC_DISTANCE];
+    const double last = d->point[d->points - 1].at[RC_DISTANCE];
 
     if (run->energy != NULL)
         return;
     if (run->law.track == 0 || run->law.k[1] == 0)
-        fprintf(run->d.t.output.file,
-                "  explicit steps: about %.3g, each at most 0.9 dx/(k E*) = %s\n",
-                ceil(last / limit), shown_in_unit(limit, "m"));
+        plan_say(plan, "explicit steps", "about %.3g, each at most 0.9 dx/(k E*) = %s",
+                 ceil(last / limit), shown_in_unit(limit, "m"));
     if (run->law.part != NULL)
-        fprintf(run->d.t.output.file,
-                "  coefficient by node: a contact takes about 12 to 35 convolutions, more than 100 "
-                "where a step is above 1000 dx/(k E*), beside 6 of a uniform one\n");
+        plan_say(plan, "coefficients",
+                 "by node: a contact takes about 12 to 35 convolutions, more than 100 where a step "
+                 "is above 1000 dx/(k E*), beside 6 of a uniform one");
 }
 
 static void
@@ -686,8 +728,6 @@ do_case(struct run *run, const struct rc_grid *g)
                rc_wear_new(rc_elastic_new(&shape, g->v, &problem, NULL, &d->t.err), g->v, &run->law,
                            &d->t.err),
                &d->t.err);
-    if (args.drive.dry_run)
-        show_plan(run, g);
     layers_free(&layers);
     free(run->part);
     free(run->energy);
@@ -769,6 +809,9 @@ main(int argc, char **argv)
                                    .reads = reads,
                                    .calls.judge = judge,
                                    .calls.keys = set_keys,
+                                   .calls.columns = asked,
+                                   .calls.effects = effects,
+                                   .calls.plan = show_plan,
                                    .course.stepped = put_step},
                              .beside = {{"wear-coefficient", &run.map[COEFFICIENT]},
                                         {"hardness", &run.map[HARD]},

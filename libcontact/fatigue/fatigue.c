@@ -594,9 +594,9 @@ rc_fatigue_depth(struct rc_fatigue *f, double depth, const struct rc_fatigue_lim
         {RC_FIGURE_AS(name "_depth", struct rc_fatigue_figures, largest[c].depth), "m",            \
          "Its depth"},                                                                             \
     {                                                                                              \
-        RC_FIGURE_AS(name "_sampling_error", struct rc_fatigue_figures,                            \
+        RC_FIGURE_AS(name "_error_estimate", struct rc_fatigue_figures,                            \
                      largest[c].sampling_error),                                                   \
-            NULL, "Its sampling error"                                                             \
+            NULL, "Its error by the sampling", .role = RC_FIGURE_ERROR, .by = "grid", .of = name   \
     }
 #define FIGURE(member) RC_FIGURE(struct rc_fatigue_figures, member)
 const struct rc_figure rc_figures_fatigue[] = {
@@ -607,17 +607,18 @@ const struct rc_figure rc_figures_fatigue[] = {
     PLACE(RC_SHAKEDOWN, "shakedown", "Index of shakedown", NULL),
     PLACE(RC_AMPLITUDE, "amplitude", "Amplitude sqrt(J2)", "Pa"),
     {FIGURE(safety), NULL, "Safety factor"},
-    {FIGURE(sampling_error), NULL, "Sampling error"},
+    {RC_FIGURE_AS("sampling_error_estimate", struct rc_fatigue_figures, sampling_error), NULL,
+     "Error by the sampling", .role = RC_FIGURE_ERROR, .by = "grid", .of = "safety"},
     {FIGURE(plane_tilt), "deg", "Angle of the plane's normal to z"},
     {FIGURE(plane_turn), "deg", "Angle of the plane's normal to x"},
     {FIGURE(dangvan_hydrostatic), "Pa", "Hydrostatic stress that decides for Dang Van"},
     {FIGURE(least_hydrostatic), "Pa", "Least hydrostatic stress"},
     {FIGURE(largest_hydrostatic), "Pa", "Largest hydrostatic stress"},
     {FIGURE(stressed_volume), NULL, "Stressed volume"},
-    {FIGURE(depths), NULL, "Depths"},
-    {FIGURE(histories), NULL, "Histories"},
-    {FIGURE(states), NULL, "States of a history"},
-    {FIGURE(bands), NULL, "Bands of rows"},
+    {FIGURE(depths), NULL, "Depths", .role = RC_FIGURE_COST},
+    {FIGURE(histories), NULL, "Histories", .role = RC_FIGURE_COST},
+    {FIGURE(states), NULL, "States of a history", .role = RC_FIGURE_COST},
+    {FIGURE(bands), NULL, "Bands of rows", .role = RC_FIGURE_COST},
     {0},
 };
 

@@ -412,13 +412,14 @@ const struct rc_figure rc_figures_friction[] = {
     {FIGURE(passes), NULL, "Passes", .role = RC_FIGURE_COST},
     {FIGURE(convolutions), NULL, "Convolutions", .role = RC_FIGURE_COST},
     {AS("iteration_error_estimate", traction_error), NULL, "Error of the iteration",
-     .role = RC_FIGURE_ERROR, .by = "tol"},
+     .role = RC_FIGURE_ERROR, .by = "tol", .of = "traction-x"},
     {AS("inherited_error_estimate", inherited_error), NULL, "Error of earlier loads",
-     .says = "of the increments before", .role = RC_FIGURE_ERROR, .by = "tol"},
+     .says = "of the increments before", .role = RC_FIGURE_ERROR, .by = "tol", .of = "traction-x"},
     {AS("contact_error_estimate", contact_error), NULL, "Error of the contacts",
-     .role = RC_FIGURE_ERROR, .by = "tol"},
+     .role = RC_FIGURE_ERROR, .by = "tol", .of = "traction-x"},
     {AS("increment_error_estimate", increment_error), NULL, "Error of the increments",
-     .says = "of too few increments", .role = RC_FIGURE_ERROR, .by = "increments"},
+     .says = "of too few increments", .role = RC_FIGURE_ERROR, .by = "increments",
+     .of = "traction-x"},
     {0},
 };
 

@@ -9,6 +9,7 @@
 /* A record of figures is flat, however long, because rows name its members. */
 #define FIGURE(member) RC_FIGURE(struct rc_contact, member)
 #define AS(column, member) RC_FIGURE_AS(column, struct rc_contact, member)
+#define ERROR(lowered_by, belongs_to) .role = RC_FIGURE_ERROR, .by = lowered_by, .of = belongs_to
 const struct rc_figure rc_figures_contact[] = {
     {FIGURE(load), "N", "Load", .says = "sum of the pressure"},
     {FIGURE(mean_pressure), "Pa", "Mean pressure", .says = "load over the area of the map"},
@@ -21,24 +22,24 @@ const struct rc_figure rc_figures_contact[] = {
     {FIGURE(yielded_area), "m2", "Yielded area",
      .says = "area at the hardness that this load deforms"},
     {FIGURE(edge_load_fraction), NULL, "Share of the load at the edge",
-     .says = "load on the outer 2 % of the map over the load", .limit = 0.01,
-     .warning = "the contact reaches the edge of the map"},
+     .says = "load on the outer 2 % of the map over the load", .role = RC_FIGURE_CHECK,
+     .limit = 0.01, .warning = "the contact reaches the edge of the map"},
     {FIGURE(approach), "m", "Approach", .says = "of the bodies, from first touch"},
     {FIGURE(mean_gap), "m", "Mean gap", .says = "over the whole map"},
     {FIGURE(iterations), NULL, "Iterations", .role = RC_FIGURE_COST},
     {FIGURE(convolutions), NULL, "Convolutions", .role = RC_FIGURE_COST,
      .says = "in equivalents of one in double precision on this grid"},
-    {FIGURE(kkt_residual), NULL, "Residual",
+    {FIGURE(kkt_residual), NULL, "Residual", .role = RC_FIGURE_CHECK,
      .says =
          "largest violation of the contact conditions over the spread of heights or displacements"},
     {AS("pressure_error_estimate", pressure_error), NULL, "Error of the pressure",
-     .says = "estimated relative L1 error", .role = RC_FIGURE_ERROR, .by = "tol"},
-    {AS("discretization_error_estimate.contact_area", discretization.contact_area), NULL,
-     "Error of the contact area by the grid", .says = "estimated, relative"},
-    {AS("discretization_error_estimate.max_pressure", discretization.max_pressure), NULL,
-     "Error of the largest pressure by the grid", .says = "estimated, relative"},
-    {AS("discretization_error_estimate.approach", discretization.approach), NULL,
-     "Error of the approach by the grid", .says = "estimated, relative"},
+     .says = "estimated relative L1 error", ERROR("tol", "pressure")},
+    {AS("contact_area_error_estimate", discretization.contact_area), NULL,
+     "Error of the contact area by the grid", ERROR("grid", "contact_area")},
+    {AS("max_pressure_error_estimate", discretization.max_pressure), NULL,
+     "Error of the largest pressure by the grid", ERROR("grid", "max_pressure")},
+    {AS("approach_error_estimate", discretization.approach), NULL,
+     "Error of the approach by the grid", ERROR("grid", "approach")},
     {FIGURE(converged), NULL, "Converged", .says = "the error estimate is within the tolerance"},
     {AS("elastic_energy", elastic_energy), "J", "Elastic energy", .says = "of both bodies"},
     {0},

@@ -330,16 +330,20 @@ rc_stress_engine(const struct rc_stress *stress)
     return t->precise ? t->engine->precise.name : t->engine->info.name;
 }
 
-#define COUNT(member) RC_FIGURE_AS("counts." #member, struct rc_stress_counts, member), NULL
+#define COUNT(member, title)                                                                       \
+    {                                                                                              \
+        RC_FIGURE_AS("counts." #member, struct rc_stress_counts, member), NULL, title,             \
+            .role = RC_FIGURE_COST                                                                 \
+    }
 /* clang-format off */
 const struct rc_figure rc_figures_stress[] = {
-    {COUNT(depths), "Depths"}, {COUNT(coarse_depths), "Depths on coarser grids"},
-    {COUNT(normal_kernels), "Kernels of the pressure"}, {COUNT(shear_kernels), "Kernels of the traction"},
-    {COUNT(coefficients), "Coefficients of kernels"}, {COUNT(source_transforms), "Transforms of sources"},
-    {COUNT(kernel_transforms), "Transforms of kernels"}, {COUNT(field_transforms), "Transforms of fields"},
-    {COUNT(line_transforms), "Transforms along lines"}, {COUNT(engine_sums), "Sums by another engine"},
-    {COUNT(strain_transforms), "Transforms of strains"},
-    {COUNT(strain_field_transforms), "Transforms of the stresses of strains"},
+    COUNT(depths, "Depths"), COUNT(coarse_depths, "Depths on coarser grids"),
+    COUNT(normal_kernels, "Kernels of the pressure"), COUNT(shear_kernels, "Kernels of the traction"),
+    COUNT(coefficients, "Coefficients of kernels"), COUNT(source_transforms, "Transforms of sources"),
+    COUNT(kernel_transforms, "Transforms of kernels"), COUNT(field_transforms, "Transforms of fields"),
+    COUNT(line_transforms, "Transforms along lines"), COUNT(engine_sums, "Sums by another engine"),
+    COUNT(strain_transforms, "Transforms of strains"),
+    COUNT(strain_field_transforms, "Transforms of the stresses of strains"),
     {0},
 };
 /* clang-format on */

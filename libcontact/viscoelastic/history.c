@@ -124,7 +124,7 @@ const struct rc_figure rc_figures_viscoelastic[] = {
      .says = "steps from the previous point"},
     {RC_FIGURE_AS("increment_error_estimate", struct rc_viscoelastic_figures, increment_error),
      NULL, "Error of the increments", .says = "estimated relative L1 error of the pressure",
-     .role = RC_FIGURE_ERROR, .by = "increments"},
+     .role = RC_FIGURE_ERROR, .by = "increments", .of = "pressure"},
     {FIGURE(equivalent_load), "N", "Equivalent load",
      .says =
          "load with the same contact on bodies that keep their instantaneous moduli, if the load "

@@ -146,9 +146,9 @@ const struct rc_figure rc_figures_wear[] = {
      .says = "of all contacts so far, in equivalents of one in double precision on this grid"},
     {AS("wear_error_estimate", wear_error), NULL, "Error of the wear",
      .says = "estimated error of the worn depth: its L1 norm over the worn volume",
-     .role = RC_FIGURE_ERROR, .by = "tol"},
+     .role = RC_FIGURE_ERROR, .by = "tol", .of = "wear"},
     {AS("pressure_error_estimate", pressure_error), NULL, "Error of the pressure",
-     .says = "estimated relative L1 error", .role = RC_FIGURE_ERROR, .by = "tol"},
+     .says = "estimated relative L1 error", .role = RC_FIGURE_ERROR, .by = "tol", .of = "pressure"},
     {FIGURE(converged), NULL, "Converged", .says = "the error estimates are within the tolerance"},
     {0},
 };

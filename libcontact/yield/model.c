@@ -128,15 +128,15 @@ const struct rc_figure rc_figures_yield[] = {
      .says =
          "first touch of the shape after the load, counted from first touch of the first shape"},
     {AS("increment_error_estimate", last.increment_error), NULL, "Error of the increments",
-     .role = RC_FIGURE_ERROR, .by = "increments"},
+     .role = RC_FIGURE_ERROR, .by = "increments", .of = "pressure"},
     {AS("inherited_error_estimate", last.inherited_error), NULL, "Error of earlier loads",
-     .role = RC_FIGURE_ERROR, .by = "increments"},
+     .role = RC_FIGURE_ERROR, .by = "increments", .of = "pressure"},
     {AS("iteration_error_estimate", last.iteration_error), NULL, "Error of the iteration",
-     .role = RC_FIGURE_ERROR, .by = "tol"},
+     .role = RC_FIGURE_ERROR, .by = "tol", .of = "pressure"},
     {AS("contact_error_estimate", last.contact_error), NULL, "Error of the contacts",
-     .role = RC_FIGURE_ERROR, .by = "tol"},
+     .role = RC_FIGURE_ERROR, .by = "tol", .of = "pressure"},
     {AS("image_error_estimate", last.image_error), NULL, "Error of the edge of the map",
-     .role = RC_FIGURE_ERROR, .by = "boundary"},
+     .role = RC_FIGURE_ERROR, .by = "boundary", .of = "pressure"},
     {0},
 };
 static const struct rc_figure_set sets[] = {

@@ -10,6 +10,7 @@
 #include <string.h>
 
 #include "libcontact/contact.h"
+#include "libcontact/model/row.h"
 
 static const char *const tables[] = {
 #define RC_FIGURES(name) #name,
@@ -17,9 +18,28 @@ static const char *const tables[] = {
 #undef RC_FIGURES
 };
 
+/* A frame of some model. */
+static bool
+is_frame(const char *name)
+{
+#define RC_MODEL(row) &rc_model_##row,
+    static const struct rc_model_row *const models[] = {
+#include RC_MODELS_LIST
+    };
+#undef RC_MODEL
+    bool is = false;
+
+    assert_non_null(name);
+    for (size_t k = 0; k < sizeof models / sizeof *models; k++)
+        for (const struct rc_frame_kind *f = models[k]->frame; f->name != NULL; f++)
+            is |= strcmp(f->name, name) == 0;
+    return is;
+}
+
 static void
 check_row(const struct rc_figure *f)
 {
+    static const char ending[] = "_error_estimate";
     const struct rc_figure *found = rc_figure_find(f->name);
 
     assert_true(islower(f->name[0]));
@@ -27,7 +47,13 @@ check_row(const struct rc_figure *f)
     assert_non_null(f->title);
     assert_true(isupper(f->title[0]) && f->title[strlen(f->title) - 1] != '.');
     assert_true(f->unit == NULL || strcmp(f->unit, "1") != 0);
-    assert_true(f->role != RC_FIGURE_ERROR || f->by != NULL);
+    /* an estimated error is named so, and says what it belongs to and how it becomes smaller */
+    assert_int_equal(f->role == RC_FIGURE_ERROR,
+                     strlen(f->name) > strlen(ending) &&
+                         strcmp(f->name + strlen(f->name) - strlen(ending), ending) == 0);
+    assert_int_equal(f->role == RC_FIGURE_ERROR, f->by != NULL);
+    if (f->role == RC_FIGURE_ERROR && !is_frame(f->of) && rc_figure_find(f->of) == NULL)
+        fail_msg("%s belongs to %s, which is no figure and no frame", f->name, f->of);
     assert_int_equal(f->limit != 0, f->warning != NULL);
     assert_true(f->kind == RC_NUMBER || f->unit == NULL);
     /* the first figure of that name, which has the same meaning; its unit may be known at run time only */

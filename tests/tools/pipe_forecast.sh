@@ -38,10 +38,10 @@ forecast "steady rolling" 1 "rc-slip --mu 0.3 --creep 1e-3,0 --steady ball.rcg"
 # ---- stresses ----
 
 fatigue="rc-fatigue --bending-limit 60MPa --torsion-limit 37MPa --pass x --depths 1um:9um:3"
-claim "stresses have a time" says 'time +about [0-9.e-]+ s' rc-stress --depths 0:9um:4 --dry-run pressed.rcg
-claim "  it is unknown where the memory is too small" says 'time +unknown' rc-stress --memory 1M --depths 0:9um:4 --dry-run pressed.rcg
-claim "fatigue has a time" says 'time +about [0-9.e-]+ s' $fatigue --dry-run pressed.rcg
-claim "  it is unknown where the memory is too small" says 'time +unknown' $fatigue --memory 1M --dry-run pressed.rcg
+claim "stresses have a time" says 'about [0-9]+ MiB, [0-9.e-]+ s with' rc-stress --depths 0:9um:4 --dry-run pressed.rcg
+claim "  it is unknown where the memory is too small" says 'MiB, unknown time' rc-stress --memory 1M --depths 0:9um:4 --dry-run pressed.rcg
+claim "fatigue has a time" says 'about [0-9]+ MiB, [0-9.e-]+ s with' $fatigue --dry-run pressed.rcg
+claim "  it is unknown where the memory is too small" says 'MiB, unknown time' $fatigue --memory 1M --dry-run pressed.rcg
 
 # ---- flow and heat ----
 

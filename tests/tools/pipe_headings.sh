@@ -52,6 +52,7 @@ report rc-heat "rc-heat --mu 0.3 --speed 1 --conductivity 45,45 --diffusivity 1e
 report rc-stress "rc-stress --depths 0,1um --threads 1 --quiet --report \$r -o s.rcg one.rcg"
 report rc-fatigue "rc-fatigue --bending-limit 6MPa --torsion-limit 4MPa --pass x --depths 1um,2um --threads 1 --quiet --report \$r -o s.rcg one.rcg"
 report rc-leak "rc-leak --viscosity 1mPas --pressure-drop 1kPa --threads 1 --quiet --report \$r -o f.rcg one.rcg"
+report rc-deflect "rc-deflect --threads 1 --quiet --report \$r -o d.rcg p.rcg"
 report rc-info "rc-info --areal --psd --profile rows --report \$r rough.rcg"
 report "rc-info --patches" "rc-info --areal --patches --report \$r one.rcg"
 report rc-cost "rc-cost --load 1mN --estar 100GPa --kernel fft --limit 2s --threads 1 --quiet --report \$r rough.rcg"

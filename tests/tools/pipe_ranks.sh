@@ -170,7 +170,7 @@ refuses 1 "a section is computed by one process" "  in a plan" \
     "$MPIRUN -n 2 rc-stress --nu 0.3 --depths 0,1um --section y=0 --dry-run wave-pressed.rcg"
 refuses 1 "needs the map in one process" "  an engine that is not shared, in a plan" \
     "$MPIRUN -n 2 rc-stress --nu 0.3 --depths 0,1um --kernel mlms --dry-run pressed.rcg"
-claim "a plan for two processes has the expected time" says 'time +about [0-9.e-]+ s' \
+claim "a plan for two processes has the expected time" says 'about [0-9]+ MiB, [0-9.e-]+ s with' \
     $MPIRUN -n 2 rc-stress --nu 0.3 --depths 0,1um --tol 1e-3 --dry-run pressed.rcg
 claim "  the refusal of unsupported options" grep -q 'coarse_grids *left out: several processes share the map' says.out
 refuses 2 'give one of --load' "a wrong command line" "$MPIRUN -n 2 rc-solve --estar 1GPa -o no.rcg rough.rcg"

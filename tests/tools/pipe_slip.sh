@@ -151,8 +151,8 @@ claim "  pressing is then no case" test "$(wc -l <none.tsv)" = 2
 # ---- messages ----
 
 claim "the plan lists omitted effects" says "left out: beta = 0, so that pressure and tractions do not influence each other" rc-slip --mu 0.3 --tangential 36N --dry-run ball.rcg
-claim "  it has the number of increments" says "to P 240 N, 36 N, 0 N: 2 increments$" rc-slip --mu 0.3 --tangential 36N --dry-run ball.rcg
-claim "  it lists active effects" says "on, beta 0.286: about 5 passes" rc-slip --mu 0.3 --tangential 36N --dry-run rigid.rcg
+claim "  it has the number of increments" says "to +P 240 N, 36 N, 0 N: 2 increments$" rc-slip --mu 0.3 --tangential 36N --dry-run ball.rcg
+claim "  it lists active effects" says "beta +0.286: about 5 passes" rc-slip --mu 0.3 --tangential 36N --dry-run rigid.rcg
 claim "a force close to sliding causes a warning" warns "the force is 0.995 of the friction limit" rc-slip --mu 0.3 --tangential 71.64N -o edge.rcg ball.rcg
 rc-slip --mu 0.3 --displacement 1m --report slides.tsv -o slides.rcg ball.rcg 2>slides.err
 claim "  a displacement beyond sliding causes none" test ! -s slides.err

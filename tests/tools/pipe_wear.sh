@@ -188,7 +188,7 @@ claim "two phases" rc-wear --quiet --distance 1000m --report phases.tsv -o phase
 claim "  where k p is even in the end" bash -c '
     rc-wear --quiet --distance 1000km --output pressure phases.rcg | rc-export --format csv | grep -v "^#" |
         awk -F, "{ for (i = 1; i <= 32; i++) s[int((i - 1) / 8) % 2] += \$i } END { q = s[1] / s[0]; exit !(q > 3.98 && q < 4.02) }"'
-claim "  the plan says what it costs" says 'coefficient by node: a contact takes about' rc-wear --dry-run --distance 1m phases.rcg
+claim "  the plan says what it costs" says 'coefficients +by node: a contact takes about' rc-wear --dry-run --distance 1m phases.rcg
 forecast() { "$@" --dry-run | sed -n 's/.*about \([0-9.e+]*\) convolutions.*/\1/p'; }
 near "$(forecast rc-wear --distance 1000m phases.rcg)" "$(awk "BEGIN { print 3 * $(forecast $wear --distance 1000m pressed.rcg) }")" 0.01 \
     "  and three times the convolutions of a uniform coefficient"
@@ -243,7 +243,7 @@ near "$(column max_pressure 2 on.tsv)" "$(column max_pressure 2 straight.tsv)" 1
 
 # ---- words ----
 
-claim "the plan compares with explicit steps" says 'explicit steps: about 2.53e.04, each at most 0.9 dx/.k E.. = 39.4737 mm' \
+claim "the plan compares with explicit steps" says 'explicit steps +about 2.53e.04, each at most 0.9 dx/.k E.. = 39.4737 mm' \
     $wear --dry-run --distance 1km ball.rcg
 loud='rc-wear --coefficient 1e-6mm3/Nm'
 claim "a distance without noticeable wear causes a warning" warns 'the last distance, 1 um, hardly changes the contact, which takes about 4.38596 mm' \

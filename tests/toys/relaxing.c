@@ -29,7 +29,8 @@ struct relaxing {
 static const struct rc_figure figures[] = {
     {FIGURE(time), "s", "Time"},
     {FIGURE(mean_settlement), "m", "Mean settlement"},
-    {FIGURE(step_error), NULL, "Error of the steps", .role = RC_FIGURE_ERROR, .by = "tol"},
+    {RC_FIGURE_AS("step_error_estimate", struct toy_figures, step_error), NULL,
+     "Error of the steps", .role = RC_FIGURE_ERROR, .by = "tol", .of = "settlement"},
     {FIGURE(steps), NULL, "Steps", .role = RC_FIGURE_COST},
     {FIGURE(rejected), NULL, "Rejected steps", .role = RC_FIGURE_COST},
     {0},

@@ -9,6 +9,7 @@
 #include "contact.h"
 #include "ending.h"
 #include "tools/text/text.h"
+#include "plan.h"
 #include "tools/machine/machine.h"
 #include "process.h"
 #include "ranks.h"

@@ -414,6 +414,9 @@ static const struct rc_figure own[] = {
     {.name = "nodes_per_patch", .title = "Nodes per patch"},
     {.name = "contact_area_inside", .unit = "m2", .title = "Contact area inside the taper"},
     {.name = "contact_fraction_inside", .title = "Contact fraction inside the taper"},
+    {.name = "min_displacement", .unit = "m", .title = "Least displacement"},
+    {.name = "max_displacement", .unit = "m", .title = "Largest displacement"},
+    {.name = "mean_displacement", .unit = "m", .title = "Mean displacement"},
     {.name = "flow_rate", .unit = "m3/s", .title = "Flow rate"},
     {.name = "shear_flow", .unit = "m3/s", .title = "Shear flow"},
     {.name = "critical_flow", .unit = "m3/s", .title = "Flow of the critical constriction"},
@@ -457,6 +460,46 @@ report_map(struct report *r, const struct rc_grid *g, size_t number)
     report_count(r, "ny", g->ny, NULL);
     report_number(r, "dx", g->dx, "m");
     report_number(r, "dy", g->dy, "m");
+}
+
+void
+report_effects(struct report *r, const struct effect_state *e)
+{
+    report_object(r, "effects");
+    for (; e->name != NULL; e++)
+        report_text(r, e->name, e->state);
+    report_end(r);
+}
+
+void
+report_seconds(struct report *r, const struct report_phase *phase, double total)
+{
+    if (r->separator) {
+        report_number(r, "seconds", total, "s");
+        return;
+    }
+    report_object(r, "seconds");
+    for (; phase->name != NULL; phase++)
+        report_number(r, phase->name, phase->seconds, "s");
+    report_number(r, "total", total, "s");
+    report_end(r);
+}
+
+void
+report_carried(struct report *r, const char *converged)
+{
+    if (converged == NULL)
+        report_text(r, "converged", NULL);
+    else
+        report_bool(r, "converged", strcmp(converged, "no") != 0);
+}
+
+void
+report_forecast(struct report *r, double convolutions, double seconds, size_t memory)
+{
+    report_number(r, "expected_convolutions", convolutions, NULL);
+    report_number(r, "expected_seconds", seconds, "s");
+    report_count(r, "expected_memory", memory, "B");
 }
 
 void

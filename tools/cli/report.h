@@ -83,6 +83,23 @@ void report_named(struct report *report, const struct figures *from, const char 
 /* Title and unit of a column, from the library's tables or, for numbers of the tools only, from a table of
  * this file. NULL for an unknown column. */
 const struct rc_figure *report_figure(const char *name);
+/* The effects that a tool knows, each with "on" or "left out: REASON"; the last has no name. */
+struct effect_state {
+    const char *name, *state;
+};
+void report_effects(struct report *report, const struct effect_state *effects);
+/* Wall time, s: `seconds`, an object with the phases and `total`, in a table the total alone. The total is
+ * that from the input to the figures, without reading and writing of frames; the last phase has no name. */
+struct report_phase {
+    const char *name;
+    double seconds;
+};
+void report_seconds(struct report *report, const struct report_phase *phases, double total);
+/* `converged` of a result that has no iteration of its own: that of its input, a value of the key; NULL:
+ * unknown. */
+void report_carried(struct report *report, const char *converged);
+/* What --dry-run forecasts: equivalents of a convolution (NAN: unknown), s (NAN: unknown), bytes. */
+void report_forecast(struct report *report, double convolutions, double seconds, size_t memory);
 /* Columns of many reports: a map with this case number, and the memory. */
 void report_map(struct report *report, const struct rc_grid *g, size_t number);
 void report_memory(struct report *report);

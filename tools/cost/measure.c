@@ -93,7 +93,6 @@ cost_plan(struct cost_case *c, struct cost_trial *m)
         SMALLEST = 8 /* nodes along a side; smaller coarse grids are not tried */
     };
     const size_t least = m->shape.nx < m->shape.ny ? m->shape.nx : m->shape.ny;
-    const char *at;
     struct line l;
     int status;
     enum process_end end;
@@ -104,6 +103,7 @@ cost_plan(struct cost_case *c, struct cost_trial *m)
     }
     solve_line(c, m, &l);
     put(&l, "--dry-run", m->reference ? NULL : "--quiet");
+    put(&l, "--report", "-");
     end = cost_run(c, l.word, grid_of(c, m), -1, INFINITY, "a plan", &status);
     if (end == PROCESS_FAILED && m->reference && status == EXIT_USAGE)
         tool_usage(c->tool, "%s", cost_message(c->said));
@@ -111,11 +111,10 @@ cost_plan(struct cost_case *c, struct cost_trial *m)
         tool_refuse(c->tool, c->heights, "%s", cost_message(c->said));
     if (end == PROCESS_FAILED)
         leave_out(m, cost_message(c->said));
-    if (end != PROCESS_ENDED || c->said == NULL || (at = strstr(c->said, "  about ")) == NULL)
+    if (end != PROCESS_ENDED || c->said == NULL)
         return;
-    if ((at = strchr(at, ',')) == NULL ||
-        sscanf(at, "%*[^0-9]%lf MiB, %lf s", &m->mebibytes, &m->planned) != 2)
-        m->mebibytes = m->planned = NAN;
+    m->mebibytes = cost_number(c->said, "expected_memory") / 1048576;
+    m->planned = cost_number(c->said, "expected_seconds");
     if (c->tool->memory != 0 && m->mebibytes * 1048576 > (double)c->tool->memory)
         leave_out(m, "it needs more than --memory");
     if (m->reference)

@@ -21,6 +21,8 @@ struct leak_case {
 
 /* Warnings about the accuracy of a flow. */
 void leak_judge(struct tool *tool, const struct leak_case *c);
+/* The effects of the case: computed, or why not. */
+const struct effect_state *leak_effects(const struct leak_case *c);
 void leak_report(struct report *report, const struct leak_case *c);
 
 #endif

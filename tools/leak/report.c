@@ -25,6 +25,25 @@ shear_flow(const struct leak_case *c)
            (c->rough + (c->smooth - c->rough) / 2 * c->figures->shear_stress_factor);
 }
 
+const struct effect_state *
+leak_effects(const struct leak_case *c)
+{
+    static struct effect_state list[6];
+
+    list[0] = (struct effect_state){
+        "contact", c->pressed ? "on: no fluid where the bodies touch"
+                              : "left out: no frame contact or pressure, fluid flows in every gap"};
+    list[1] = (struct effect_state){
+        "sliding", isnan(c->smooth) ? "left out: no --sliding, the bodies are at rest" : "on"};
+    list[2] = (struct effect_state){
+        "flow_rate", isnan(c->rate) ? "left out: no --viscosity and --pressure-drop" : "on"};
+    list[3] = (struct effect_state){"sides", c->around ? "on: the edges along the flow join"
+                                                       : "left out: they are walls"};
+    list[4] = (struct effect_state){"fluid_load",
+                                    "left out: the pressure of the fluid does not lift the bodies"};
+    return list;
+}
+
 void
 leak_report(struct report *r, const struct leak_case *c)
 {
@@ -56,11 +75,12 @@ leak_report(struct report *r, const struct leak_case *c)
                  "percolates_diagonal critical_gap critical_x critical_y");
     report_value(r, "critical_flow", c->rate * critical_conductance(c));
     report_named(r, from, "throat_nodes fluid_nodes dead_nodes unknowns");
-    report_object(r, "seconds");
-    report_number(r, "setup", c->setup, "s");
-    report_number(r, "solve", c->solve, "s");
-    report_number(r, "total", c->setup + c->solve, "s");
-    report_end(r);
+    report_text(r, "tol", NULL); /* of an elimination, which has none */
+    report_carried(r, rc_grid_get(g, "converged"));
+    report_effects(r, leak_effects(c));
+    report_seconds(
+        r, (const struct report_phase[]){{"setup", c->setup}, {"solve", c->solve}, {NULL, 0}},
+        c->setup + c->solve);
     report_memory(r);
     report_finish_row(r);
 }

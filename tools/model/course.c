@@ -151,17 +151,11 @@ course_seconds(const struct tool *t, const struct rc_grid *g, double seconds, si
 }
 
 void
-course_show(struct tool *t, const struct rc_grid *g, struct rc_expected expected, size_t points,
-            const char *what)
+course_plan(const struct plan *plan, const struct rc_grid *g, struct rc_expected expected,
+            size_t points)
 {
-    const size_t memory = course_peak(expected.memory);
-    char work[64] = "";
-
-    if (!isnan(expected.convolutions))
-        snprintf(work, sizeof work, "%.0f convolutions, ", expected.convolutions);
-    fprintf(t->output.file, "%s: %zu x %zu nodes%s\n  about %s%zu MiB, %.2g s with %zu threads\n",
-            tool_where(t, g), g->nx, g->ny, what, work, (memory >> 20) + 1,
-            course_seconds(t, g, expected.seconds, points), t->threads);
+    plan_end(plan, expected.convolutions, "",
+             course_seconds(plan->tool, g, expected.seconds, points), course_peak(expected.memory));
 }
 
 enum rc_status

@@ -285,6 +285,13 @@ put_frames(struct drive *d, struct rc_model *m, const struct rc_point *at)
 
 /* ---- report ---- */
 
+/* The boundary that the tool or the map says. */
+static const char *
+boundary_of(const struct drive *d, const struct rc_grid *g)
+{
+    return d->boundary != NULL ? d->boundary : rc_grid_get(g, "boundary");
+}
+
 static void
 put_row(struct drive *d, const struct rc_model *m, const struct rc_point *at)
 {
@@ -299,15 +306,18 @@ put_row(struct drive *d, const struct rc_model *m, const struct rc_point *at)
         return;
     }
     report_map(r, d->course.g, d->course.number);
+    report_text(r, "boundary", boundary_of(d, d->course.g));
     report_count(r, "threads", d->t.threads, NULL);
     if (d->calls.columns != NULL)
         d->calls.columns(d, m);
     report_model(r, m, at, d->point[d->at].given);
     report_bool(r, "converged", d->status == RC_OK);
-    report_object(r, "seconds");
-    report_number(r, "iterate", d->course.iterate, "s");
-    report_number(r, "total", tool_now() - d->began, "s");
-    report_end(r);
+    if (d->calls.effects != NULL)
+        report_effects(r, d->calls.effects(d));
+    report_seconds(r,
+                   (const struct report_phase[]){
+                       {"setup", d->setup}, {"iterate", d->course.iterate}, {NULL, 0}},
+                   d->looked - d->began);
     report_memory(r);
     report_finish_row(r);
 }
@@ -430,7 +440,8 @@ judge_end(struct drive *d, const struct rc_model *m, const char *where)
     if (d->status != RC_SHORT)
         return;
     for (size_t k = 0; (f = rc_model_figure(m, k, &data)) != NULL; k++)
-        if (f->role == RC_FIGURE_ERROR && rc_figure_number(f, data) > most) {
+        if (f->role == RC_FIGURE_ERROR && strcmp(f->by, "grid") != 0 &&
+            rc_figure_number(f, data) > most) { /* converged does not ask about the grid */
             most = rc_figure_number(f, data);
             largest = f;
         }
@@ -458,11 +469,18 @@ plan_of(struct drive *d, const struct rc_grid *g, const struct rc_model *m)
 static void
 print_plan(struct drive *d, const struct rc_grid *g, const struct rc_model *m)
 {
+    const struct rc_expected expected = plan_of(d, g, m);
+    struct plan plan;
     char what[128];
 
     snprintf(what, sizeof what, ", %zu %s of the %s model", d->points,
              d->points == 1 ? "point" : "points", rc_model_name(m));
-    course_show(&d->t, g, plan_of(d, g, m), d->points, what);
+    plan = plan_begin(&d->t, &d->report, g, d->course.number + 1, boundary_of(d, g), what);
+    if (d->calls.effects != NULL)
+        plan_effects(&plan, d->calls.effects(d));
+    if (d->calls.plan != NULL)
+        d->calls.plan(d, &plan);
+    course_plan(&plan, g, expected, d->points);
 }
 
 void
@@ -492,6 +510,7 @@ end_point(struct drive *d, struct rc_model *m)
     struct rc_point at;
 
     tool_must(&d->t, d->course.g, rc_model_look(m, &at, &d->t.err));
+    d->looked = tool_now();
     d->is.silent = false;
     (d->calls.judge != NULL ? d->calls.judge : drive_judge_point)(d, m);
     if (!d->is.silent)
@@ -538,6 +557,7 @@ drive_case(struct drive *d, const struct rc_grid *g, struct rc_model *m, const s
         tool_refuse(&d->t, g, "%s", err->text);
     if (d->points == 1)
         d->course.number = rc_grid_case(g) - 1;
+    d->course.g = g;
     if (d->args->dry_run) {
         print_plan(d, g, m);
         rc_model_free(m);

@@ -99,10 +99,9 @@ size_t course_peak(size_t bytes);
  * times the measured over the expected seconds of a small contact; with files, figures and frames of the
  * points. */
 double course_seconds(const struct tool *t, const struct rc_grid *g, double seconds, size_t points);
-/* Prints the plan of a map that takes so much for so many points; convolutions NAN: it has none; what: more
- * about the map. */
-void course_show(struct tool *t, const struct rc_grid *g, struct rc_expected expected,
-                 size_t points, const char *what);
+/* Ends the plan of a map that takes so much for so many points. */
+void course_plan(const struct plan *plan, const struct rc_grid *g, struct rc_expected expected,
+                 size_t points);
 
 /* ---- again.c ---- */
 
@@ -140,6 +139,9 @@ struct drive_calls {
     void (*mark)(struct drive *d); /* sets further marks of a case */
     void (*keys)(struct drive *d, struct rc_model *m, struct rc_grid *frame);
     void (*columns)(struct drive *d, const struct rc_model *m); /* before those of the model */
+    /* The effects of the case: computed, or why not; and, for --dry-run, lines about its points. */
+    const struct effect_state *(*effects)(struct drive *d);
+    void (*plan)(struct drive *d, const struct plan *plan);
     /* For a tool with more output than usual. It adds text before a point (plan), warnings, and all
      * keys of the frames. It sets the values of a frame (NULL: those of the model) and the columns of the
      * report. It also says how a point becomes history. */
@@ -172,9 +174,10 @@ struct drive {
      * The lists end with NULL. */
     const struct tool_frame *beside;
     const char *const *reads, *const *changeable;
-    const char *bound; /* option of a number that may rise; NULL: none */
-    bool independent;  /* no point depends on those before it */
-    const char *unit;  /* unit of frames that are not of the model; NULL: that of the heights */
+    const char *bound;    /* option of a number that may rise; NULL: none */
+    bool independent;     /* no point depends on those before it */
+    const char *boundary; /* of the case; NULL: as the map says */
+    const char *unit;     /* unit of frames that are not of the model; NULL: that of the heights */
     /* set by drive_open and drive_case */
     struct report report;
     struct course course;
@@ -184,7 +187,8 @@ struct drive {
     size_t points, at; /* at: the point that is reached */
     struct drive_is is;
     enum rc_status status;
-    double began, setup; /* seconds: start of the point; until its first step */
+    double began, setup,
+        looked; /* s: start of the point; until its first step; its figures are known */
 };
 
 /* Ends the tool where options contradict each other; the lists must have the same length, or one number. axes

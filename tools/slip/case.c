@@ -394,7 +394,8 @@ const struct slip_motion slip_motion_path = {.ask = ask,
                                              .read = slip_read_path,
                                              .move = move,
                                              .report = report,
-                                             .work = "work",
+                                             .tol = 1e-4,
+                                             .work = "",
                                              .uncoupled = "--coupling goodman"};
 const struct slip_motion *const slip_motions[] = {&slip_motion_steady, &slip_motion_rolling,
                                                   &slip_motion_path, NULL};

@@ -12,6 +12,53 @@ coupling_of(const struct slip_run *run)
                                                   : "none";
 }
 
+/* The effects: computed, or why not. */
+static const struct effect_state *
+effects_of(const struct slip_run *run)
+{
+    static struct effect_state list[5];
+    const struct slip_pair *b = &run->bodies;
+
+    list[0] = (struct effect_state){
+        "coupling", b->beta == 0
+                        ? "left out: beta = 0, so that pressure and tractions do not influence "
+                          "each other"
+                    : run->alternates                      ? "on: both ways"
+                    : run->coupling == RC_COUPLING_GOODMAN ? "on: the pressure moves the bodies"
+                                                           : "left out: --coupling none"};
+    list[1] = (struct effect_state){"transverse_slip", b->kap == 0 ? "left out: nu = 0" : "on"};
+    list[2] =
+        (struct effect_state){"bound", isnan(run->args->tau_max) ? "left out: no --tau-max" : "on"};
+    list[3] =
+        (struct effect_state){"contact", run->alternates ? "on: solved in each pass"
+                                         : run->solves   ? "on: solved where the load changes"
+                                                         : "left out: the stream has the pressure"};
+    return list;
+}
+
+/* The tolerance in use. */
+static double
+slip_tol(const struct slip_run *run)
+{
+    return !isnan(run->args->tol) ? run->args->tol : run->motion->tol;
+}
+
+static void
+end_row(struct drive *d, bool converged)
+{
+    struct slip_run *run = (struct slip_run *)(void *)d;
+    struct report *r = &d->report;
+
+    report_bool(r, "converged", converged);
+    report_number(r, "tol", slip_tol(run), NULL);
+    report_effects(r, effects_of(run));
+    report_seconds(r,
+                   (const struct report_phase[]){
+                       {"setup", d->setup}, {"iterate", d->course.iterate}, {NULL, 0}},
+                   d->looked - d->began);
+    report_memory(r);
+}
+
 void
 slip_report(struct drive *d, const struct rc_model *m)
 {
@@ -25,11 +72,7 @@ slip_report(struct drive *d, const struct rc_model *m)
     report_number(r, "tau_max", run->args->tau_max, "Pa");
     report_number(r, "beta", run->bodies.beta, NULL);
     report_text(r, "coupling", coupling_of(run));
-    report_bool(r, "converged", run->motion->report(r, run, m));
-    report_object(r, "seconds");
-    report_number(r, "total", tool_now() - d->began, "s");
-    report_end(r);
-    report_memory(r);
+    end_row(d, run->motion->report(r, run, m));
 }
 
 /* ---- warnings ---- */
@@ -152,48 +195,29 @@ slip_passes(const struct slip_run *run)
 void
 slip_say_plan(struct slip_run *run, const struct rc_expected *expected)
 {
-    FILE *out = run->d.t.output.file;
     const struct slip_pair *b = &run->bodies;
-    const size_t memory = course_peak(expected->memory);
+    const struct plan plan =
+        plan_begin(&run->d.t, &run->d.report, run->p, rc_grid_case(run->p),
+                   run->boundary == RC_PERIODIC ? "periodic" : "free", run->motion->work);
 
-    fprintf(out, "%s: %zu x %zu nodes, %s boundary\n", tool_where(&run->d.t, run->p), run->p->nx,
-            run->p->ny, run->boundary == RC_PERIODIC ? "periodic" : "free");
-    if (b->beta == 0)
-        fprintf(out,
-                "  %-16sleft out: beta = 0, so that pressure and tractions do not influence each "
-                "other\n",
-                "coupling");
-    else if (run->alternates)
-        fprintf(out, "  %-16son, beta %.3g: about %.0f passes an increment\n", "coupling", b->beta,
-                slip_passes(run));
-    else
-        fprintf(out, "  %-16s%s, beta %.3g: one pass an increment\n", "coupling", coupling_of(run),
-                b->beta);
-    if (b->kap == 0)
-        fprintf(out, "  %-16sleft out: nu = 0\n", "transverse slip");
-    else
-        fprintf(out, "  %-16son, kap %.3g\n", "transverse slip", b->kap);
-    if (isnan(run->args->tau_max))
-        fprintf(out, "  %-16sleft out: no --tau-max\n", "bound");
-    else
-        fprintf(out, "  %-16son, %g Pa\n", "bound", run->args->tau_max);
-    fprintf(out, "  %-16s%s\n", "contacts",
-            run->alternates ? "solved in each pass"
-            : run->solves   ? "solved where the load changes"
-                            : "left out: the stream has the pressure");
+    plan_effects(&plan, effects_of(run));
+    if (b->beta != 0)
+        plan_say(&plan, "beta", "%.3g: %s%.0f pass%s an increment", b->beta,
+                 run->alternates ? "about " : "", slip_passes(run),
+                 slip_passes(run) == 1 ? "" : "es");
+    if (b->kap != 0)
+        plan_say(&plan, "kap", "%.3g", b->kap);
     for (size_t k = 0; k < run->corners; k++) {
         const struct slip_corner *c = &run->corner[k];
-        if (c->silent)
-            continue;
-        fprintf(out, "  to P %g N, %g %s, %g %s: %zu increment%s\n", c->load, c->to[0],
-                c->moved ? "m" : "N", c->to[1], c->moved ? "m" : "N", c->leg.increments,
-                c->leg.increments == 1 ? "" : "s");
+        if (!c->silent)
+            plan_say(&plan, "to", "P %g N, %g %s, %g %s: %zu increment%s", c->load, c->to[0],
+                     c->moved ? "m" : "N", c->to[1], c->moved ? "m" : "N", c->leg.increments,
+                     c->leg.increments == 1 ? "" : "s");
     }
     if (run->law.fewer > 0)
-        fprintf(out, "  %-16ssolved also with half of them%s, for the error\n", "increments",
-                run->law.fewer < RC_FEWER ? "" : " and a quarter");
-    fprintf(out, "  %-16sabout %.0f convolutions, %.2g s with %zu threads\n", run->motion->work,
-            expected->convolutions, course_seconds(&run->d.t, run->p, expected->seconds, 1),
-            run->d.t.threads);
-    fprintf(out, "  %-16sabout %zu MiB\n", "memory", (memory >> 20) + 1);
+        plan_say(&plan, "increments", "solved also with half of them%s, for the error",
+                 run->law.fewer < RC_FEWER ? "" : " and a quarter");
+    plan_end(&plan, expected->convolutions, "",
+             course_seconds(&run->d.t, run->p, expected->seconds, 1),
+             course_peak(expected->memory));
 }

@@ -150,7 +150,8 @@ model_of(struct slip_run *run)
 }
 
 static const struct drive_advice advice[] = {
-    {"discretization_error", "take a finer map, or the extrapolated figures of the report"},
+    {"discretization_error_estimate",
+     "take a finer map, or the extrapolated figures of the report"},
     {NULL, NULL}};
 
 static void
@@ -209,7 +210,7 @@ report(struct report *r, const struct slip_run *run, const struct rc_model *m)
                  "slip_nodes stick_fraction power power_slip extrapolated_creep_x "
                  "extrapolated_creep_y extrapolated_tangential_x extrapolated_tangential_y "
                  "extrapolated_moment kalker_tangential_x kalker_tangential_y steps convolutions "
-                 "traction_error_estimate discretization_error");
+                 "traction_error_estimate discretization_error_estimate");
     return run->d.status == RC_OK;
 }
 
@@ -217,7 +218,8 @@ const struct slip_motion slip_motion_steady = {.ask = ask_steady,
                                                .read = read,
                                                .move = move,
                                                .report = report,
-                                               .work = "steady rolling",
+                                               .tol = 1e-3,
+                                               .work = ", steady rolling",
                                                .uncoupled = "rolling"};
 /* From case to case. */
 const struct slip_motion slip_motion_rolling = {.ask = ask,
@@ -225,5 +227,6 @@ const struct slip_motion slip_motion_rolling = {.ask = ask,
                                                 .move = move,
                                                 .report = report,
                                                 .close = close,
-                                                .work = "each position",
+                                                .tol = 1e-2,
+                                                .work = ", each position of a path",
                                                 .uncoupled = "rolling"};

@@ -91,7 +91,8 @@ struct slip_motion {
     /* Its columns; returns whether the row has converged. */
     bool (*report)(struct report *r, const struct slip_run *run, const struct rc_model *m);
     void (*close)(void);   /* NULL: nothing is left */
-    const char *work;      /* what the convolutions of the plan are for */
+    double tol;            /* without --tol */
+    const char *work;      /* more words about the plan */
     const char *uncoupled; /* what neglects the effect of tractions on the pressure */
 };
 extern const struct slip_motion *const slip_motions[]; /* the last is NULL */

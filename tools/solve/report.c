@@ -1,6 +1,7 @@
 /* Report of a solution, and plan of --dry-run. */
 #include "solve.h"
 
+#include <assert.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -28,37 +29,28 @@ is_effect(const char *name)
     return solve_effects[k] != NULL;
 }
 
-/* Shows each effect and each frame of --output with its state: `on`, or why it is left out. engine: the
- * reason for the engine. */
-static void
-show_effects(struct run *run, const char *engine,
-             void (*show)(struct run *run, const char *name, const char *state))
+/* Each effect and each frame of --output with its state. engine: the reason for the engine. */
+static const struct effect_state *
+effects_of(struct run *run, const char *engine)
 {
-    show(run, "kernel", engine);
+    static struct effect_state list[64];
+    size_t n = 0;
+
+    list[n++] = (struct effect_state){"kernel", engine};
     for (size_t k = 0; solve_effects[k] != NULL; k++) {
         const struct effect *e = solve_effects[k];
         if (e->name != NULL)
-            show(run, e->name,
-                 !is_active(run, e) && e->off != NULL ? e->off
-                 : e->state != NULL                   ? e->state(run)
-                                                      : "on");
+            list[n++] = (struct effect_state){e->name, !is_active(run, e) && e->off != NULL ? e->off
+                                                       : e->state != NULL ? e->state(run)
+                                                                          : "on"};
     }
     for (size_t f = 0; solve_frames[f] != NULL; f++)
         if (!is_effect(solve_frames[f])) /* otherwise its state is there already */
-            show(run, solve_frames[f],
-                 solve_wanted(run->args, f) ? "on" : "left out: not in --output");
-}
-
-static void
-report_effect(struct run *run, const char *name, const char *state)
-{
-    report_text(&run->d.report, name, state);
-}
-
-static void
-print_effect(struct run *run, const char *name, const char *state)
-{
-    fprintf(run->d.t.output.file, "  %-15s %s\n", name, state);
+            list[n++] = (struct effect_state){
+                solve_frames[f], solve_wanted(run->args, f) ? "on" : "left out: not in --output"};
+    assert(n < sizeof list / sizeof *list);
+    list[n] = (struct effect_state){NULL, NULL};
+    return list;
 }
 
 /* ---- report ---- */
@@ -110,8 +102,9 @@ static const char of_contact[] =
     "contact_area_corrected "
     "contact_fraction plastic_area yielded_area edge_load_fraction approach mean_gap stiffness "
     "iterations "
-    "convolutions kkt_residual pressure_error_estimate discretization_error_estimate.contact_area "
-    "discretization_error_estimate.max_pressure discretization_error_estimate.approach converged";
+    "convolutions kkt_residual pressure_error_estimate contact_area_error_estimate "
+    "max_pressure_error_estimate approach_error_estimate converged";
+
 /* "1e-06,1e+11,0.3; ...": the layers in SI, top first. NULL: no layers. */
 static char *
 layers_text(const struct physics *a)
@@ -133,7 +126,8 @@ layers_text(const struct physics *a)
 
 /* Reports the values of the command line, so that rows of equal settings agree to the last digit. */
 static void
-report_asked(struct report *r, const struct run *run, const struct rc_solver *solver)
+report_asked(struct report *r, const struct run *run, const struct rc_model *m,
+             const struct rc_solver *solver)
 {
     const struct physics *a = run->physics;
     const double step = run->steps->v[run->step];
@@ -141,8 +135,13 @@ report_asked(struct report *r, const struct run *run, const struct rc_solver *so
     RC_OWNED char *layers = layers_text(a);
     struct rc_progress at = {.tol = NAN};
 
-    if (solver != NULL)
+    if (solver != NULL) {
         rc_solver_progress(solver, &at);
+    } else {
+        struct rc_loops loops;
+        rc_model_progress(m, &loops);
+        at.tol = loops.tol;
+    }
     report_number(r, "estar", one->layers > 0 ? NAN : a->surface_estar, "Pa");
     report_number(r, "e1", isinf(a->e1) ? NAN : a->e1, "Pa");
     report_number(r, "nu1", a->nu1, NULL);
@@ -159,7 +158,7 @@ report_asked(struct report *r, const struct run *run, const struct rc_solver *so
 
 /* The columns of effects at this place. */
 static void
-report_effects(struct report *r, const struct run *run, enum solve_place place)
+report_columns_at(struct report *r, const struct run *run, enum solve_place place)
 {
     for (size_t k = 0; solve_effects[k] != NULL; k++) {
         const struct effect *e = solve_effects[k];
@@ -177,7 +176,6 @@ solve_report(struct drive *d, const struct rc_model *m)
     const struct solution *s = &run->solution;
     struct report *r = &d->report;
 
-    (void)m;
     report_map(r, run->g, run->d.course.number);
     report_text(r, "boundary", run->physics->periodic ? "periodic" : "free");
     report_text(r, "kernel", solver == NULL ? NULL : rc_solver_engine(solver));
@@ -188,32 +186,28 @@ solve_report(struct drive *d, const struct rc_model *m)
     report_count(r, "threads", run->d.t.threads, NULL);
     solve_report_named(r, run, of_contact);
     report_patches(r, &s->patches);
-    report_object(r, "effects");
-    show_effects(run,
-                 solver != NULL ? rc_solver_engine_reason(solver)
-                 : by != NULL   ? by->engine
-                                : "left out: no load",
-                 report_effect);
-    report_end(r);
-    report_object(r, "seconds");
-    report_number(r, "setup", run->d.setup, "s");
-    report_number(r, "iterate", run->d.course.iterate, "s");
-    report_number(r, "result", run->result, "s");
-    report_number(r, "total", run->done - run->d.began, "s");
-    report_end(r);
+    report_effects(r, effects_of(run, solver != NULL ? rc_solver_engine_reason(solver)
+                                      : by != NULL   ? by->engine
+                                                     : "left out: no load"));
+    report_seconds(r,
+                   (const struct report_phase[]){{"setup", run->d.setup},
+                                                 {"iterate", run->d.course.iterate},
+                                                 {"result", run->result},
+                                                 {NULL, 0}},
+                   run->done - run->d.began);
     report_memory(r);
     report_ranks(r, &run->d.t);
     /* the columns stay the same for all cases */
-    report_effects(r, run, COLUMNS_OF_BOUNDS);
-    report_asked(r, run, solver);
-    report_effects(r, run, COLUMNS_OF_BODIES);
-    report_effects(r, run, COLUMNS_OF_VOLUME);
+    report_columns_at(r, run, COLUMNS_OF_BOUNDS);
+    report_asked(r, run, m, solver);
+    report_columns_at(r, run, COLUMNS_OF_BODIES);
+    report_columns_at(r, run, COLUMNS_OF_VOLUME);
     errors_report(r, &s->errors);
-    report_effects(r, run, COLUMNS_OF_GAP);
+    report_columns_at(r, run, COLUMNS_OF_GAP);
     report_number(r, "rms_slope", run->rms_slope, NULL);
     report_number(r, "elastic_energy", s->contact.elastic_energy, "J");
-    report_effects(r, run, COLUMNS_OF_POINTS);
-    report_effects(r, run, COLUMNS_LAST);
+    report_columns_at(r, run, COLUMNS_OF_POINTS);
+    report_columns_at(r, run, COLUMNS_LAST);
 }
 
 /* ---- cost ---- */
@@ -286,6 +280,8 @@ solve_plan(struct run *run, const struct rc_problem *problem)
     const struct effect *points = SOLVE_FIRST(run, noun), *loads_by = SOLVE_FIRST(run, loads),
                         *plan_by = SOLVE_FIRST(run, plan);
     struct rc_expected e;
+    struct plan plan;
+    char what[128];
     const size_t before = course_peak(0); /* the forecast takes memory of its own */
     double each, memory, loads = loads_by != NULL ? loads_by->loads(run) : (double)run->cases;
 
@@ -297,16 +293,15 @@ solve_plan(struct run *run, const struct rc_problem *problem)
     SOLVE_EACH (run, more, work)
         each += more->work(run);
     memory = ranks_most(&run->d.t, (double)before + (double)memory_of(run, problem));
-    fprintf(run->d.t.output.file, "%s: %zu x %zu nodes, %zu %s%s, engine %s\n",
-            tool_where(&run->d.t, g), g->nx, g->ny, run->cases,
-            points != NULL ? points->noun : "load", run->cases == 1 ? "" : "s", engine);
-    show_effects(run, why, print_effect);
-    fprintf(run->d.t.output.file, "  about %.0f convolutions%s, %zu MiB, %.2g s with %zu threads\n",
-            each,
-            run->cases == 1  ? ""
-            : points != NULL ? points->after
-                             : " for the first load, fewer for the next",
-            ((size_t)memory >> 20) + 1,
-            course_seconds(&run->d.t, g, e.seconds * each / e.convolutions * loads, run->cases),
-            run->d.t.threads);
+    snprintf(what, sizeof what, ", %zu %s%s, engine %s", run->cases,
+             points != NULL ? points->noun : "load", run->cases == 1 ? "" : "s", engine);
+    plan = plan_begin(&run->d.t, &run->d.report, g, rc_grid_case(g),
+                      run->physics->periodic ? "periodic" : "free", what);
+    plan_effects(&plan, effects_of(run, why));
+    plan_end(&plan, each,
+             run->cases == 1  ? ""
+             : points != NULL ? points->after
+                              : " for the first load, fewer for the next",
+             course_seconds(&run->d.t, g, e.seconds * each / e.convolutions * loads, run->cases),
+             (size_t)memory);
 }

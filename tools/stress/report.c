@@ -166,17 +166,21 @@ coarse_effect(const struct rc_stress_options *o)
                : "left out: the engine has its own tolerance";
 }
 
-static const struct {
-    const char *name;
-    const char *(*of)(const struct rc_stress_options *options);
-} effects[] = {
-    {"friction", friction_effect}, {"coating", coating_effect},     {"padding", padding_effect},
-    {"section", section_effect},   {"coarse_grids", coarse_effect},
-};
+/* The effects, and the components with the reasons. */
+static const struct effect_state *
+effects_of(const struct rc_stress_options *o)
+{
+    static struct effect_state list[RC_STRESSES + 6];
 
-enum {
-    EFFECTS = sizeof effects / sizeof *effects
-};
+    list[0] = (struct effect_state){"friction", friction_effect(o)};
+    list[1] = (struct effect_state){"coating", coating_effect(o)};
+    list[2] = (struct effect_state){"padding", padding_effect(o)};
+    list[3] = (struct effect_state){"section", section_effect(o)};
+    list[4] = (struct effect_state){"coarse_grids", coarse_effect(o)};
+    for (int c = 0; c < RC_STRESSES; c++)
+        list[5 + c] = (struct effect_state){rc_component_names[c], component_effect(o, c)};
+    return list;
+}
 
 /* ---- the report ---- */
 
@@ -225,7 +229,6 @@ void
 stress_report_write(struct stress_report *r, struct report *out, const struct rc_stress *stress)
 {
     const struct rc_stress_options *o = r->options;
-    const char *converged = rc_grid_get(r->p, "converged");
     const char section[2] = {o->section, '\0'};
 
     report_begin(out);
@@ -246,22 +249,16 @@ stress_report_write(struct stress_report *r, struct report *out, const struct rc
     report_end(out);
     for (int e = 0; e < STRESS_ENDS; e++)
         write_extremes(r, out, (enum stress_end)e);
-    if (converged == NULL)
-        report_text(out, "converged", NULL);
-    else
-        report_bool(out, "converged", strcmp(converged, "no") != 0);
-    report_object(out, "effects");
-    for (int k = 0; k < EFFECTS; k++)
-        report_text(out, effects[k].name, effects[k].of(o));
-    for (int c = 0; c < RC_STRESSES; c++)
-        report_text(out, rc_component_names[c], component_effect(o, c));
-    report_end(out);
+    report_carried(out, rc_grid_get(r->p, "converged"));
+    report_effects(out, effects_of(o));
     report_table(out, rc_figures("stress"), rc_stress_counted(stress));
-    report_object(out, "seconds");
-    report_number(out, "setup", r->setup, "s");
-    report_number(out, "slices", r->slices, "s");
-    report_number(out, "total", tool_now() - r->began, "s");
-    report_end(out);
+    report_seconds(
+        out,
+        (const struct report_phase[]){{"setup", r->setup},
+                                      {"slices", r->slices},
+                                      {"write", tool_now() - r->began - r->setup - r->slices},
+                                      {NULL, 0}},
+        r->setup + r->slices);
     report_memory(out);
     report_ranks(out, out->tool);
     report_finish_row(out);
@@ -306,10 +303,12 @@ expect(const struct tool *t, const struct rc_grid *p, const struct rc_stress_opt
 
 /* The materials of a coated body, and the number of depths in each. */
 static void
-say_materials(FILE *out, const struct rc_stress_options *o, const struct numbers *depths)
+say_materials(const struct plan *plan, const struct rc_stress_options *o,
+              const struct numbers *depths)
 {
     const struct rc_body *c = &o->body;
     double top = 0;
+    char name[32];
 
     for (size_t m = 0; c->layers > 0 && m <= c->layers; m++) {
         double e = m < c->layers ? c->layer[m].e : c->e;
@@ -317,35 +316,28 @@ say_materials(FILE *out, const struct rc_stress_options *o, const struct numbers
         size_t in = 0;
         for (size_t k = 0; k < depths->n; k++)
             in += rc_body_material(c, depths->v[k]) == m;
-        fprintf(out, "  material %-5zufrom %g m, E %g Pa, nu %g: %zu of the depths\n", m + 1, top,
-                e, nu, in);
+        snprintf(name, sizeof name, "material %zu", m + 1);
+        plan_say(plan, name, "from %g m, E %g Pa, nu %g: %zu of the depths", top, e, nu, in);
         top += m < c->layers ? c->layer[m].thickness : 0;
     }
 }
 
 enum rc_status
-stress_report_plan(const struct tool *t, const struct rc_grid *p, const struct rc_stress_options *o,
-                   const struct numbers *depths, size_t memory, struct rc_err *err)
+stress_report_plan(struct tool *t, struct report *r, const struct rc_grid *p,
+                   const struct rc_stress_options *o, const struct numbers *depths, size_t memory,
+                   struct rc_err *err)
 {
-    FILE *out = t->output.file;
+    struct plan plan;
     double seconds;
 
     if (expect(t, p, o, depths, memory, &seconds, err) != RC_OK)
         return RC_FAIL;
-    fprintf(out, "case %zu: %zu x %zu nodes, %s boundary\n", rc_grid_case(p), p->nx, p->ny,
-            o->boundary == RC_PERIODIC ? "periodic" : "free");
-    fprintf(out, "  %-14s%zu, %g to %g m\n", "depths", depths->n, depths->v[0],
-            depths->v[depths->n - 1]);
-    say_materials(out, o, depths);
-    fprintf(out, "  %-14s%s\n", "kernel", engine_of(o));
-    for (int k = 0; k < EFFECTS; k++)
-        fprintf(out, "  %-14s%s\n", effects[k].name, effects[k].of(o));
-    for (int c = 0; c < RC_STRESSES; c++)
-        fprintf(out, "  %-14s%s\n", rc_component_names[c], component_effect(o, c));
-    fprintf(out, "  %-14sabout %zu MiB\n", "memory", (memory >> 20) + 1);
-    if (isnan(seconds))
-        fprintf(out, "  %-14sunknown\n", "time");
-    else
-        fprintf(out, "  %-14sabout %.2g s\n", "time", seconds);
+    plan =
+        plan_begin(t, r, p, rc_grid_case(p), o->boundary == RC_PERIODIC ? "periodic" : "free", "");
+    plan_say(&plan, "depths", "%zu, %g to %g m", depths->n, depths->v[0], depths->v[depths->n - 1]);
+    say_materials(&plan, o, depths);
+    plan_say(&plan, "kernel", "%s", engine_of(o));
+    plan_effects(&plan, effects_of(o));
+    plan_end(&plan, NAN, "", seconds, memory);
     return RC_OK;
 }

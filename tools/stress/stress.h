@@ -46,7 +46,7 @@ void stress_report_free(struct stress_report *report);
 
 /* Prints the planned work and its memory; a trial on a part of the map gives the time. RC_FAIL if the trial
  * fails, because then the whole would fail too. */
-enum rc_status stress_report_plan(const struct tool *tool, const struct rc_grid *p,
+enum rc_status stress_report_plan(struct tool *tool, struct report *report, const struct rc_grid *p,
                                   const struct rc_stress_options *options,
                                   const struct numbers *depths, size_t memory, struct rc_err *err);
 
