@@ -52,6 +52,7 @@ rc-solve --help adhesion >adhesion.txt
 claim "one group has its options" says '^  --adhesion WORK' cat adhesion.txt
 claim "  and no others" bash -c '! grep -e "--tilt fixed" -e "--yield Y" adhesion.txt >&2'
 claim "a beginning is enough" bash -c 'rc-solve --help adh | cmp - adhesion.txt'
+claim "  also after -h" bash -c 'rc-solve -h adh | cmp - adhesion.txt'
 claim "an equals sign may stand before it" bash -c 'rc-solve --help=adhesion | cmp - adhesion.txt'
 refuses 2 '--help friction: there is no such group of options: the groups are load and bodies, yield, adhesion, ' \
     "an unknown group" 'rc-solve --help friction'

@@ -675,7 +675,9 @@ options_read(struct tool *t, int argc, char **argv)
     look_for_output(t, argc, argv, table);
     while ((what = getopt_long(argc, argv, letters, table, NULL)) != -1) {
         if (what == 'h')
-            print_help(t, NULL);
+            print_help(t, heading(t, 0) == NULL
+                              ? NULL
+                              : optional_argument_of(&help_of_groups, argc, argv));
         if (what == 'o') {
             t->out_name = strcmp(optarg, "-") == 0 ? NULL : optarg;
         } else if (what >= COMMON) {
