@@ -1,4 +1,4 @@
-/* Rows of every contact: layers, the sphere, the boundary, the approach, the tilt, the estimated discretization error. */
+/* Rows of every contact: layers, the sphere, the boundary, the approach. */
 #include "solve.h"
 
 #include <math.h>
