@@ -98,7 +98,7 @@ between 1e6 "$(most inside.rcg)" 1e9 "    where it is not 0"
 claim "  the gains make a curve" bash -c "rc-render --curve pass:strain_gain --log y -o gains.png passes.tsv && [ -s gains.png ]"
 refuses 2 '--window does not work with --yield' "a window over plastic strain" "$line --window 8x1 flat.rcg"
 
-claim "--dry-run counts the positions" says '64 x 48 nodes, 7 positions' \
+claim "--dry-run counts the positions" says '64 x 48 nodes, boundary free, 7 positions' \
     bash -c "$solve $window --dry-run track.rcg"
 refuses 2 '--travel does not work with --load LIST' "a list of loads" \
     "rc-solve --load 1mN,2mN --radius 2mm --estar 1GPa --travel 0 track.rcg"
