@@ -74,7 +74,7 @@ struct curves {
     const char *word[WORDS]; /* words of x, if it has categories: for 0, 1, ... */
     size_t words;
     struct graph_series series[SERIES];
-    char name[SERIES][NAME], legend[SERIES * NAME], note[NAME];
+    char name[SERIES][NAME], note[NAME];
     struct averages means;
     char title[NAME], axis[NAME];
 };
@@ -149,12 +149,6 @@ add_word(char name[NAME], const char *word)
     size_t n = strlen(name);
 
     snprintf(name + n, NAME - n, "%s%.250s", n == 0 ? "" : ", ", word);
-}
-
-bool
-curve_log(const struct curve_style *s, char axis)
-{
-    return s->log != NULL && (s->log[0] == '\0' || strchr(s->log, axis) != NULL);
 }
 
 /* ---- the columns asked for ---- */
@@ -434,7 +428,7 @@ take_words(struct curves *c)
                      c->table[0].source, x->numbers ? "words" : "numbers");
         if (x->numbers)
             continue;
-        if (curve_log(c->style, 'x'))
+        if (wording_log(c->style, 'x'))
             tool_usage(c->tool,
                        "--log: column %s contains words, which have no logarithm: give the other "
                        "axis alone, as in --log y",
@@ -772,7 +766,7 @@ add_law(struct curves *c)
 {
     const char *law = c->style->law, *x = last_part(c->choice.column[0]),
                *y = last_part(c->choice.column[1]);
-    bool log = curve_log(c->style, 'x');
+    bool log = wording_log(c->style, 'x');
     double lo = INFINITY, hi = -INFINITY;
     struct graph_series *s;
 
@@ -837,20 +831,15 @@ draw(struct curves *c, struct drawn *drawn)
     const char *y = last_part(c->choice.column[1]);
     bool flow = strncmp(y, "flow_", 5) == 0 || strncmp(y, "critical_", 9) == 0;
     struct graph graph = {
-        .paper = wording_paper(c->style, c->title, drawn->source, drawn),
-        .x = {title_of(&c->choice, c->history, 0), unit_of(c->table, 0), curve_log(c->style, 'x'),
-              NAN, NAN, NULL, c->word, c->words},
-        .y = {c->axis, unit_of(c->table, 1), curve_log(c->style, 'y'), NAN, NAN},
+        .x = {title_of(&c->choice, c->history, 0), unit_of(c->table, 0), false, NAN, NAN, NULL,
+              c->word, c->words},
+        .y = {c->axis, unit_of(c->table, 1), false, NAN, NAN},
         .zero = flow ? "sealed (no flow)" : NULL,
-        .series = c->series,
         .n = c->means.n,
         .note = *c->note == '\0' ? NULL : c->note,
     };
 
-    wording_axis(c->tool, c->style, 'x', &graph.x);
-    wording_axis(c->tool, c->style, 'y', &graph.y);
-    wording_legend(c->tool, c->style, c->series, c->means.n, c->legend, sizeof c->legend);
-    return tool_made(c->tool, NULL, graph_draw(&graph, &c->tool->err));
+    return wording_graph(c->tool, c->style, c->title, drawn->source, &graph, c->series, drawn);
 }
 
 static void

@@ -24,7 +24,6 @@ struct set {
     struct graph_series *series; /* n + 1 */
     double **x, **y;             /* coordinates of the series, n + 1 each */
     char (*label)[LABEL];
-    char legend[4096];
     struct subtitle subtitle;
     struct channel channel;
 };
@@ -80,14 +79,7 @@ set_draw(struct set *s, struct graph *graph, const char *title, struct drawn *dr
     drawn->stamp = NULL;
     for (size_t k = 0; k < s->n && drawn->stamp == NULL; k++)
         drawn->stamp = look_stamp(s->grid[k]);
-    graph->paper = wording_paper(s->style, title, s->subtitle.text, drawn);
-    graph->series = s->series;
-    graph->x.log = curve_log(s->style, 'x');
-    graph->y.log = curve_log(s->style, 'y');
-    wording_axis(s->tool, s->style, 'x', &graph->x);
-    wording_axis(s->tool, s->style, 'y', &graph->y);
-    wording_legend(s->tool, s->style, s->series, graph->n, s->legend, sizeof s->legend);
-    canvas = tool_made(s->tool, NULL, graph_draw(graph, &s->tool->err));
+    canvas = wording_graph(s->tool, s->style, title, s->subtitle.text, graph, s->series, drawn);
     for (size_t k = 0; k <= s->n; k++) {
         free(s->x[k]);
         free(s->y[k]);
@@ -446,7 +438,7 @@ material_ratio_draw(struct tool *t, struct rc_grid *const *grid, size_t n,
         }
         free(value);
     }
-    if (curve_log(style, 'x'))
+    if (wording_log(style, 'x'))
         graph.x.lo = NAN;
     graph.y.quantity = s.channel.title;
     graph.y.unit = grid[0]->unit;

@@ -234,7 +234,7 @@ double law_value(const char *law, const struct law_given *given, const char *x, 
 /* Density of the pressure p over the whole map, 1/Pa, under the mean pressure `mean` (Persson). */
 double law_pressure_density(const struct law_given *given, double mean, double p);
 
-/* ---- curves.c ---- */
+/* ---- wording.c: words of a figure as the command line gives them ---- */
 
 /* Properties of all pictures of curves. */
 struct curve_style {
@@ -248,33 +248,27 @@ struct curve_style {
     struct law_given given;
 };
 
-/* ---- wording.c: words of a figure as the command line gives them ---- */
-
 /* The given subtitle, else that of the figure, but none under an empty title. */
 const char *wording_subtitle(const struct paper *given, const char *own);
-/* The words of a picture of curves with the title and the subtitle that suit it; sets drawn->title, and takes
- * the stamp from there. */
-struct drawn;
-struct paper wording_paper(const struct curve_style *style, const char *title, const char *subtitle,
-                           struct drawn *drawn);
-/* Text and unit of the axis 'x' or 'y'; ends the tool if the unit does not fit the quantity. */
-void wording_axis(struct tool *tool, const struct curve_style *style, char which,
-                  struct graph_axis *axis);
-/* Names of curves, stored in `text`; ends the tool if their number differs from that of the legend. */
-void wording_legend(struct tool *tool, const struct curve_style *style, struct graph_series *series,
-                    size_t n, char *text, size_t size);
-
 /* Descriptions of a picture beside its canvas. */
 struct drawn {
     char title[256], source[256]; /* source empty: several */
     const char *stamp;            /* NULL: none */
 };
 
+/* True if --log selects this axis. */
+bool wording_log(const struct curve_style *style, char axis);
+/* Draws a graph of these series with the words, units and axes of the command line, else with the title and the
+ * subtitle that suit it; sets drawn->title, and takes the stamp from there. */
+struct canvas *wording_graph(struct tool *tool, const struct curve_style *style, const char *title,
+                             const char *subtitle, struct graph *graph, struct graph_series *series,
+                             struct drawn *drawn);
+
+/* ---- curves.c ---- */
+
 /* Reads the tables on the command line and draws the columns X:Y[,Y...]. */
 struct canvas *curves_draw(struct tool *tool, const char *columns, const struct curve_style *style,
                            struct drawn *drawn);
-/* True if --log selects this axis. */
-bool curve_log(const struct curve_style *style, char axis);
 
 /* ---- frames.c: the frames to draw ---- */
 

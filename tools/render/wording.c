@@ -13,35 +13,28 @@ wording_subtitle(const struct paper *given, const char *own)
     return given->title != NULL && *given->title == '\0' ? "" : own;
 }
 
-struct paper
-wording_paper(const struct curve_style *s, const char *title, const char *subtitle,
-              struct drawn *drawn)
+bool
+wording_log(const struct curve_style *s, char axis)
 {
-    struct paper paper = s->paper;
-
-    snprintf(drawn->title, sizeof drawn->title, "%s", paper.title == NULL ? title : paper.title);
-    paper.title = drawn->title;
-    paper.subtitle = wording_subtitle(&s->paper, subtitle);
-    paper.stamp = drawn->stamp;
-    return paper;
+    return s->log != NULL && (s->log[0] == '\0' || strchr(s->log, axis) != NULL);
 }
 
-void
-wording_axis(struct tool *t, const struct curve_style *s, char which, struct graph_axis *axis)
+/* Ends the tool if the unit does not fit the quantity. */
+static void
+set_axis(struct tool *t, const struct curve_style *s, char which, struct graph_axis *axis)
 {
     const char *text = which == 'x' ? s->x_label : s->y_label;
+    const bool plain = *axis->unit == '\0' || strcmp(axis->unit, "1") == 0;
     struct scale scale;
 
+    axis->log = wording_log(s, which);
     axis->shown = which == 'x' ? s->x_unit : s->y_unit;
     if (text != NULL)
         axis->quantity = text;
     if (axis->shown != NULL && !scale_given(&scale, axis->shown, axis->unit))
         tool_usage(t, "--%c-unit %s: the axis is in %s: it must be %s", which, axis->shown,
-                   *axis->unit == '\0' || strcmp(axis->unit, "1") == 0 ? "plain numbers"
-                                                                       : axis->unit,
-                   *axis->unit == '\0' || strcmp(axis->unit, "1") == 0
-                       ? "1 or %"
-                       : "that unit, with or without a prefix");
+                   plain ? "plain numbers" : axis->unit,
+                   plain ? "1 or %" : "that unit, with or without a prefix");
 }
 
 /* The existing names; a single curve without a name can get one. */
@@ -55,19 +48,14 @@ names_there(const struct graph_series *series, size_t n)
     return names;
 }
 
-void
-wording_legend(struct tool *t, const struct curve_style *s, struct graph_series *series, size_t n,
-               char *text, size_t size)
+/* Names of curves, in *text; ends the tool if their number differs from that of the legend. */
+static void
+set_names(struct tool *t, char *text, struct graph_series *series, size_t n)
 {
     size_t names = names_there(series, n), given = 1, k = 0;
     bool alone = names == 0;
     char *at = text;
 
-    if (s->legend == NULL)
-        return;
-    if (strlen(s->legend) >= size)
-        tool_usage(t, "--legend: it is longer than %zu bytes", size - 1);
-    strcpy(text, s->legend);
     if (*text != '\0') {
         for (const char *c = text; *c != '\0'; c++)
             given += *c == ';';
@@ -90,4 +78,24 @@ wording_legend(struct tool *t, const struct curve_style *s, struct graph_series 
         if ((at = strchr(at, ';')) != NULL)
             *at++ = '\0';
     }
+}
+
+struct canvas *
+wording_graph(struct tool *t, const struct curve_style *s, const char *title, const char *subtitle,
+              struct graph *graph, struct graph_series *series, struct drawn *drawn)
+{
+    RC_OWNED char *names = s->legend == NULL ? NULL : tool_copy(t, s->legend);
+
+    graph->paper = s->paper;
+    snprintf(drawn->title, sizeof drawn->title, "%s",
+             s->paper.title == NULL ? title : s->paper.title);
+    graph->paper.title = drawn->title;
+    graph->paper.subtitle = wording_subtitle(&s->paper, subtitle);
+    graph->paper.stamp = drawn->stamp;
+    graph->series = series;
+    set_axis(t, s, 'x', &graph->x);
+    set_axis(t, s, 'y', &graph->y);
+    if (names != NULL)
+        set_names(t, names, series, graph->n);
+    return tool_made(t, NULL, graph_draw(graph, &t->err));
 }
