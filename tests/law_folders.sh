@@ -82,9 +82,13 @@ tools/cli           | tools/text/text.h tools/machine/machine.h | tools/text too
 tools/cli           | %public formats/rcg/rcg.h                | %physics formats/rcg
 tools/cli           | formats/core/core.h                      | formats/core
 tools/cli           | libcontact/contact_mpi.h                 | libcontact/ranks
+tools/frames        | %public tools/cli/cli.h tools/text/text.h | %physics %cli
+tools/frames        | formats/core/core.h                      | formats/core
 tools/problem       | %public tools/cli/cli.h                  | %physics %cli
+tools/problem       | tools/frames/frames.h                    | tools/frames
 tools/journal       | tools/cli/cli.h                          | libcontact formats/rcg %cli
 tools/model         | %public tools/cli/cli.h                  | %physics %cli
+tools/model         | tools/frames/frames.h                    | tools/frames
 tools/model         | formats/core/core.h tools/journal/journal.h | formats/core formats/rcg tools/journal
 tools/canvas        | libcontact/grid.h formats/core/core.h    | libcontact formats/core
 tools/plot          | libcontact/grid.h formats/core/core.h    | libcontact formats/core
@@ -92,22 +96,29 @@ tools/plot          | tools/canvas/canvas.h                    | tools/canvas
 tools/cost          | %public tools/cli/cli.h tools/plot/plot.h | %physics %cli %plot
 tools/cost          | formats/rcg/rcg.h                        | formats/rcg
 tools/solve         | %public tools/cli/cli.h tools/plot/plot.h | %physics %cli %plot
+tools/solve         | tools/frames/frames.h                    | tools/frames
 tools/solve         | formats/core/core.h                      | formats/core formats/rcg
 tools/solve         | tools/model/model.h tools/problem/problem.h | tools/model tools/problem
 tools/slip          | %public tools/cli/cli.h                  | %physics %cli
+tools/slip          | tools/frames/frames.h                    | tools/frames
 tools/slip          | tools/model/model.h tools/problem/problem.h | tools/model tools/problem
 tools/slip          | formats/core/core.h                      | formats/core formats/rcg
 tools/import        | libcontact/grid.h tools/cli/cli.h        | libcontact %cli
 tools/import        | formats/core/core.h formats/format.h     | formats formats/core
 tools/stress        | %public tools/cli/cli.h                  | %physics %cli
+tools/stress        | tools/frames/frames.h                    | tools/frames
 tools/fatigue       | %public tools/cli/cli.h                  | %physics %cli formats/rcg
 tools/leak          | %public tools/cli/cli.h                  | %physics %cli
 tools/pick          | %public tools/cli/cli.h                  | %physics %cli
+tools/pick          | tools/frames/frames.h                    | tools/frames
 tools/synth         | %public tools/cli/cli.h                  | %physics %cli
 tools/info          | %public tools/cli/cli.h                  | %physics %cli formats/rcg
+tools/info          | tools/frames/frames.h                    | tools/frames
 tools/render        | libcontact/grid.h libcontact/model.h tools/cli/cli.h | libcontact libcontact/body libcontact/model %cli
+tools/render        | tools/frames/frames.h                    | tools/frames
 tools/render        | tools/plot/plot.h                        | %plot
 tools               | %public tools/cli/cli.h tools/plot/plot.h | %physics %cli %plot
+tools               | tools/frames/frames.h                    | tools/frames
 tools               | tools/cost/cost.h tools/solve/solve.h    | tools/cost tools/solve
 tools               | tools/stress/stress.h tools/render/render.h | tools/stress tools/render
 tools               | tools/leak/leak.h tools/fatigue/fatigue.h | tools/leak tools/fatigue

@@ -3,6 +3,7 @@
 #include <string.h>
 
 #include "tools/cli/cli.h"
+#include "tools/frames/frames.h"
 
 static struct args {
     double estar, tol;

@@ -7,6 +7,7 @@
 #include <time.h>
 
 #include "formats/export.h"
+#include "tools/frames/frames.h"
 
 enum {
     EVEN_ROWS = 4096 /* largest number of rows made by --even */

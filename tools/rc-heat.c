@@ -3,6 +3,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "tools/frames/frames.h"
 #include "tools/model/model.h"
 
 static struct args {

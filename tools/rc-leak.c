@@ -2,6 +2,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "tools/frames/frames.h"
 #include "tools/leak/leak.h"
 #include "tools/model/model.h"
 

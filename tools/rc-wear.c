@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "formats/core/core.h"
+#include "tools/frames/frames.h"
 #include "tools/model/model.h"
 #include "tools/problem/problem.h"
 

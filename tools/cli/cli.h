@@ -1,12 +1,9 @@
 /*
- * The interface of this folder: options, input and output streams, messages, units, reports, the bodies of a
- * stream.
+ * The interface of this folder: options, input and output streams, messages, units, reports.
  */
 #ifndef RC_CLI_H
 #define RC_CLI_H
 
-#include "bodies.h"
-#include "contact.h"
 #include "ending.h"
 #include "tools/text/text.h"
 #include "plan.h"
@@ -16,7 +13,6 @@
 #include "report.h"
 #include "results.h"
 #include "tool.h"
-#include "wanted.h"
 #include "words.h"
 
 #endif

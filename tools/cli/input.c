@@ -10,7 +10,6 @@
 #include <string.h>
 #include <unistd.h>
 
-#include "contact.h"
 #include "foreign.h"
 #include "libcontact/contact.h"
 #include "parts.h"

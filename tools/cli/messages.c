@@ -180,6 +180,14 @@ tool_made(struct tool *t, const struct rc_grid *g, void *made)
 
 /* ---- frames and their keys ---- */
 
+bool
+map_says(const struct rc_grid *g, const char *key, const char *value)
+{
+    const char *own = rc_grid_get(g, key);
+
+    return own != NULL && strcmp(own, value) == 0;
+}
+
 struct rc_grid *
 tool_frame_like(struct tool *t, const struct rc_grid *like, const struct rc_shape *shape,
                 const char *channel, const char *unit)

@@ -314,6 +314,8 @@ void *tool_made(struct tool *tool, const struct rc_grid *grid, void *made)
 struct rc_grid *tool_frame_like(struct tool *tool, const struct rc_grid *like,
                                 const struct rc_shape *shape, const char *channel, const char *unit)
     __attribute__((returns_nonnull));
+/* True if the key has this value. */
+bool map_says(const struct rc_grid *g, const char *key, const char *value);
 /* These set a key of a frame. NULL, or a number that is not finite, removes it. */
 void tool_set(struct tool *tool, struct rc_grid *grid, const char *name, const char *value);
 void tool_set_number(struct tool *tool, struct rc_grid *grid, const char *name, double value);

@@ -6,6 +6,7 @@
 
 #include "libcontact/contact.h"
 #include "tools/cli/cli.h"
+#include "tools/frames/frames.h"
 
 #define INFO_2PI 6.28318530717958647692
 

@@ -8,6 +8,7 @@
 #include <string.h>
 
 #include "formats/core/core.h"
+#include "tools/frames/frames.h"
 
 #define AT(field) .at = offsetof(struct drive_args, field)
 /* clang-format off */

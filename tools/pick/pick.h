@@ -3,6 +3,7 @@
 #define RC_PICK_H
 
 #include "tools/cli/cli.h"
+#include "tools/frames/frames.h"
 
 /* True for one of these steps. */
 bool pick_geometry(const struct step *step);

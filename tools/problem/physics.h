@@ -6,6 +6,7 @@
 
 #include "libcontact/contact.h"
 #include "tools/cli/cli.h"
+#include "tools/frames/frames.h"
 
 struct physics {
     struct numbers load, mean_pressure, approach; /* one of them is given */

@@ -5,6 +5,7 @@
 #define RC_RENDER_H
 
 #include "tools/cli/cli.h"
+#include "tools/frames/frames.h"
 #include "tools/plot/plot.h"
 
 /* Other frames of the case of the drawn frame, on its grid; NULL: none, or it is the drawn frame itself. */

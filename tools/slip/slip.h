@@ -4,6 +4,7 @@
 
 #include "libcontact/contact.h"
 #include "tools/cli/cli.h"
+#include "tools/frames/frames.h"
 #include "tools/model/model.h"
 #include "tools/problem/problem.h"
 

@@ -6,6 +6,7 @@
 
 #include "libcontact/contact.h"
 #include "tools/cli/cli.h"
+#include "tools/frames/frames.h"
 
 struct stress_place {
     double value, x, y, depth; /* Pa, m; NAN: none */

@@ -9,7 +9,7 @@
 #define RC_TOOL_BODIES_H
 
 #include "libcontact/contact.h"
-#include "tool.h"
+#include "tools/cli/cli.h"
 
 /* Body 1 from its key `layers`. */
 struct layers {

@@ -8,8 +8,6 @@
 #include <math.h>
 #include <string.h>
 
-#include "ranks.h"
-
 static const double rounding =
     1e-6; /* relative to the largest pressure: smaller negative values are rounding */
 
@@ -100,14 +98,6 @@ contact_demand(struct tool *t, const struct rc_grid *p, const struct rc_grid *co
 }
 
 /* ---- the boundary ---- */
-
-bool
-map_says(const struct rc_grid *g, const char *key, const char *value)
-{
-    const char *own = rc_grid_get(g, key);
-
-    return own != NULL && strcmp(own, value) == 0;
-}
 
 enum rc_boundary
 map_boundary(const struct rc_grid *g)

@@ -5,7 +5,7 @@
 #define RC_TOOL_CONTACT_H
 
 #include "libcontact/contact.h"
-#include "tool.h"
+#include "tools/cli/cli.h"
 
 #define CONTACT_CHANNEL "contact"
 
@@ -21,8 +21,6 @@ const struct rc_grid *contact_frame(struct tool *tool, const struct rc_grid *p,
 const struct rc_grid *contact_demand(struct tool *tool, const struct rc_grid *p,
                                      const struct rc_grid *contact);
 
-/* True if the key has this value. */
-bool map_says(const struct rc_grid *g, const char *key, const char *value);
 /* The boundary of a result is in its key `boundary`; without it, a map whose key `periodic` is yes is
  * periodic. */
 enum rc_boundary map_boundary(const struct rc_grid *g);

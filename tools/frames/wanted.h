@@ -5,7 +5,7 @@
 #ifndef RC_WANTED_H
 #define RC_WANTED_H
 
-#include "tool.h"
+#include "tools/cli/cli.h"
 
 struct wanted {                   /* starts as {0}: every frame */
     const char *channel;          /* names separated by commas; NULL: any */
