@@ -1,5 +1,5 @@
-# The example of coated bodies, a hard film on steel under a rough ball, runs as printed in rc-solve(1) and
-# rc-stress(1). It gives the figures in these pages.
+# The example of coated bodies, a hard film on steel under a rough ball, runs as printed in contact-layers(7)
+# and rc-stress(1). It gives the figures in these pages.
 . "$(dirname "$0")/../pipe.sh"
 
 # block PAGE 'first words': prints the literal block that begins with these words, as a user types it
@@ -7,14 +7,14 @@ block() {
     awk -v first="$2" '
         /^\.Bd -literal/ { inside = 1; text = ""; next }
         inside && /^\.Ed/ { inside = 0; if (index(text, first) == 1) printf "%s", text; next }
-        inside { gsub(/\\e/, "\\"); gsub(/\\-/, "-"); text = text $0 "\n" }' "$RC_SOURCE/man/$1.1"
+        inside { gsub(/\\e/, "\\"); gsub(/\\-/, "-"); text = text $0 "\n" }' "$RC_SOURCE/man/$1"
 }
 figure() {
-    grep -aqE -- "$1" "$RC_SOURCE/man/$2.1"
+    grep -aqE -- "$1" "$RC_SOURCE/man/$2"
 }
 
-block rc-solve 'rc-synth selfaffine --nx 400' >case.sh
-claim "rc-solve(1) has the example of a coated body" test "$(wc -l <case.sh)" = 12
+block contact-layers.7 'rc-synth selfaffine --nx 400' >case.sh
+claim "contact-layers(7) has the example of a coated body" test "$(wc -l <case.sh)" = 12
 claim "  it runs" bash -c 'bash -e case.sh >said.txt 2>told.txt'
 read -r steel coated <<<"$(sed -n 's/.*largest pressure \([0-9.]*\) GPa.*/\1/p' told.txt | xargs)"
 near "$steel" 4.13 "$three_digits" "  largest pressure on steel, GPa"
@@ -31,10 +31,10 @@ rc-stress --depths 2um,2.000002um --components mises --report sides.json -o side
 near "$(grep -o '"by_depth": \[[^],]*' sides.json | head -n 1 | sed 's/.*\[//')" 2.19e9 "$three_digits" \
     "  on the lower side of the film"
 for told in 1427 1536 4.73 4.13 1.86 1.66 2.23 2.19; do
-    claim "  the page says $told" figure "(^|[^0-9.])$told([^0-9]|$)" rc-solve
+    claim "  the page says $told" figure "(^|[^0-9.])$told([^0-9]|$)" contact-layers.7
 done
 
-block rc-stress 'rc-synth selfaffine --nx 400' >plane.sh
+block rc-stress.1 'rc-synth selfaffine --nx 400' >plane.sh
 claim "rc-stress(1) has the example of a section" test "$(wc -l <plane.sh)" = 7
 claim "  it draws a picture" bash -c \
     'bash -e plane.sh && says PNG head -c 4 mises.png && says PNG head -c 4 sxx.png'

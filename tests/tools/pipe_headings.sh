@@ -58,10 +58,14 @@ report "rc-info --patches" "rc-info --areal --patches --report \$r one.rcg"
 report rc-cost "rc-cost --load 1mN --estar 100GPa --kernel fft --limit 2s --threads 1 --quiet --report \$r rough.rcg"
 
 # The list in a page has every column, and otherwise only those of several processes.
-page_words() { # PAGE SECTION PATTERN: prints the words of matching lines
+page_words() { # PAGE SECTION PATTERN: prints the words of matching lines; those of rc-solve include the pages of its effects
+    local page pages=("$RC_SOURCE/man/$1.1")
+    [ "$1" = rc-solve ] && for page in "$RC_SOURCE"/man/contact-*.7; do
+        grep -q '^\.Sh OPTIONS' "$page" && pages+=("$page")
+    done
     awk -v section="$2" -v pattern="$3" '
         /^\.S[hs] / { on = substr($0, 5) == section }
-        on && $0 ~ pattern { for (k = 2; k <= NF; k++) if ($k ~ /^[a-z][a-z0-9_]*$/) print $k }' "$RC_SOURCE/man/$1.1"
+        on && $0 ~ pattern { for (k = 2; k <= NF; k++) if ($k ~ /^[a-z][a-z0-9_]*$/) print $k }' "${pages[@]}"
 }
 shared='ranks exchanges messages bytes_exchanged other_bytes exchange_seconds'
 listed() { # PAGE SECTION
@@ -74,6 +78,8 @@ listed rc-slip REPORT
 listed rc-leak REPORT
 listed rc-stress "THE REPORT"
 listed rc-solve "THE REPORT"
+claim "rc-solve(1) and the pages of its effects describe each column once" test -z \
+    "$(page_words rc-solve "THE REPORT" '^\.It Cm ' | sort | uniq -d | tee /dev/stderr)"
 page_words rc-info OPTIONS '^\.Cm ' >info.words
 page_words rc-info "JSON FIELDS" '^\.(It )?Cm ' >>info.words
 claim "rc-info(1): its lists have every column" test -z \

@@ -30,6 +30,34 @@ for tool in $tools; do
     claim "$tool: the manual has exactly the options of --help" same_options "$tool"
     claim "$tool: the manual has the words of its options" same_words "$tool"
 done
+
+# ---- the pages of effects ----
+
+# Prints each option of rc-solve(1) whose paragraph refers to the page of an effect, and this page.
+effect_options() {
+    awk '/^\.(It|El|S[hs])/ { name = "" }
+        /^\.It Fl/ { name = "-" $3 }
+        name != "" && /^\.Xr contact-[a-z]+ 7/ { print name, $2 }' "$pages/rc-solve.1" | sort
+}
+same_effects() {
+    for page in $effects; do
+        page_options "$pages/$page.7" | sed "s/$/ $page/"
+    done | sort >pages.txt
+    effect_options | grep -v ' contact-theory$' >effects.txt
+    [ -s effects.txt ] && diff effects.txt pages.txt >&2
+}
+effect_words() {
+    page_options "$pages/$1.7" >options.txt
+    help_words rc-solve | grep -wFf options.txt >help.txt
+    page_words "$pages/$1.7" >page.txt
+    [ -z "$(comm -23 help.txt page.txt | tee /dev/stderr)" ]
+}
+effects=$(cd "$pages" && grep -l '^\.Sh OPTIONS' contact-*.7 | sed 's/\.7$//')
+claim "rc-solve(1) refers from each option of an effect to the page that has it, and each page has no other option" same_effects
+for page in $effects; do
+    claim "$page(7) has the words of its options" effect_words "$page"
+done
+
 claim "rc-solve: the options that take words are found in --help" takes_words rc-solve '--along --kernel --method --output --tilt --track --type '
 
 # ---- two names ----
@@ -89,18 +117,21 @@ for page in "$pages"/*.[1-9] "$library_page"; do
         claim "$name: mandoc finds no fault" bash -c "mandoc -Tlint -Wwarning '$page' >&2"
     fi
 done
-# The overview describes each tool and refers to its page.
+for page in $effects; do
+    claim "$page.7: the chapters of an effect" has_sections "$pages/$page.7" DESCRIPTION "THE REPORT" ACCURACY COST EXAMPLES LIMITS
+done
+# The overview describes each tool and each effect, and refers to its page.
 overview() {
-    for tool in $tools; do
-        for line in ".It Xr $tool 1" ".Xr $tool 1 ,"; do
-            grep -qxF "$line" "$pages/contact.7" || {
+    for name in $(printf '%s.1 ' $tools) $(printf '%s.7 ' $effects); do
+        for line in ".It Xr ${name%.*} ${name##*.}" ".Xr ${name%.*} ${name##*.}( ,)?"; do
+            grep -qxE "$line" "$pages/contact.7" || {
                 echo "contact.7: no line '$line'" >&2
                 return 1
             }
         done
     done
 }
-claim "contact.7: it names each tool" overview
+claim "contact.7: it names each tool and each effect" overview
 if ! command -v mandoc >/dev/null; then
     failed "the pages cannot be checked: mandoc is missing"
 fi
@@ -138,7 +169,7 @@ run_in() {
 }
 
 # pipe_tutorial runs the examples of contact(7), the tutorial.
-for page in "$pages"/*.[15] "$pages/contact-mpi.7"; do
+for page in "$pages"/*.[15] $(printf "$pages/%s.7 " contact-mpi $effects); do
     name=$(basename "$page")
     blocks "$page" EXAMPLES "$scratch/$name.blocks"
     cp -r "$scratch/files" "$scratch/$name.run"

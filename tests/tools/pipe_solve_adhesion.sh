@@ -116,7 +116,3 @@ refused 2 "use a list of --approach values" "--adhesion 50mJ/m2 --approach 1um -
 refused 1 "" "--adhesion 50mJ/m2 --approach 1um --method pk99"
 refused 1 "" "--adhesion 50mJ/m2 --approach 1um --kernel mlms"
 refused 1 "" "--adhesion 50mJ/m2 --approach 1um --kernel direct"
-
-sed -n '/^A ball of glass on rubber/,/^\.Ed/p' "$RC_SOURCE/man/rc-solve.1" |
-    sed '1,/^\.Bd/d; /^\.Ed/d; s/\\e/\\/; s/\\-/-/g' >example.sh
-claim "the example of rc-solve(1) runs" bash -c 'test "$(wc -l <example.sh)" = 5 && bash -e example.sh && says PNG head -c 4 ball.png'

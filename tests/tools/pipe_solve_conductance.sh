@@ -74,9 +74,3 @@ refuses 2 '--conductivity 45: it must be K1,K2' "one conductivity" "rc-solve --l
 refuses 2 "--conductivity 45,0: 0: it must be above 0" "none" "rc-solve --load 1N --estar 1GPa --conductivity 45,0 ball.rcg"
 refuses 2 "unknown unit 'W': W/mK or S/m is expected" "a power" "rc-solve --load 1N --estar 1GPa --conductivity 45W,1W ball.rcg"
 refuses 2 'both in W/mK or both in S/m' "heat into current" "rc-solve --load 1N --estar 1GPa --conductivity 45W/mK,7MS/m ball.rcg"
-
-# ---- the example of the page ----
-
-sed -n '/^A rough steel ball on copper/,/^\.Ed/p' "$RC_SOURCE/man/rc-solve.1" |
-    sed '1,/^\.Bd/d; /^\.Ed/d; s/\\e/\\/; s/\\-/-/g' >example.sh
-claim "the example of rc-solve(1) runs" bash -c 'test "$(wc -l <example.sh)" = 6 && bash -e example.sh && says PNG head -c 4 heat.png'

@@ -56,9 +56,3 @@ refuses 2 'it must be X,Y' "half a place" "rc-solve --load 1N --estar 1GPa --til
 refuses 1 'it must act on the map' "a place beside the map" "rc-solve --load 1N --estar 1GPa --tilt free --at 50um,0 rough.rcg"
 refuses 3 "may not be able to balance the load at this point" "what yields cannot balance any load" \
     "rc-solve --load 0.5N --estar 100GPa --hardness 0.1GPa --tilt free --at 40um,30um rough.rcg -o c.rcg"
-
-# ---- the example of the page ----
-
-sed -n '/^The tilt of a flat on a rough surface/,/^\.Ed/p' "$RC_SOURCE/man/rc-solve.1" |
-    sed '1,/^\.Bd/d; /^\.Ed/d; s/\\e/\\/; s/\\-/-/g' >example.sh
-claim "the example of rc-solve(1) runs" bash -c 'test "$(wc -l <example.sh)" = 6 && test "$(bash -e example.sh | wc -l)" = 2'

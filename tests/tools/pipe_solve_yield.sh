@@ -187,6 +187,6 @@ refuses 1 'all depths of a periodic body yield' "a mean pressure beyond all" \
 
 # ---- the example of the page ----
 
-sed -n '/^A rough surface of hard steel/,/^\.Ed/p' "$RC_SOURCE/man/rc-solve.1" |
+sed -n '/^A rough surface of hard steel/,/^\.Ed/p' "$RC_SOURCE/man/contact-yield.7" |
     sed '1,/^\.Bd/d; /^\.Ed/d; s/\\e/\\/; s/\\-/-/g' >example.sh
-claim "the example of rc-solve(1) runs" bash -c 'test "$(wc -l <example.sh)" = 5 && bash -e example.sh && says PNG head -c 4 dent.png'
+claim "the example of contact-yield(7) runs" bash -c 'test "$(wc -l <example.sh)" = 5 && bash -e example.sh && says PNG head -c 4 dent.png'
