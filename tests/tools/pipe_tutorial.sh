@@ -315,5 +315,6 @@ for picture in $(pictures "$page"); do
     claim "  the picture among the samples is the same" diff <(drawn "run/$picture") <(drawn "$samples/$picture")
     claim "  it contains the command that made it" test -n "$(drawn "$samples/$picture")"
 done
+claim "no two pictures have the same name" test -z "$(pictures "$page" | sort | uniq -d)"
 claim "pictures were compared" test "$(pictures "$page" | wc -l)" -ge 5
 claim "  together they have less than 700 kB" test "$(cd "$samples" && cat $(pictures "$page") | wc -c)" -lt 700000
