@@ -52,10 +52,33 @@ effect_words() {
     page_words "$pages/$1.7" >page.txt
     [ -z "$(comm -23 help.txt page.txt | tee /dev/stderr)" ]
 }
+# A page names the options that its options need (one of several), and those with which they do not work.
+effect_rules() {
+    page_options "$pages/$1.7" >options.txt
+    rc-solve --completions json | perl -MJSON::PP -e '
+        my ($own, $page, $json) = map { local $/; open my $f, "<", $_; <$f> } @ARGV;
+        my %own = map { s/^-+//r => 1 } split /\n/, $own;
+        sub named { my ($n) = @_; $own{$n} || $page =~ /^\.(It )?Fl .*-\Q$n\E( |$)/m }
+        sub lacks { print STDERR "--$_[0]: the page does not name --$_[1]\n"; $bad++ }
+        for my $o (@{decode_json($json)->{options}}) {
+            for my $rule (@{$o->{needs}}) {
+                my @with = map { $_->{name} } @{$rule->{options}};
+                lacks($o->{name}, join " or --", @with) if $own{$o->{name}} && !grep { named($_) } @with;
+            }
+            for my $rule (@{$o->{against}}) {
+                for my $n (map { $_->{name} } @{$rule->{options}}) {
+                    lacks($o->{name}, $n) if $own{$o->{name}} && !named($n);
+                    lacks($n, $o->{name}) if $own{$n} && !named($o->{name});
+                }
+            }
+        }
+        exit($bad > 0)' options.txt "$pages/$1.7" /dev/stdin
+}
 effects=$(cd "$pages" && grep -l '^\.Sh OPTIONS' contact-*.7 | sed 's/\.7$//')
 claim "rc-solve(1) refers from each option of an effect to the page that has it, and each page has no other option" same_effects
 for page in $effects; do
     claim "$page(7) has the words of its options" effect_words "$page"
+    claim "$page(7) has the rules of its options" effect_rules "$page"
 done
 
 claim "rc-solve: the options that take words are found in --help" takes_words rc-solve '--along --kernel --method --output --tilt --track --type '
