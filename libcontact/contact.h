@@ -963,7 +963,7 @@ struct rc_wear_figures {
     size_t steps, rejected, contacts;
     double convolutions;
     /* Estimated: L1 norm of the error of the worn depth over the worn volume; relative L1 error
-     * of the pressure. Of a worn pressure the true ones are usually 10 to 30 times smaller. */
+     * of the pressure. On worn surfaces the true errors are usually 10 to 30 times smaller. */
     double wear_error, pressure_error;
     /* both are at most tol */
     bool converged;
@@ -1410,8 +1410,8 @@ struct rc_stress_counts {
 /* RC_FAIL, and *err says why, when rc_stress_new would refuse these options, except for short memory. */
 RC_API enum rc_status rc_stress_check(const struct rc_shape *shape,
                                       const struct rc_stress_options *options, struct rc_err *err);
-/* Nodes of the largest coarser grid for the depths, over the nodes of the map; 0: none. Such a grid takes
- * this share of the memory of transforms again. */
+/* Nodes of the largest coarser grid for the depths, over the nodes of the map; 0: none. Such a grid
+ * adds this fraction of the memory of the transforms. */
 RC_API double rc_stress_coarser(const struct rc_shape *shape,
                                 const struct rc_stress_options *options);
 /* Suitable depths from 0 down for the stresses under this pressure, *n of them in an array that the caller

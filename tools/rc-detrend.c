@@ -103,9 +103,9 @@ outliers(struct tool *t, struct rc_grid *g, const struct step *step, struct rc_e
     tool_note(t, "%s: %zu of %zu points are outliers", where, count, nodes);
     if ((double)count > outliers_much * (double)nodes)
         tool_warn(t,
-                  "%s: %.3g %% of the points (%zu of %zu) are outliers at T = %g and are missing "
-                  "from here: a larger T leaves more of them",
-                  where, 100 * (double)count / (double)nodes, count, nodes, times);
+                  "%s: --outliers %g removed %.3g %% of the points (%zu of %zu): if these are "
+                  "grooves or steps, raise the threshold",
+                  where, times, 100 * (double)count / (double)nodes, count, nodes);
     return add_to_key(g, "outliers", count, err);
 }
 

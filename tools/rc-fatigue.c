@@ -47,7 +47,7 @@ static const struct opt opts[] = {
      .needs = RULES({.with = "criteria dangvan"}),
      .help = "hydrostatic pressure has no effect in Dang Van's criterion, or lowers it (default cut)"},
     {.name = "pass", .type = OPT_CHOICE, AT(pass), .result = true, .arg = "x|y",
-     .help = "the pressure travels with the contact along this axis: every point of a line sees the line"},
+     .help = "the contact passes along x or y: all points of a line get the stresses of the whole line"},
     {.name = "depths", .type = OPT_NUMBERS, .unit = UNIT_M, AT(depths), .min = 0,
      .max = INFINITY, .result = true, .word = "auto", .arg = "LIST",
      .one_of = RULES({.with = "depths", .remedy = "as in --depths 1um,5um or --depths 1um:50um:log:20, or leave "
@@ -511,10 +511,8 @@ judge(struct run *run, const struct rc_fatigue *f)
             break;
         }
     if (run->options.boundary == RC_PERIODIC && needs_endurance())
-        tool_warn(t,
-                  "the map is periodic, and no state of a history is unloaded: the amplitudes are "
-                  "those between contacts, and hydrostatic pressure lowers Crossland's, "
-                  "Papadopoulos's and Findley's index");
+        tool_warn(t, "on a periodic map the points never unload: the amplitudes and the indices of "
+                     "Crossland, Papadopoulos and Findley are smaller than in a single contact");
     if (wanted(RC_DANG_VAN) && run->problem.full && r->dangvan_hydrostatic < 0)
         tool_warn(t, "the instant that decides for Dang Van is under hydrostatic pressure, which "
                      "lowers the index as far as the limits allow: compare --dangvan cut");

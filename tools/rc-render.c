@@ -80,7 +80,7 @@ static const struct opt opts[] = {
     {.name = "raw", .type = OPT_FLAG, AT(raw),
      .against = RULES({.with = CURVES, .because = "each is a kind of picture"},
                       {.with = "contour|border|aspect|hertz", .because = "it draws only nodes"},
-                      {.with = "width", .because = "it is as wide as the map has columns"},
+                      {.with = "width", .because = "such a picture has one pixel for each column of the map"},
                       {.with = "font", .because = "it draws no text"},
                       {.with = SEVERAL, .because = "it shows one frame",
                        .remedy = "give one --depth and one --case"}),

@@ -204,7 +204,7 @@ read_variables(struct rc_cdf *f, struct rc_err *err)
     for (size_t k = 0; k < f->variables; k++)
         if (rc_cdf_has_records(f, &f->variable[k])) {
             if (f->variable[k].size > f->b.size)
-                return rc_err_set(err, "a record of %llu bytes in a file of %zu",
+                return rc_err_set(err, "a record promises %llu bytes, the file has %zu",
                                   (unsigned long long)f->variable[k].size, f->b.size);
             f->record += f->variable[k].size;
             with_records++;

@@ -184,7 +184,8 @@ rc_map_bound(struct rc_map *map, const struct rc_file *file, double unpacked, st
     map->beside = unpacked;
     if (bytes <= (double)rc_memory_limit(file->size))
         return RC_OK;
-    return rc_err_set(err, "the header promises %zu x %zu heights in %zu bytes: that cannot be",
+    return rc_err_set(err,
+                      "the header promises %zu x %zu heights in %zu bytes: the file is damaged",
                       map->nx, map->ny, file->size);
 }
 

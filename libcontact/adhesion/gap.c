@@ -1113,7 +1113,7 @@ rc_gap_begin(struct rc_gap *g, enum rc_gap_control control, double given)
         shift(g, c - given);
     if (control == RC_GAP_MEAN)
         shift(g, 0);
-    /* under a load, lifts the factor of the mean to twice the largest factor; otherwise K has the mean */
+    /* Under a load A ignores the mean: the preconditioner gives the mean twice the largest factor of K. */
     g->set.lift =
         control == RC_GAP_LOAD ? (2 * g->problem.whole->most - g->problem.whole->mean) : 0;
     g->set.level = 0;

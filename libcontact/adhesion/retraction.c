@@ -44,7 +44,7 @@ static const double growth = 1.5;
 /* The same while the load rises. Half takes 6 % more convolutions, double 2 % (9 pull-offs of
  * bench/constants.py). */
 static const double growth_after = 2;
-/* Fraction of the lowest load: a fine step may hide so much. Half changes the convolutions by less than
+/* A fine step does not resolve events that are closer together than this fraction of the lowest load. Half changes the convolutions by less than
  * 1 %, double takes 3 % more (9 pull-offs of bench/constants.py). */
 static const double fine_step = 0.05;
 /* Fraction of the lowest load: smaller differences do not count. Half takes 2 % more convolutions.

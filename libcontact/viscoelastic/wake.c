@@ -41,8 +41,9 @@ static const double shortest = 1e-9;
 
 /* A term of the creep compliance. */
 struct term {
-    double compliance, length;    /* 1/Pa, m                                     */
-    double decay, half, cubic[4]; /* of I over an interval and half of one, and weights of B */
+    double compliance, length; /* 1/Pa, m */
+    double decay, half;        /* exp(-dx/L) and exp(-dx/2L), the decay of I */
+    double cubic[4];           /* weights of B at four nodes */
 };
 
 struct own {

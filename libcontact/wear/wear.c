@@ -819,8 +819,8 @@ rc_wear_check(struct rc_wear_problem *law, size_t n, struct rc_err *err)
     for (size_t k = 0; k < n && law->part != NULL; k++) {
         if (!(law->part[k] >= 0 && law->part[k] <= 1))
             return rc_err_set(err,
-                              "coefficient of node %zu, %g of the largest: it must be from 0 "
-                              "to 1",
+                              "node %zu has %g of the largest wear coefficient: the ratio must be "
+                              "from 0 to 1",
                               k, law->part[k]);
         largest = fmax(largest, law->part[k]);
     }

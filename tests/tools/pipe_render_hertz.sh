@@ -47,7 +47,7 @@ near "$(value_at law.svg dashed 1)" "$(perl -e '$x = sqrt(2) * 1e9 / (100e9 * sh
 
 # ---- refusals ----
 
-refuses 1 '--hertz needs the keys load, estar and form=sphere RADIUS, which rc-solve --radius leaves: give --radius and --estar' "a ball of which nothing is known" "$draw --hertz p.rcg"
+refuses 1 '--hertz needs the keys load, estar and form=sphere RADIUS: give what is missing with --estar and --radius' "a ball of which nothing is known" "$draw --hertz p.rcg"
 refuses 2 '--hertz with --cut needs a single pressure' "a gap" "$draw --cut y=0 --hertz --radius 7.5mm --channel gap p.rcg"
 refuses 2 '--hertz does not work with --histogram' "a histogram" "$draw --histogram --hertz --radius 7.5mm p.rcg"
 refuses 2 '--radius has no effect without --curve, --histogram or --hertz' "a radius of nothing" "$draw --radius 7.5mm p.rcg"

@@ -89,7 +89,7 @@ rc-pick --crop 0,0,48,80 phases.rcg >half.rcg
 beside h.rcg half.rcg >half-case.rcg
 refuses 1 'bring them to one grid' "another grid" "solve half-case.rcg"
 refuses 1 'no frame with the channel height, only hardness' "no heights" "solve phases.rcg"
-claim "--dry-run reports the map" says 'hardness +on where' bash -c 'solve --dry-run case.rcg'
+claim "--dry-run reports the map" says 'hardness +on: computed where' bash -c 'solve --dry-run case.rcg'
 
 claim "rc-cost accepts it, also on coarser grids" says '^pcg' rc-cost --periodic --mean-pressure 1GPa --estar 100GPa \
     --method pcg --kernel fft case.rcg

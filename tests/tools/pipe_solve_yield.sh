@@ -150,7 +150,7 @@ near "$(rc-stress --quiet --residual --depths 5um --components sxx free.rcg | rc
 claim "too few slabs and large strains cause warnings" bash -c '
     warns "the lowest slab yields" rc-solve --periodic --E1 210GPa --nu1 0.3 --E2 rigid --mean-pressure 300MPa --yield 0.2GPa --tol 1 --increments 4 --slabs 0.5um,0.5um rough.rcg -o w.rcg &&
     grep -q "largest plastic strain is" warns.err && grep -q "slabs lie in the depth that yields, which is too coarse" warns.err'
-claim "--dry-run lists the effect" bash -c 'says "yield +on where" rc-solve --dry-run --periodic --E1 1GPa --nu1 0.3 --E2 rigid --load 1N --yield 1MPa rough.rcg'
+claim "--dry-run lists the effect" bash -c 'says "yield +on: computed where" rc-solve --dry-run --periodic --E1 1GPa --nu1 0.3 --E2 rigid --load 1N --yield 1MPa rough.rcg'
 claim "  the list may begin with the load 0" bash -c 'says "2 loads" rc-solve --dry-run --periodic --E1 1GPa --nu1 0.3 --E2 rigid --load 0,1N --yield 1MPa rough.rcg'
 
 # ---- refusals ----

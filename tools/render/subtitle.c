@@ -195,9 +195,8 @@ words_hertz(struct tool *t, struct words *w, const struct rc_grid *g, const stru
         estar = 0;
     if (!(r > 0) || !(estar > 0) || !rc_grid_number(g, "load", &load) || !(load > 0))
         tool_refuse(t, g,
-                    "--hertz needs the keys load, estar and form=sphere RADIUS, which rc-solve "
-                    "--radius leaves: give --radius and --estar where they are not there, or leave "
-                    "it out");
+                    "--hertz needs the keys load, estar and form=sphere RADIUS: give what is "
+                    "missing with --estar and --radius, or leave out --hertz");
     *radius = cbrt(0.75 * load * r / estar);
     snprintf(w->circle, sizeof w->circle, "Hertz, radius %s", scale_value(*radius, "m"));
     return w->circle;

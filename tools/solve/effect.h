@@ -2,8 +2,8 @@
  * An effect is a row: its options, its model, and what it adds to points, frames, messages and the report. Its
  * options and its state are in its own file, which ends in its `struct effect`; effects.list has the rows, and
  * the other files of this folder walk them. An effect tells the others what it found through struct run, in the
- * words of a contact: loads, bodies, bounds, points. A build may name a list of its own, which includes this one
- * (-DRC_EFFECTS_LIST=...); tests/toys/settling.c is such a row.
+ * words of a contact: loads, bodies, bounds, points. -DRC_EFFECTS_LIST=... replaces the
+ * list; tests/toys/settling.c is a row of another list.
  */
 #ifndef RC_SOLVE_EFFECT_H
 #define RC_SOLVE_EFFECT_H

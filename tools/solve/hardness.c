@@ -70,7 +70,7 @@ state(const struct run *run)
         return map != NULL ? "left out: the map of hardness holds no number"
                            : "left out: no --hardness, and no map of hardness in the case";
     if (run->args->drive.dry_run)
-        return "on where the elastic pressure would exceed it; costs nothing elsewhere";
+        return "on: computed where the elastic pressure exceeds the hardness";
     return run->solution.contact.hardness_active
                ? "on"
                : "left out: the largest elastic pressure is below it";

@@ -497,7 +497,7 @@ state(const struct run *run)
     if (own.on)
         return "on";
     if (own.found == NULL || !(own.found->max_mises_over_yield > 0))
-        return "on where the elastic stress exceeds it; costs nothing elsewhere";
+        return "on: computed where the elastic stress exceeds the yield stress";
     snprintf(text, sizeof text,
              "left out: the largest Mises stress is %.3g of the yield stress, %s deep",
              own.found->max_mises_over_yield, shown_in_unit(own.found->max_mises_depth, "m"));

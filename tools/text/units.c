@@ -380,7 +380,8 @@ read_one(const char *text, size_t n, enum unit unit, double *value, struct seen 
     seen->per_metre = per_metre && apply_force_per_length(text, length, end, rest, value);
     if (!seen->per_metre && !apply_unit(text, length, end, rest, unit, value)) {
         if (unit == UNIT_NONE)
-            return rc_err_set(err, "'%.*s' after %.*s: a plain number without a unit is expected",
+            return rc_err_set(err,
+                              "'%.*s' after %.*s: give a number without a unit; a list has commas",
                               (int)rest, end, (int)length, text);
         return unknown_unit(end, rest, unit, per_metre, err);
     }

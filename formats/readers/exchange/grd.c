@@ -63,8 +63,9 @@ find_new(const struct rc_file *file, struct rc_map *map, struct rc_err *err)
     for (size_t at = 0; file->size - at >= SECTION; at += SECTION + (size_t)n) {
         n = rc_bytes_at(&b, at + 4, RC_RAW_I32);
         if (n < 0 || n > (double)(file->size - at - SECTION))
-            return rc_err_set(err, "section '%s' at byte %zu has %g bytes, the file %zu in all",
-                              rc_text_shown((const char *)file->data + at, 4), at, n, file->size);
+            return rc_err_set(
+                err, "section '%s' at byte %zu promises %g bytes, and the file has %zu bytes",
+                rc_text_shown((const char *)file->data + at, 4), at, n, file->size);
         if (rc_file_holds(file, at, "GRID", 4) && n >= GRID) {
             ny = rc_bytes_at(&b, at + SECTION, RC_RAW_I32);
             nx = rc_bytes_at(&b, at + SECTION + 4, RC_RAW_I32);

@@ -201,7 +201,7 @@ read_numbers(const struct rc_file *file, bool big, const struct variable *v, dou
         if (v->unpacked > rc_memory_limit(file->size) || v->unpacked < v->numbers.at ||
             v->numbers.n > v->unpacked - v->numbers.at)
             return rc_err_set(
-                err, "'%s' promises %zu bytes of numbers in %zu, in a file of %zu: that cannot be",
+                err, "'%s' promises %zu bytes of numbers in %zu unpacked bytes, the file has %zu",
                 v->name, v->numbers.n, v->unpacked, file->size);
         if ((all = malloc(v->unpacked)) == NULL)
             return rc_err_set(err, "out of memory for the %zu bytes of '%s'", v->unpacked, v->name);

@@ -49,7 +49,7 @@ metropro_find(const struct rc_file *file, struct rc_maps *maps, struct rc_err *e
     bytes = rc_bytes_at(&b, AT_BYTES, RC_RAW_I32);
     fineness = rc_bytes_at(&b, AT_FINENESS, RC_RAW_I16);
     if (header < LEAST || intensity < 0 || header + intensity > (double)file->size)
-        return rc_err_set(err, "header and intensities take %g and %g bytes in a file of %zu",
+        return rc_err_set(err, "header and intensities take %g and %g bytes, the file has %zu",
                           header, intensity, file->size);
     if (bytes == 0)
         return rc_err_set(err, "the file has only intensities, no phase");

@@ -158,7 +158,7 @@ sur_find(const struct rc_file *file, struct rc_maps *maps, struct rc_err *err)
     comment_n = rc_bytes_at(&bytes, AT_COMMENT, RC_RAW_I16);
     private_n = rc_bytes_at(&bytes, AT_PRIVATE, RC_RAW_I16);
     if (comment_n < 0 || private_n < 0 || HEADER + comment_n + private_n > (double)file->size)
-        return rc_err_set(err, "comment and private part are %g and %g bytes in a file of %zu",
+        return rc_err_set(err, "comment and private part take %g and %g bytes, the file has %zu",
                           comment_n, private_n, file->size);
     map->at = HEADER + (size_t)comment_n + (size_t)private_n;
     if (is_packed) {

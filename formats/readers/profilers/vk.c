@@ -46,8 +46,9 @@ unpack_member(struct rc_zip_read *archive, size_t member, const struct rc_file *
     if (rc_zip_read_size(archive, member, &size, err) != RC_OK)
         return NULL;
     if (size > rc_memory_limit(file->size))
-        return rc_err_null(err, "the archive in the file promises %g MB out of %g: that cannot be",
-                           (double)size / 1e6, (double)file->size / 1e6);
+        return rc_err_null(
+            err, "the archive in the file promises %g MB, the file has %g MB: it is damaged",
+            (double)size / 1e6, (double)file->size / 1e6);
     return rc_zip_read_bytes(archive, member, size, n, NULL, err);
 }
 

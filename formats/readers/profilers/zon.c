@@ -90,7 +90,8 @@ member_bytes(const struct zon *z, const struct rc_file *file, size_t member, con
     if (rc_zip_read_size(z->archive, member, &size, err) != RC_OK)
         return NULL;
     if (size > most / 2)
-        return rc_err_null(err, "the archive promises %g MB of %s out of %g: that cannot be",
+        return rc_err_null(err,
+                           "the archive promises %g MB of %s, the file has %g MB: it is damaged",
                            (double)size / 1e6, what, (double)file->size / 1e6);
     packed = rc_zip_read_bytes(z->archive, member, size, &packed_n, NULL, err);
     if (packed == NULL || packed_n < 4 || memcmp(packed, "\x28\xb5\x2f\xfd", 4) != 0) {
@@ -183,7 +184,7 @@ read_document(struct zon *z, const struct rc_file *file, size_t member, struct r
     RC_OWNED unsigned char *bytes = member_bytes(z, file, member, "settings", &n, err);
 
     if (bytes != NULL && n > XML_MOST)
-        return rc_err_set(err, "the settings have %zu bytes: that cannot be", n);
+        return rc_err_set(err, "the settings have %zu bytes: the file is damaged", n);
     return bytes != NULL ? rc_xml_read("a document", bytes, n, take_element, z, err) : RC_FAIL;
 }
 

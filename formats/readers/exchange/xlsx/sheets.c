@@ -163,7 +163,7 @@ keep_cell(struct reading *r, struct rc_err *err)
         (r->cell.row < last->row || (r->cell.row == last->row && r->cell.column <= last->column)))
         return rc_err_set(err, "the cells of sheet '%s' are out of order", s->name);
     if (++r->cells > rc_memory_limit(r->file->size) / CELL_BYTES)
-        return rc_err_set(err, "more than %zu cells in a file of %zu bytes: that cannot be",
+        return rc_err_set(err, "more than %zu cells in a file of %zu bytes: it is damaged",
                           r->cells - 1, r->file->size);
     if (s->n == s->capacity) {
         size_t capacity = s->capacity + s->capacity / 2 + 1024;
@@ -273,7 +273,7 @@ read_member(struct reading *r, const char *name, rc_element *element, struct rc_
         rc_zip_read_size(r->archive, member, &size, err) != RC_OK)
         return RC_FAIL;
     if (size > rc_memory_limit(r->file->size))
-        return rc_err_set(err, "%s promises %g MB in a file of %g: that cannot be", name,
+        return rc_err_set(err, "%s promises %g MB, the file has %g MB: it is damaged", name,
                           (double)size / 1e6, (double)r->file->size / 1e6);
     return rc_zip_read_xml(r->archive, member, size, name, true, element, r, NULL, err);
 }
