@@ -42,6 +42,18 @@ static const struct opt opts[] = {
 };
 /* clang-format on */
 
+static const struct rc_figure figures[] = {
+    {.name = "min_displacement", .unit = "m", .title = "Least displacement"},
+    {.name = "max_displacement", .unit = "m", .title = "Largest displacement"},
+    {.name = "mean_displacement", .unit = "m", .title = "Mean displacement"},
+    {.name = "displacement_error_estimate",
+     .title = "Error of the displacement",
+     .role = RC_FIGURE_ERROR,
+     .by = "tol",
+     .of = "displacement"},
+    {0},
+};
+
 static const struct tool_info info = {
     .name = "rc-deflect",
     .summary = "Displacement of an elastic half-space under a pressure map",
@@ -49,6 +61,7 @@ static const struct tool_info info = {
     .examples = "  rc-solve --load 240N --estar 114GPa surface.rcg |\n"
                 "      rc-deflect --kernel mlms --tol 1e-6 -o displacement.rcg\n",
     .opts = opts,
+    .own = figures,
     .reads = READS_STREAM,
     .writes = WRITES_STREAM,
     .shares = true,

@@ -82,6 +82,7 @@ static const struct tool_info info = {
         "  rc-render --channel dangvan -o section.png fatigue.rcg\n"
         "  rc-render --curve depth:dangvan -o curve.png depths.tsv\n",
     .opts = opts,
+    .figures = (const char *const[]){"fatigue", NULL},
     .reads = READS_STREAM,
     .writes = WRITES_STREAM,
 };

@@ -87,6 +87,7 @@ static const struct tool_info info = {
                 "      rc-heat --frequency 50Hz --conductivity 45W/mK,45W/mK \\\n"
                 "          --diffusivity 12mm2/s,12mm2/s --report fretting.tsv -o warm.rcg\n",
     .opts = opts,
+    .figures = (const char *const[]){"heat", NULL},
     .reads = READS_STREAM,
     .writes = WRITES_STREAM,
 };

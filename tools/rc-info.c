@@ -49,6 +49,8 @@ static const struct tool_info info = {
                 "  rc-info --areal --psd flat.rcg\n"
                 "  rc-solve --load 240N --estar 116GPa flat.rcg | rc-info --json --patches\n",
     .opts = opts,
+    .figures =
+        (const char *const[]){"statistics", "areal", "features", "profile", "psd", "patches", NULL},
     .reads = READS_STREAM,
     .writes = WRITES_TEXT,
 };

@@ -73,6 +73,7 @@ static const struct tool_info info = {
         "surface.rcg |\n"
         "      rc-leak --viscosity 1mPas --pressure-drop 100kPa --report leak.tsv -o flow.rcg\n",
     .opts = opts,
+    .figures = (const char *const[]){"leak", NULL},
     .reads = READS_STREAM,
     .writes = WRITES_STREAM,
 };

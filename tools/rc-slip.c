@@ -101,6 +101,7 @@ static const struct tool_info info = {
                 "  rc-slip --mu 0.3 --path '1N,0,0; 1N,0.2N,0; 1N,-0.2N,0; 1N,0.2N,0' \\\n"
                 "      --report loop.tsv -o loop.rcg contact.rcg\n",
     .opts = opts,
+    .figures = (const char *const[]){"friction", "rolling", NULL},
     .reads = READS_STREAM,
     .writes = WRITES_STREAM,
 };

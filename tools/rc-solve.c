@@ -7,6 +7,9 @@ static struct tool_info info = {
     .operands = "[FILE...]",
     .examples = "  rc-synth sphere --nx 128 --dx 5um --radius 7.5mm |\n"
                 "      rc-solve --load 240N --estar 114GPa --report hertz.json | rc-info\n",
+    .figures = (const char *const[]){"contact", "elastic", "yield", "adhesion", "travel", "sliding",
+                                     "viscoelastic", NULL},
+    .own = solve_figures,
     .reads = READS_STREAM,
     .writes = WRITES_STREAM,
     .shares = true,

@@ -47,6 +47,7 @@ static const struct tool_info info = {
                 "      rc-stress --nu 0.3 --section y=0 --depths auto --components mises |\n"
                 "      rc-render -o section.png\n",
     .opts = opts,
+    .figures = (const char *const[]){"stress", NULL},
     .reads = READS_STREAM,
     .writes = WRITES_STREAM,
     .shares = true,

@@ -81,6 +81,7 @@ static const struct tool_info info = {
         "          --report worn.tsv --steps running-in.tsv -o worn.rcg\n"
         "  rc-render --curve distance:contact_fraction --log x -o curve.png running-in.tsv\n",
     .opts = opts,
+    .figures = (const char *const[]){"contact", "elastic", "wear", NULL},
     .reads = READS_STREAM,
     .writes = WRITES_STREAM,
 };

@@ -66,3 +66,32 @@ while read -r command; do
 done <commands.txt
 claim "--dry-run --report - prints the numbers alone" bash -c '
     rc-leak --quiet --dry-run --report - pressed.rcg >plan.txt && [ $(wc -l <plan.txt) = 1 ] && grep -q "^{.*expected_seconds" plan.txt'
+
+# ---- the figures of --completions json ----
+
+cat >figures.pl <<'END'
+use strict;
+use JSON::PP;
+my ($json, $lines) = @ARGV;
+sub slurp { local $/; open my $f, "<", $_[0] or die "$_[0]: none\n"; my $t = <$f>; $t }
+my %figure = map { $_->{name} => $_ } @{decode_json(slurp($json))->{figures}};
+keys %figure > 3 or die "no figures\n";
+for my $row (map { decode_json($_) } split /\n/, slurp($lines)) {
+    for (grep { /_error_estimate$/ } keys %$row) {
+        my $f = $figure{$_} or next; # of the models that are not in use
+        $f->{role} eq "error" && $f->{by} && $f->{of} or die "$_: $f->{role}\n";
+    }
+    for (qw(iterations convolutions)) { # not every tool has both
+        !exists $row->{$_} || $figure{$_}{role} eq "cost" or die "$_ is no cost\n";
+    }
+    for (grep { /^max_pressure$|^friction$|^flow_factor$|^wear_volume$/ } keys %$row) {
+        $figure{$_}{role} eq "result" && exists $figure{$_}{unit} or die "$_ is no result\n";
+    }
+}
+my @errors = grep { $_->{role} eq "error" } values %figure;
+@errors > 0 || !grep { /error/ } keys %figure or die "no error\n";
+END
+while read -r tool rest; do
+    claim "--completions json has the figures of $tool" bash -c "
+        $tool --completions json >figures.json && $tool $rest --quiet --report lines.json -o out.rcg && perl figures.pl figures.json lines.json"
+done <commands.txt

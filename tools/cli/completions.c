@@ -5,8 +5,15 @@
  */
 #include "parts.h"
 
+#include <assert.h>
 #include <math.h>
 #include <string.h>
+
+#include "libcontact/model.h"
+
+enum {
+    FIGURES = 256 /* most figures of a tool */
+};
 
 /* The argument of an option. */
 enum argument {
@@ -431,6 +438,47 @@ json_option(struct json *json, const struct tool *t, const struct opt *o)
     json_end(json, '}');
 }
 
+/* The figures of the reports: what they are, and of an error what it belongs to and what lowers it. */
+static void
+json_figures(struct json *json, const struct tool *t)
+{
+    static const char *const kinds[] = {
+        [RC_NUMBER] = "number", [RC_COUNT] = "count", [RC_YESNO] = "bool", [RC_WORD] = "word"};
+    static const char *const roles[] = {[RC_FIGURE_RESULT] = "result",
+                                        [RC_FIGURE_ERROR] = "error",
+                                        [RC_FIGURE_CHECK] = "check",
+                                        [RC_FIGURE_COST] = "cost"};
+    const struct rc_figure *row[FIGURES];
+    size_t n = 0, k;
+
+    for (size_t table = 0;; table++) {
+        const bool own = t->info->figures == NULL || t->info->figures[table] == NULL;
+        const struct rc_figure *f = own ? t->info->own : rc_figures(t->info->figures[table]);
+        for (; f != NULL && f->name != NULL; f++) {
+            for (k = 0; k < n && strcmp(row[k]->name, f->name) != 0; k++)
+                continue;
+            assert(n < FIGURES);
+            if (k == n)
+                row[n++] = f;
+        }
+        if (own)
+            break;
+    }
+    json_begin(json, "figures", ']');
+    for (k = 0; k < n; k++) {
+        json_begin(json, NULL, '}');
+        json_text(json, "name", row[k]->name);
+        json_text(json, "unit", row[k]->unit);
+        json_text(json, "kind", kinds[row[k]->kind]);
+        json_text(json, "role", roles[row[k]->role]);
+        json_text(json, "by", row[k]->by);
+        json_text(json, "of", row[k]->of);
+        json_text(json, "title", row[k]->title);
+        json_end(json, '}');
+    }
+    json_end(json, ']');
+}
+
 static void
 table_print(const struct tool *t)
 {
@@ -452,6 +500,7 @@ table_print(const struct tool *t)
     for (size_t k = 0; (o = row_at(t, k)) != NULL; k++)
         json_option(&json, t, o);
     json_end(&json, ']');
+    json_figures(&json, t);
     json_close(&json);
 }
 

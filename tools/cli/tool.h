@@ -156,6 +156,10 @@ struct tool_info {
     void (*settle)(struct tool *tool);
     /* NULL, or changes a frame that tool_channel passes on. */
     void (*passing)(struct tool *tool, struct rc_grid *grid);
+    /* Names of the library's tables of figures in its reports, up to NULL, and a table of its own figures; NULL:
+     * none. */
+    const char *const *figures;
+    const struct rc_figure *own;
     bool mends;  /* takes keys with values that they cannot have, to correct them */
     bool shares; /* true: under mpirun its processes share the maps; else they are refused */
 };

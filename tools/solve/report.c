@@ -56,8 +56,8 @@ effects_of(struct run *run, const char *engine)
 /* ---- report ---- */
 
 #define FIGURE(column, member) RC_FIGURE_AS(column, struct solution, member)
-static const struct rc_figure solution_figures[] = {
-    {FIGURE("nodes_per_patch", nodes_per_patch), NULL, "Nodes per patch"},
+const struct rc_figure solve_figures[] = {
+    {FIGURE("nodes_per_patch", nodes_per_patch), NULL, "Nodes per patch", .role = RC_FIGURE_CHECK},
     {FIGURE("contact_area_corrected", patches.contact_area_corrected), "m2",
      "Contact area, corrected"},
     {FIGURE("stiffness", stiffness), "N/m", "Stiffness"},
@@ -91,7 +91,7 @@ solve_report_named(struct report *r, const struct run *run, const char *names)
 {
     struct solution row = run->solution;
     const struct figures from[] = {
-        {rc_figures("contact"), &row.contact}, {solution_figures, &row}, {NULL, NULL}};
+        {rc_figures("contact"), &row.contact}, {solve_figures, &row}, {NULL, NULL}};
 
     row.nodes_per_patch = (double)row.contact.contact_nodes / (double)row.patches.count;
     report_named(r, from, names);
