@@ -97,7 +97,7 @@ struct run {
 const struct effect *solve_first(const struct run *run, size_t at, size_t size);
 
 extern const struct effect *const solve_effects[]; /* all rows; the last is NULL */
-extern const struct rc_figure solve_figures[]; /* of the report, beside those of the library */
+extern const struct rc_figure solve_figures[];     /* of the report, beside those of the library */
 extern const char *solve_frames[];                 /* of --output; the last is NULL */
 
 static inline bool
