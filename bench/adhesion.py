@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: GPL-3.0-or-later
 """The cost of adhesion on many surfaces: convolutions of a state, with stability and certificate.
 
     bench/adhesion.py TOOLS [SIDES [TOL]]      TOOLS holds rc-solve and rc-synth; SIDES 256,512,1024; TOL 1e-4

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
  * Shared by the benchmarks: the clock, shortest times, errors, fitted exponents, and the parts of a program.
  */

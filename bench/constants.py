@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Half and double of constants of libcontact, and what they change in small problems. Comments there quote the results.
 
     constants.py SET FILE:NAME...            constants.py elastic solver/pcg.c:enough

@@ -1,9 +1,10 @@
 #!/usr/bin/env bash
+# SPDX-License-Identifier: GPL-3.0-or-later
 # The seconds that --dry-run tells, beside those of the run, on a machine that does nothing else.
 #
 #     bench/forecast.sh BUILD FOLDER [REGEX]      FOLDER keeps the maps (400 MB), REGEX selects rows
 set -euo pipefail
-[ $# -ge 2 ] || { sed -n '2,4s/^# \{0,1\}//p' "$0"; exit 2; }
+[ $# -ge 2 ] || { sed -n '3,5s/^# \{0,1\}//p' "$0"; exit 2; }
 PATH="$(cd "$1" && pwd)/tools:$PATH"
 mkdir -p "$2"
 cd "$2"

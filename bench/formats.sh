@@ -1,10 +1,11 @@
 #!/usr/bin/env bash
+# SPDX-License-Identifier: GPL-3.0-or-later
 # The cost of files. A frame of 64 MB is written in every binary format and read back if a reader exists, in
 # milliseconds, best of three, through a pipe. It is compared with `cat` through a pipe with a CRC.
 #
 #     bench/formats.sh BUILD [FOLDER]      BUILD holds the tools, FOLDER takes 500 MB
 set -euo pipefail
-[ $# -ge 1 ] || { sed -n '2,6s/^# \{0,1\}//p' "$0"; exit 2; }
+[ $# -ge 1 ] || { sed -n '3,7s/^# \{0,1\}//p' "$0"; exit 2; }
 PATH="$(cd "$1" && pwd)/tools:$PATH"
 folder=$(mktemp -d "${2:-/tmp}/formats.XXXXXX")
 trap 'rm -rf "$folder"' EXIT

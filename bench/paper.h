@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The parts of bench-paper: the measurements of Polonsky and Keer, Wear 231 (1999) 206-219. Numbers of
  * equations are those of the paper. */
 #ifndef PAPER_H

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Fig. 1 of the paper. */
 #include "paper.h"
 

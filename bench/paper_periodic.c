@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
  * Section 5 of the paper: transforms without padding solve a periodic problem; a larger grid moves the images
  * away. For Hertz's contact of radius a in a domain of side L the images add the displacement P / (pi E*) S /

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Section 4.2 of the paper: the rough sphere, its Fig. 3 and its stresses. */
 #include "paper.h"
 

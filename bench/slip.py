@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Convolutions of rc-slip to estimated errors of 1e-2 and 1e-4 on maps, profiles and long cells.
 
     bench/slip.py BUILD [SIDE,SIDE...]      BUILD holds the tools; sides of the square maps, 128 without

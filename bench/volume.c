@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
  * The cost of the sweeps through slabs of plastic strain, in convolutions. A convolution is a real transform
  * of the map and back, including the product with a kernel, by the same transforms.

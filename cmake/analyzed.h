@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Included before each file that clang-tidy checks, except those that define these two functions, because it
  * sees one file at a time. rc_err_set always returns RC_FAIL, and rc_ranks_agree returns RC_OK only if this
  * rank has RC_OK. With this knowledge clang-tidy does not follow impossible paths after a failure. */

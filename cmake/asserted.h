@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Included before each test that clang-tidy checks: cmocka's assertions do not return when they fail, but
  * their declarations lack this property. */
 #include <setjmp.h>

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 # cmake -D SOURCE=... -D BUILD=... -P coverage.cmake: runs the tests of a build with RC_COVERAGE. For each
 # file it prints how many lines of libcontact and formats they have run. BUILD/coverage.txt has the numbers of
 # the other lines.

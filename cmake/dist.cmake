@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 # cmake -D SOURCE=... -D OUT=... -D NAME=libcontact-1.2.3 -P dist.cmake: writes OUT/NAME.tar.gz with the
 # current tree: the files that git tracks or, without git, all files except build products.
 get_filename_component(OUT "${OUT}" ABSOLUTE)

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 # cmake -D SOURCE=... -D LIBRARY_PAGE=... -D OUT=... -D VERSION=... -P html.cmake: writes the manual as a folder of
 # linked pages with an index. Links to other pages lead to the site of mandoc's manual.
 get_filename_component(OUT "${OUT}" ABSOLUTE)

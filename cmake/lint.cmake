@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 # cmake -D SOURCE=... -D BUILD=... -D COMPILER=... -P lint.cmake: cppcheck and clang-tidy over the sources of
 # a configured build. The checks, and the omitted ones with the reason, are in .clang-tidy (tests/.clang-tidy
 # for the tests) and cppcheck.txt.

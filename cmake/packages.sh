@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 # Checks that the packages for the build are installed: bash cmake/packages.sh, or `bash cmake/packages.sh tests` for
 # the build and the tests. On Debian and Ubuntu it installs missing ones; elsewhere it prints what is needed.
 # demo.sh and tests/run.sh source it and name the packages.

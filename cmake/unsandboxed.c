@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
  * Part of every program of a build with RC_COVERAGE. With RC_UNSANDBOXED in the environment the process
  * itself does the reading of the sandbox. The child of the sandbox may not write files and therefore cannot

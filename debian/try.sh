@@ -1,4 +1,5 @@
 #!/usr/bin/env bash
+# SPDX-License-Identifier: GPL-3.0-or-later
 # Makes the Debian packages in a separate root and tests them in another, clean one:
 #
 #     debian/try.sh [--keep FOLDER] SUITE [FILE]
@@ -12,7 +13,7 @@
 set -euo pipefail
 
 usage() {
-    sed -n '2,11s/^# \{0,1\}//p' "$0"
+    sed -n '3,12s/^# \{0,1\}//p' "$0"
 }
 fail() {
     echo "try.sh: $*" >&2

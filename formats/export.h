@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
  * Writing of exchange formats: struct rc_grid -> bytes.
  *

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
  * Instrument and exchange formats: bytes -> struct rc_grid. A format is one file,
  * formats/readers/SUBJECT/NAME.c (or NAME/NAME.c, with more files beside it), that ends in its struct

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
  * The channel of a file with the topography, by unit and name. A height is a length, but not every length is
  * a height: a deflection, an error signal and an amplitude may be in metres too. Therefore the words of the

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
  * Shared by all folders of libcontact: loops for wide registers, numbers of threads, and accurate sums.
  * Internal: never installed.

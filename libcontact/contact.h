@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
  * libcontact: contact of rough surfaces on elastic half-spaces.
  *

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
  * libcontact on several processes: the ranks of an MPI communicator share a map, each with some of its rows.
  * It exists only in a library built with MPI (-DRC_MPI=ON).

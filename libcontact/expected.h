@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
  * The measured numbers of forecasts (rc_solver_expect, rc_model_plan and others): work, in convolutions or
  * applications, and seconds. bench/forecast.sh compares them with runs. Seconds are those of 2 cores of an

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
  * The noun of the toolkit: one map on one regular grid, with the words that travel with it.
  *

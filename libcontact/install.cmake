@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 # The library installed, and what tells others where it is: libcontact.pc for pkg-config and a package for
 # find_package. Neither holds the prefix of the build, so that both are right wherever they stand.
 include(CMakePackageConfigHelpers)

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
  * A model: two bodies, the law of their deformation, and their history. Each kind of model has its own maker
  * (rc_elastic_new); the verbs of this file drive all of them:

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
  * Variables that own memory or a handle and release it at the end of their scope, so that a function can
  * return from its middle. All are initialised where they are declared. longjmp does not release them.

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
  * Surfaces: maps of heights are made, levelled, filtered, filled, resampled, added and measured, and patches
  * of contact counted. This header comes with contact.h and needs nothing but grid.h.

@@ -199,6 +199,7 @@ function definition(s,    n, line, k, long, text, at) {
 
 function head(    s, k) {
     getline s <file
+    if (s ~ /SPDX/) getline s <file
     comment(s)
     some = 0
     paragraphs(lines, said)
@@ -217,6 +218,7 @@ function paragraph() {
 
 function body(    s, k, more, first) {
     getline s <file
+    if (s ~ /SPDX/) getline s <file
     comment(s) # the head
     while ((getline s <file) > 0) {
         if (s ~ /^\/\* ---- /) {

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 # Sourced by scripts that work in a root of their own: a folder with a small Debian, made by debootstrap.
 
 # make_root SUITE FOLDER: packages come from MIRROR where the environment names one.

@@ -1,4 +1,5 @@
 #!/usr/bin/env bash
+# SPDX-License-Identifier: GPL-3.0-or-later
 # From a measured surface to the stresses under it, in one command:
 #
 #     sample_surfaces/demo.sh [FILE]
@@ -11,7 +12,7 @@ set -euo pipefail
 
 case "${1-}" in
 -h | --help)
-    sed -n '2,10s/^# \{0,1\}//p' "$0"
+    sed -n '3,11s/^# \{0,1\}//p' "$0"
     exit 0
     ;;
 -*)

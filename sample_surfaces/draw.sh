@@ -1,4 +1,5 @@
 #!/usr/bin/env bash
+# SPDX-License-Identifier: GPL-3.0-or-later
 # Draws the pictures of the tutorial again, by its own commands:
 #
 #     sample_surfaces/draw.sh [FOLDER]

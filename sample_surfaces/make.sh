@@ -1,4 +1,5 @@
 #!/usr/bin/env bash
+# SPDX-License-Identifier: GPL-3.0-or-later
 # Makes the sample surfaces again, bit for bit:
 #
 #     sample_surfaces/make.sh [FOLDER]

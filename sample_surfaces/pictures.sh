@@ -1,4 +1,5 @@
 #!/usr/bin/env bash
+# SPDX-License-Identifier: GPL-3.0-or-later
 # Draws every kind of picture of rc-render, once for a screen (800 pixels) and once for the column of a
 # journal (85 mm, PDF). Look at them when the code of the drawing has changed.
 #

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* A kernel of some bodies, together with these bodies. */
 #ifndef BODY_CASE_H
 #define BODY_CASE_H

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Shared by the tests of contact: solves a problem completely. */
 #ifndef CONTACT_CASE_H
 #define CONTACT_CASE_H

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Contact tests under mpirun: every process runs the whole test, but the processes share the solution of each
  * contact. The results are gathered, and each process checks all of them. */
 #ifndef CONTACT_RANKS_H

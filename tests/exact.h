@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Exact solutions with their sources. SI units; tension positive; z into the body. */
 #ifndef EXACT_H
 #define EXACT_H

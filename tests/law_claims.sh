@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 # The harness of the shell tests, pipe.sh: a script passes only if it ends with status 0, has made a claim, and no
 # claim has failed. It is skipped only with a reason and before its first claim. No test puts a part of the
 # harness out of use.

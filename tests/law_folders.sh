@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 # The dependencies of the folders have one direction. From other folders a file includes only the public
 # header of a lower folder; it calls no function of a higher folder. Solver, stress, surface and tools do not
 # name an engine, no file outside libcontact/body names a row of its list, and no file of rc-solve names the effect

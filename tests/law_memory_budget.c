@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The peak that the allocator counts agrees with the kernel's figure to a twentieth. Work that needs more
  * than the budget is refused and frees its memory. The work is solver, stresses, friction, adhesion,
  * plasticity, sums, flow and slabs. Each runs in a separate process, on maps so large that code and plans are

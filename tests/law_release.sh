@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 # A release has the same version in all files, is complete without git, and all links of its manual as web
 # pages have a target.
 . "$(dirname "$0")/pipe.sh"

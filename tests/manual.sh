@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 # Sourced by the tests of the manual, after pipe.sh: functions that extract commands and outputs from a page,
 # and words from --help.
 pages=$RC_SOURCE/man

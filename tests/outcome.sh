@@ -1,4 +1,5 @@
 #!/usr/bin/env bash
+# SPDX-License-Identifier: GPL-3.0-or-later
 # Reads the output of the tests of a build, Testing/Temporary/LastTest.log, where also the output of passed tests
 # stands: tests/outcome.sh LOG. It prints the tests, and parts of tests, that were skipped, with the reason, and
 # fails if a test says "NOT OK" although it passed.

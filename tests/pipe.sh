@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 # Sourced by every pipe_*.sh and law_*.sh. It puts the built tools on PATH, makes a temporary folder, and
 # defines claims and the tolerances of tests/exact.h by their names ($rounding, ...). A pipeline fails if any
 # of its commands fails, here and in every bash that a claim starts. grep -q and head may stop reading early,

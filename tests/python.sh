@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 # Sourced by the tests that run Python, after pipe.sh.
 
 # python_with MODULE...: the first Python that has these modules, searched in RC_PYTHON, in PATH and in the

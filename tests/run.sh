@@ -1,4 +1,5 @@
 #!/usr/bin/env bash
+# SPDX-License-Identifier: GPL-3.0-or-later
 # Installs what is missing (Debian, Ubuntu), builds with warnings as errors, runs every test.
 # With CI=true also builds with the address and undefined-behaviour sanitizers and runs them there.
 # At the end it lists the tests that were skipped, with the reasons. It fails if a test fails, or passes although a

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 # Sourced after pipe.sh by the tests that inspect the build and the symbols of the linker.
 
 # declared HEADER...: prints the functions and objects rc_... that the headers declare, one per line.

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 # Each tool writes what bash, zsh and fish complete for it; installed where these look by themselves.
 set(RC_ZSH_FUNCTIONS "${CMAKE_INSTALL_DATADIR}/zsh/site-functions" CACHE STRING "where zsh looks for completions")
 set(bash_folder ${CMAKE_INSTALL_DATADIR}/bash-completion/completions)

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* rc-add: the sum of two facing surfaces, as one surface pressed against a flat. */
 #include "tools/cli/cli.h"
 

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The cost of accuracy in time: one contact solved in many ways, compared with an accurate solution. */
 #include <errno.h>
 #include <fcntl.h>

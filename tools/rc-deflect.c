@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Displacement of the surface under a given pressure map. */
 #include <math.h>
 #include <string.h>

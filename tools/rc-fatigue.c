@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Fatigue below a contact that rolls or slides: criteria of the stress history of each point. */
 #include <math.h>
 #include <stdlib.h>

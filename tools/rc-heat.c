@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Temperatures of a contact whose bodies slide: flash temperatures of both surfaces. */
 #include <math.h>
 #include <stdlib.h>

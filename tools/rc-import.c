@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Instrument and exchange files -> a stream of height maps, one case each. */
 
 #include <math.h>

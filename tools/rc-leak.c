@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Flow through the gap of a contact, from one edge of the map to the opposite one. */
 #include <math.h>
 #include <string.h>

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* rc-pick: selects frames of a stream, cuts and resamples their maps, and changes their headers. */
 
 #include <math.h>

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* rc-render: maps of a grid stream, or curves of a report, as a picture: PNG, SVG or PDF. */
 #include <assert.h>
 #include <math.h>

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* A page about a measured surface: the other tools do the steps, and this one puts their pictures, tables and
  * texts together. */
 #include <dirent.h>

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Friction in a contact found by rc-solve: stick, slip and dissipated energy. */
 #include <math.h>
 #include <stdlib.h>

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Contact of a height map with an elastic half-space. */
 #include "tools/solve/solve.h"
 

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Stresses in the half-space under a pressure map: slice by slice, or in a vertical plane. */
 #include <math.h>
 #include <stdlib.h>

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Wear of the contact that rc-solve has found: how heights and pressures change as the bodies slide. */
 #include <math.h>
 #include <stdlib.h>

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Compares areal parameters and spectra of rc-info with those of other programs, on the same heights.
 
     python bench/areal [--tools DIR] [--gwyddion LIBRARY] FILE...

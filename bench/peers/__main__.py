@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Wall time of rc-solve against other contact solvers, on the same heights, to the same true error.
 
     python bench/peers [-n SIZE] [--case NAME,...] [--peer NAME,...] [--error E,...] [--tools DIR] [--work DIR]

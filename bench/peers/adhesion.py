@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Rough surfaces that attract each other: rc-solve --adhesion beside Adhesion's bounded L-BFGS-B and Tamaas' PolonskyKeerRey.
 
     peers-venv/bin/python bench/peers/adhesion.py --tools build/tools [--cases 64,128,256] [--alone]

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Surfaces and loads, the grid stream, and the tools."""
 import json
 import os

@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Partial slip under a tangential force: rc-slip beside aspher's FrictionSolver and Tamaas' PolonskyKeerTan.
 
     peers-venv/bin/python bench/peers/friction.py --tools build/tools [--sides 64,128] [--alone]

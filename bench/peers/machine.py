@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Properties of the machine, and the load by other programs."""
 import os
 import time

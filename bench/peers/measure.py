@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Measurements: the settings that reach an error, their time in turns with rc-solve, the agreement of references."""
 import json
 import sys

@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: GPL-3.0-or-later
 """One load of a rough surface on a body that yields inside: this library beside Tamaas' EPICSolver.
 
     cmake --build build --target bench-plastic

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """The peers: their calls, and the settings that are tried.
 
 Each `solve` returns pressure over E*, seconds and iterations. They get lengths over the side of the map and pressures over E*, which suits absolute tolerances.

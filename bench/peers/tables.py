@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """The printed tables, in Markdown."""
 import os
 import subprocess

@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Creep of a rough contact: rc-solve --relaxation beside Tamaas' MaxwellViscoelastic.
 
     peers-venv/bin/python bench/peers/visco.py --tools build/tools [--nodes 256] [--steps 10,50]

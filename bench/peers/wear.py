@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: GPL-3.0-or-later
 """A rough surface that wears: rc-solve and rc-wear beside a loop of explicit steps around Tamaas' PolonskyKeerRey.
 
     peers-venv/bin/python bench/peers/wear.py --tools build/tools [--cases 128:100,256:1000] [--repeat 3] [--wide-step]

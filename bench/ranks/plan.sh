@@ -1,4 +1,5 @@
 #!/usr/bin/env bash
+# SPDX-License-Identifier: GPL-3.0-or-later
 # Predicts the seconds of a periodic contact on several machines from the time on one: plan.sh strong|weak.
 #
 #   seconds of one convolution's share = C log2(n)/log2(n0) n^2/M      n x n nodes, M machines

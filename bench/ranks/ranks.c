@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
  * The cost of a convolution for processes that share a map: mpirun -n P bench-ranks M [free]. Prints the
  * shortest time of five, its part in exchanges, and the largest peak memory of a process.

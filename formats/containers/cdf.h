@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The header of a NetCDF classic file: its variables and their positions; see readers/exchange/netcdf.c. */
 #ifndef RC_CDF_H
 #define RC_CDF_H

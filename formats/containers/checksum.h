@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
  * MD5 (RFC 1321), the checksum of X3P files; only this file uses libmd. It detects accidental damage, not
  * manipulation.

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
  * The interface of this folder: layouts that several formats share, such as ZIP and HDF5. One or two files
  * here use the library for each.

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "hdf_internal.h"
 
 #include <hdf5_hl.h>

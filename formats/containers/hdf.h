@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* HDF5 in memory; only these files and writers/hdf5.c use libhdf5. Use it in the sandbox (sandbox.h): damaged
  * files make the library crash, loop or allocate without limit. */
 #ifndef RC_HDF_H

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Objects of HDF5 that are closed at the end of their scope. */
 #ifndef RC_HDF_ID_H
 #define RC_HDF_ID_H

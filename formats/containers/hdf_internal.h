@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Shared by the files that use libhdf5. */
 #ifndef RC_HDF_INTERNAL_H
 #define RC_HDF_INTERNAL_H

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Written from Microsoft's description of the format, [MS-CFB]. */
 #include "ole.h"
 

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Compound files of Microsoft (OLE): named streams in sectors, which tables chain. */
 #ifndef RC_OLE_H
 #define RC_OLE_H

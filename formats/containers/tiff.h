@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* TIFF in memory, for instrument files based on TIFF; only this file uses libtiff. Use it in the sandbox
  * (sandbox.h): tags with a large size make the library allocate this memory. */
 #ifndef RC_TIFF_H

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
  * XML read in pieces, without a tree; only this file uses libxml2. Nothing is fetched, no entity is expanded
  * and a document type declaration is refused, so that the text is never larger than the document.

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "zip_read.h"
 
 #include <inttypes.h>

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
  * ZIP archives in memory; only these files use libzip. A member is read only if it is stored or deflated and
  * its packed bytes can give its size. So a few bytes cannot make a program allocate much memory.

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Writing of ZIP archives; only this file and zip_read.c use libzip. */
 #ifndef RC_ZIP_WRITE_H
 #define RC_ZIP_WRITE_H

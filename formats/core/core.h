@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
  * The interface of this folder. It has bytes, text, numbers in tables, maps of raw numbers, and the checksum
  * of a stream.

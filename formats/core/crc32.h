@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
  * CRC-32 of zlib, gzip and PNG (polynomial 0x04c11db7, reflected), at the end of every frame of a stream.
  * Only this file uses libdeflate, whose CRC-32 takes a ninth of the time of zlib's.

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
  * Unevenly spaced profiles: refused, or resampled if the user asks for it.
  *

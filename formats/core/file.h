@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* A file in memory. It has its format by name and first bytes, positions in it, and its limit of memory. A
  * file is written here too. */
 #ifndef RC_FILE_H

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Headers of text. They have `key = value` lines, numbers with units, and tables of the relevant keys. */
 #ifndef RC_HEADER_H
 #define RC_HEADER_H

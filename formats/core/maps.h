@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
  * A reader describes a file as maps. It fills struct rc_maps from the header, with the position and the type
  * of raw numbers, or with a function that fills in the values. The rest is the same for all readers, and is

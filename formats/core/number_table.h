@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
  * A table of numbers in text, with as many columns in every row. It is read in one pass, with a point or a
  * comma as the decimal mark in any locale.

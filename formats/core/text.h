@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Text of foreign files: lines, UTF-8, and text that is safe to store or show. */
 #ifndef RC_TEXT_H
 #define RC_TEXT_H

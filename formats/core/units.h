@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* SI prefixes (powers of ten before a unit), and units of length. */
 #ifndef RC_CORE_UNITS_H
 #define RC_CORE_UNITS_H

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Options of the user that supplement or correct a file, such as spacings and units, and notes for the
  * user. */
 #ifndef RC_WISH_H

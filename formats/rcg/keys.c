@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
  * Keys with a fixed meaning, and the values that they can have (rcg(5)). A reader that knows the words of a
  * key need not expect others.

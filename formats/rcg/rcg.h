@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
  * The grid stream RCG1: frames of maps through pipes (rcg(5)).
  *

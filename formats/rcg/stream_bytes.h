@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Reading and writing of a stream share this file: byte order and checksum. */
 #ifndef RC_STREAM_BYTES_H
 #define RC_STREAM_BYTES_H

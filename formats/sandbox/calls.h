@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The system calls that a child in the sandbox may use. */
 #ifndef RC_CALLS_H
 #define RC_CALLS_H

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Limits for libraries that are not safe with malicious files. */
 #ifndef RC_CONFINE_H
 #define RC_CONFINE_H

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Transfers the result of a sandbox's child to the parent: its notes and message, then the channels or the
  * grid as a stream RCG1. The parent checks all of it, because the file may control the child. */
 #ifndef RC_RESULT_H

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
  * A separate process for libraries that are not safe with malicious files (libhdf5, libtiff). They run in a
  * child with limited memory and time that cannot open files and, where the system can filter calls, can only

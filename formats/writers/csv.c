@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* A matrix as text. It has a header of four comment lines as in Gwyddion, then one line per row, with commas
  * between values. Every number has a point, so that no reader takes the comma for a decimal mark. */
 #include <math.h>

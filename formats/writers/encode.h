@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Output of values: numbers as little-endian bytes, and a growing buffer. */
 #ifndef RC_ENCODE_H
 #define RC_ENCODE_H

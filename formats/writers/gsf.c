@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Gwyddion Simple Field: a header of `key = value`, one to four NUL bytes up to a multiple of four, and the
  * values. These are float, little-endian, top row first; NaN for a missing point. */
 #include <string.h>

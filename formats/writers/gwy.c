@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
  * Gwyddion's own format: `GWYP` and one object, a container. An object is its name, NUL, the bytes
  * that follow, and items: name, NUL, a letter for the type, the value. All numbers are

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
  * HDF5: a dataset for each frame, rows by columns, named by its channel. The depths of one channel and case
  * are one dataset, depth by rows by columns. Its attributes are dx and dy (m), unit, channel, and every key

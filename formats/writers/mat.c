@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* MATLAB, MAT version 5, not compressed: the map with the name of its channel, rows first, and dx, dy, dunit
  * and unit. Numbers are stored column after column. */
 #include <ctype.h>

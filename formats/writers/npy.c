@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* NumPy array, version 1.0: a magic, the header as a Python dictionary padded to a multiple of 64, and the
  * values row by row. A stack is written slice by slice from the shallowest down. It has no spacing and no
  * unit. */

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* SDF in its text form, ISO 25178-71 (earlier EUNA 15178). A header of `key = value`, the heights row by row,
  * and a trailer, with an asterisk after each. A missing point is the word BAD; a resolution of -1 is
  * unknown. */

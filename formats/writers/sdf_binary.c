@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* SDF in its binary form, ISO 25178-71. It has an 81-byte header and the heights, little-endian. There is no
  * offset: height = number * Zscale. A missing point is the smallest number of an integer type, or NaN. */
 #include <math.h>

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Shared by the two forms of SDF (ISO 25178-71). */
 #ifndef RC_SDF_HEAD_H
 #define RC_SDF_HEAD_H

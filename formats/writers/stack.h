@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Frames that are the depths of one stack: one channel and case, on one grid. */
 #ifndef RC_STACK_H
 #define RC_STACK_H

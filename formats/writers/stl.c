@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* STL, binary: the map as the upper face of a block for a printer, with walls and a floor, so that it is
  * closed. 80 bytes of text, the number of triangles, and for each its normal, its corners, counterclockwise
  * as seen from outside, and two unused bytes. Lengths are millimetres by convention. The longer side is SIDE;

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
  * Digital Surf has a 512-byte header and whole numbers, little-endian, row 0 first. Lengths are in mm, as in
  * Digital Surf's programs; value = number * step + offset.

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
  * Frames as one block of nodes, for the formats of VTK. The block has maps on one grid beside each other,
  * maps at several depths above each other, or a section with its depths.

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* VTK RectilinearGrid: like vti.c, with the position of every node, so that depths may have uneven steps. */
 #include "volume.h"
 

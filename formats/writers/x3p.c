@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* X3P, ISO 25178-72: see x3p.c. Heights go into bindata/data.bin, the list of valid points into
  * bindata/valid.bin if some are missing, and every part has an MD5 checksum. */
 #include <stdlib.h>

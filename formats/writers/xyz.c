@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Points as text have x, y and value of every node, x fastest, in SI. The origin is in the middle of the map,
  * or at wave number 0 of a spectrum. NaN marks a missing point, so that the raster is complete. In a section
  * the second number is the depth. */

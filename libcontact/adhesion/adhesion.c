@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
  * Bodies that attract each other, along a path. Each state starts from the gap of the last state and descends
  * to a stationary point (gap.c). Then the smallest eigenvalue shows whether this point is stable under the

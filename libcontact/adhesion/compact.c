@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
  * sigma = sigma(0) (1 - g/gc)^2 up to gc = 3 w/sigma(0), where sigma and its slope are 0. The law is smooth
  * and has a finite range.

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
  * sigma(0) up to the range w/sigma(0), then 0 (Maugis 1992). A straight line, centred at this range, replaces
  * the jump; the grid resolves its slope, and w does not change.

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
  * sigma = (w/rho) exp(-g/rho). The law is smooth and has an infinite range.
  */

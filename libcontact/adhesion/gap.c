@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
  * Projected nonlinear conjugate gradients on the gap. The preconditioner is K on the nodes outside contact,
  * in single precision: because K A = 1, it leaves only the effects of contact and traction. A step costs A d

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
  * The iteration for the gap, and the stability of its result. Internal: never installed.
  *

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
  * The exponential law over the shortest range that the grid resolves, for use if only the work matters.
  */

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
  * A law of attraction: the row type of laws.list. Internal: never installed.
  *

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
  * A times the part of a step that the bounds cut off. Most steps of a large map reach 0 at few nodes, and a
  * convolution for them would cost as much as the rest of the step. The coefficients of A fall with the third

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
  * The start of a path from coarser grids. The first state is found roughly on a grid with every other node,
  * which starts from a coarser grid itself. Its heights are samples: means would lower short waves, so that

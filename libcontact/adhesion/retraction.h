@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
  * The search for the lowest load of a retraction. It chooses the next approach, and the state to start from.
  * It sees only loads; adhesion.c has the states, and keeps the ones to which the search may return.

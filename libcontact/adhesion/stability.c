@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
  * The smallest eigenvalue of the stiffness, on the nodes outside contact. The stiffness is A minus the
  * softening by the traction. It solves (A - D) x = mu W x, where W is the inverse of K on these nodes. All

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
  * The response of a body to loads, for any type of body: the interface of this folder. Operators and stresses
  * use a body, or the pair of both, independently of its row of bodies.list. Internal: never installed.

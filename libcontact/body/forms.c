@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
  * Stresses in a half-space, component by component, for a normal and for a tangential load.
  *

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
  * The stresses of a half-space of one material in closed form. The loads are a unit force, a uniform load on
  * a cell (a sum over its corners), and a wave. Internal: never installed.

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
  * A kernel: the field of a unit pressure on one cell, for engines and transforms. Internal: never installed.
  */

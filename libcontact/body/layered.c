@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
  * Bonded layers on a half-space. A cell dx x dy under unit pressure displaces the surface of the layered body
  * by the sum of two parts. The first is that of a half-space of the top material, in closed form. The second

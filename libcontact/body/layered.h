@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
  * Declarations for the files of the layered body. Internal: never installed.
  */

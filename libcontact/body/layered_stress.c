@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
  * Stresses at one depth of a layered body. Under a wave they come from the stack itself. Under a unit load on
  * a cell they are integrals over the cell of functions of the distance,

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
  * The exponent of x and the first bits of its mantissa give the number of the piece, the other bits the
  * position in it. A piece is the polynomial through its Chebyshev points.

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
  * A smooth function of a positive number, tabulated as polynomials on equal pieces of each octave, so that a
  * lookup takes no logarithm. Internal: never installed.

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
  * Integrals over the cells of a grid of functions that are smooth on the scale of their distance. Gauss's
  * rule takes fewer points at larger distances. At the largest distances means are computed from the values at

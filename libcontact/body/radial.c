@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
  * The integral is a convolution in the logarithms of q and r with the kernel exp(x) J_m(exp(x)). The kernel's
  * Fourier transform is 2^(iw) Gamma((1 + m + iw)/2) / Gamma((1 + m - iw)/2). So one transform of samples at

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
  * Functions of the distance from a load, given by their Hankel transforms G:
  *

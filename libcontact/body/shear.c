@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
  * Two uniform half-spaces under tractions along their surfaces. q is the traction on body 1, p the pressure,
  * x = (x, y) the vector from the source, and r = |x|. Displacements are those of body 1 less those of body 2

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
  * The frequency response of a stack of bonded isotropic layers, by recursion from the bottom up.
  *

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
  * Bonded isotropic layers on a half-space: displacement of the surface under a pressure wave, and under a
  * load about the origin at a distance. Internal: never installed.

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
  * A half-space of one material. The normal displacement of its surface under unit pressure on a cell dx x dy:
  *

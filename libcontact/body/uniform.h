@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
  * The half-space of one material, also used by types that contain one. Internal: never installed.
  */

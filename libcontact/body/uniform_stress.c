@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
  * Stresses inside a half-space of one material, from the closed forms of forms.c.
  */

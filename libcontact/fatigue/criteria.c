@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
  * Criteria of high-cycle fatigue for the stress history of one material point, a closed cycle of n states.
  *

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
  * Stress histories of the points below a map, and the criteria of fatigue for them, depth by depth.
  *

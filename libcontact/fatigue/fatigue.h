@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
  * Criteria of the stress histories of material points. Internal: never installed.
  */

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
  * Feature parameters of ISO 25178-2. Hills are found by watershed and pruned by Wolf's rule; then follow
  * their peaks, heights and areas. Dales are the hills of the map upside down.

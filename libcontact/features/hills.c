@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
  * Hills by watershed: a node belongs to the hill whose peak the steepest ascent over its eight neighbours
  * reaches. Of equal heights the first counts as higher, so that a plateau has one peak. Hills are numbered in

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
  * Hills of a map: the nodes whose ascents reach the same peak. Internal: never installed.
  */

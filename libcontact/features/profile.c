@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
  * Parameters of ISO 21920-2 of a profile, and profiles along any line of a map.
  */

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
  * Hills that are too low to count, by Wolf's rule. Where two hills touch, the lower of both nodes is a pass
  * from one to the other, and their highest pass is their saddle. Saddles are processed from the highest down.

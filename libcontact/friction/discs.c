@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
  * Semismooth Newton on the faces of the discs. Each set of faces gets one step of preconditioned conjugate
  * gradients: the sets change too fast for a second step to pay. 1. delta is the mean of Tq - w over the nodes

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
  * One increment of friction: the tractions q of least energy on discs of given radii g.
  *

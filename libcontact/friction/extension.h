@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
  * An approximate inverse of T + D on the free directions of the nodes that carry friction. Internal: never
  * installed.

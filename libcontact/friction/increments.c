@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
  * Chooses the number of increments from point to point, and estimates their error from solutions with half
  * and with a quarter of the increments. All factors were fitted on random paths.

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
  * The model of friction: rc_friction_solver under the pressure of an inner model, or under a known one. Friction depends
  * on the path, so load, force and displacement change in proportion from point to point, in increments.

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
  * The tangential operator by Fourier transforms. A quarter of the spectrum of each kernel is stored.
  */

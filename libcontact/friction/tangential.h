@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
  * Displacements due to tractions along the surface. Internal: never installed.
  *

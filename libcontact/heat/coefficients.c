@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
  * Temperature at a distance (x, y, z) from the middle of a cell dx by dy with a heat flux of 1 (Carslaw and
  * Jaeger 1959, section 10.7, with tau = sqrt(4 kap t)):

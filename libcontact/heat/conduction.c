@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
  * Temperatures of maps of heat flux by Fourier transforms. A free map is padded; the coefficients are
  * transformed by their even and odd parts; a quarter of each part determines the whole. A periodic map needs

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
  * Temperatures of two bodies that share the heat of their contact. f is the heat flux into body 1, of any
  * sign, and q - f that into body 2. D is the bulk of body 2 less that of body 1. Equal temperatures in

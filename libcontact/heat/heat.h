@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
  * Conduction of heat from a contact into a body whose material moves past it. Internal: never installed.
  *

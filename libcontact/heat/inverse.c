@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
  * An approximate inverse of C = C1 + C2 restricted to the nodes in contact: z = E' A E r. A is the
  * reciprocal of the spectrum of C on the padded map. E is the extension of pyramid/pyramid.h, which

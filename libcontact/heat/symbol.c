@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
  * Temperature of a wave of heat flux 1 exp(i q x) on a body that moves. Let m = sqrt(q^2 + 2 i P . q),
  * with Re m > 0. In the steady state the temperature is exp(-m z)/(k m). At a time t after heating began,

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
  * Distinguishes flowing from still fluid. A node lies on a path from inlet to outlet that passes no node
  * twice if it is in one block with an additional face between inlet and outlet (Hopcroft and Tarjan, Commun.

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
  * Bounds of the conductance G of a network, from any pressures P of its nodes:
  *

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
  * The conductance of a network between inlet and outlet, by eliminating node after node (star-mesh
  * transformation). A node with conductances c_1 .. c_m to its neighbours is replaced by faces c_i c_j / d

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
  * Leakage: pressure drives fluid through the gap from one edge of the map to the opposite one. Reynolds'
  * equation without sliding holds: div(g^3 grad P) = 0. The flow is steady and thin: inertia, slip and slopes

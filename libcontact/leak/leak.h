@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
  * Flow through a gap as a network: declarations for the files of this folder. Internal: never installed.
  *

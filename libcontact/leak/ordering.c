@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
  * The order of elimination by nested dissection (George, SIAM J. Numer. Anal. 10, 1973, 345). A separator
  * cuts a region into two sides, which share no face, and is eliminated after both. The sides are cut in the

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
  * Finds the opening of the gap: nodes join in the order of decreasing gap, in sets (union-find), until the
  * sets of inlet and outlet meet. The node that joins them is the critical constriction: no path from inlet to

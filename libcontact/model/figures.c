@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Tables of figures: reads values, and finds figures by name. */
 #include <math.h>
 #include <string.h>

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
  * The parts of a model, for the files that implement one. The struct of a model begins with struct
  * rc_model, and its file ends in the row. An outer model drives its inner one by the verbs of model.h only.

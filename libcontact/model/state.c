@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
  * The state of a model and its inner models as numbers, for files and for the copy at each kept point. The
  * order is: the count of numbers and maps, the numbers, then the maps.

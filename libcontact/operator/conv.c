@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
  * One kernel on one grid: the choice of the engine and its reason.
  */

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
  * An engine sums displacements: the row type of engines.list. Internal: never installed.
  */

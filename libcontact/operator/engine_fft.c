@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
  * Convolution by fast Fourier transforms: exact to rounding on both boundaries, N log N.
  */

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
  * Layout of the transforms and spectra of kernels. A kernel that is even or odd in x and in y has a spectrum
  * that is real up to a power of -i. A quarter of its values determines it.

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
  * The parts of the transform engine. One transform of the source serves several kernels on one grid, in
  * double or single precision, on the free or the periodic boundary. Internal: never installed.

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
  * Rows, columns and multiplication of the transform engine, in one precision. The file that includes this
  * sets REAL, COMPLEX, FFTW(name) and C99(name).

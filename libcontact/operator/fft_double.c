@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 #define REAL double
 #define COMPLEX double complex
 #define CMPLX_OF CMPLX

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Single precision has half the memory traffic and twice the numbers in a register. It serves uses that do
  * not need sixteen digits: the preconditioner, and the residual while it is large. */
 #define REAL float

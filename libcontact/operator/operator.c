@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
  * The operator of two bodies. An engine computes K p in double precision; transforms compute it row by row in
  * single precision, for the preconditioner too. If the engine must not be mixed with single precision, rows

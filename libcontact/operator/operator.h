@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
  * The action of a pressure on the surface, for the solver: the interface of this folder. Internal: never
  * installed.

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
  * K and its inverse on the whole transformed grid. The padded grid is treated as periodic, with each offset
  * of the kernel counted once, by the shortest way around. Pressures on the map then act on the map as on the

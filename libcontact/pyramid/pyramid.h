@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
  * The extension E of numbers on a set W of nodes to all nodes, by a pyramid of coarser grids.
  *

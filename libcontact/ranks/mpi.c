@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
  * Communication between ranks, by MPI. Only the thread that made the ranks calls these functions.
  */

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
  * Ownership of rows, and sums over ranks that do not depend on where the ranks begin.
  */

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
  * Processes that share a map, each with its own rows: the lowest folder, and the only one that uses MPI.
  * Internal: never installed (users include contact_mpi.h).

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
  * Kalker's linear theory of rolling: where no node slips, an ellipse with the semi-axes a (along x) and b
  * carries

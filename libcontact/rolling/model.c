@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
  * The model of rolling: Coulomb's friction in a contact that rolls with creepage (steady.h). The pressure
  * is that of an inner model, or is known. Tractions do not change it. Each point is a steady state, or

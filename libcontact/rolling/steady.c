@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
  * Semismooth Newton on the faces of the discs, as in discs.c, for the unsymmetric B.
  *

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
  * Rolling on one grid, steady or step by step. Internal: never installed.
  *

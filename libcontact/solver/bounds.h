@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
  * The bounds of the pressure. No other file of this folder knows their values. The lower bound is 0, because
  * the bodies do not attract each other. The upper bound is the hardness: a number, a map, or none.

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
  * The elastic model: a contact by rc_solver, under a load or at an approach, with a hardness and a counter
  * body that is free to tilt. Its figures include the stiffness and the conductance. Keeping a point adds its

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
  * The elastic model for an outer model that solves another contact by a sequence of elastic ones on its own
  * heights (viscoelastic/sliding.c). Between two contacts the pressure stays, and the outer model has it judged

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
  * A loading history: each load acts on the shape after the earlier loads, and between two loads the bodies
  * may be separated.

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
  * The iterate: the pressure, its gap, and its estimated error.
  */

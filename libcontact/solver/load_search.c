@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
  * The load: given, or found for a given approach. The shift grows nearly as a power of the load (2/3 for a
  * sphere, 1 for a punch). So the search is a secant method in logarithms, inside a bracket. Each load starts

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
  * A start from coarser grids. The contact is first solved roughly on a grid of half the nodes a side, which
  * starts from a coarser grid itself. A profile stays one node wide, and a strip becomes one node wide. The

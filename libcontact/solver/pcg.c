@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
  * Projected conjugate gradients with the extension preconditioner (preconditioner.h).
  *

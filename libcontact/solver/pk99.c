@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
  * The scheme of Polonsky and Keer, Wear 231 (1999), section 3.2. It is conjugate gradients on the pressure,
  * with the contact set and the load enforced in every step. Equation numbers are the paper's; its errors are

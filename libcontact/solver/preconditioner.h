@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
  * An approximate inverse of the influence operator restricted to a set of nodes: z = E' A E r.
  *

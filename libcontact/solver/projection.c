@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
  * Returns pressures to {0 <= p <= H, sum p = S}: keeps the load exactly and the pressures within their
  * bounds, which scaling alone does not.

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
  * Sums over all nodes that depend neither on the number of threads nor on the number of ranks. Each block or
  * row is summed separately. These sums are added in a fixed order with compensation for rounding. A block is

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
  * Results of a solution: figures, gap, displacement and the shape after yielding.
  */

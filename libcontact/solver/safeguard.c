@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
  * The safeguard that keeps a method from cycling. The energy 1/2 p'Kp - h'p follows from known fields at no
  * cost and must decrease. A step that raised it is reverted and replaced by a projected-gradient step. That

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
  * The interface of the solver: makes a solver, steps it, judges its result, and sets other loads, heights and
  * starts.

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
  * Declarations for the interface of the solver and its methods. A method is a row of methods.list: it
  * improves the pressure step by step. solver.c judges, counts and reports.

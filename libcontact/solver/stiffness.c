@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
  * The stiffness: the load that one unit of approach adds while a set of nodes moves together and no node
  * joins or leaves. If t is the pressure that displaces all of them by one unit, K_WW t = 1, the stiffness is

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
  * A step and the return to {0 <= p <= H, sum p = S}, tile by tile.
  *

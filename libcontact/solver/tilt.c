@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
  * A counter body that is free to tilt: the moment of the pressures about the point of the force is 0. With x
  * the position of a node from that point, a tilt with slopes a raises the counter surface by a x. The contact

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
  * Transfers fields between a map and every s-th node of it, by polynomials through 24 nodes in each
  * direction.

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
  * Transfers smooth fields between a map and a coarser grid of every s-th node. Internal: never installed.
  */

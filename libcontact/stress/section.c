@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
  * Stresses in a plane across the map, line by line of depth. Only the direction along the plane is
  * transformed. On the free boundary a line of the field is a sum over the lines of pressure. Each term is a

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
  * Stress maps by a row of engines.list. Each kernel, depth and map that uses the kernel takes one sum, with
  * little memory besides the maps (Polonsky and Keer 1999, section 3.3).

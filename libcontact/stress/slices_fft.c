@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
  * Stress maps by Fourier transforms. The pressure, and maps of traction, are transformed once. Then, for each
  * depth, the kernels of all components are tabulated together on a quarter of the padded map. Each gives its

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
  * Adds the stress due to plastic strain in slabs to the stress of the pressure. One sweep goes up through the
  * slabs, and one down for all depths.

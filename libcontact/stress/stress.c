@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
  * Stress slices and sections: choice of the evaluator, and derived stresses.
  */

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
  * Sums the stresses inside a body (libcontact/body) over a map. Internal: never installed.
  */

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
  * Parameters of a surface by ISO 25178-2: heights and slopes here, the others in their own files. Sums are
  * formed over pieces of the map, then over the pieces in order, so the number of threads changes no digit.

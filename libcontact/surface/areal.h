@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
  * The parts of an areal description. Each function sets its own fields. Internal: never installed.
  */

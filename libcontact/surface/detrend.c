@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
  * The least-squares polynomial over the measured points, in products of Chebyshev polynomials on the bounding
  * box of these points.

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
  * The Gaussian regression filter of order 0 (ISO 16610-61; of profiles ISO 16610-21), and its
  * robust form (ISO 16610-71, 16610-31). With the weighting function s, and weights w that are 0

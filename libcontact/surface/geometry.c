@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
  * Parts of maps, mirrored and rotated maps, and the sum of two facing surfaces.
  */

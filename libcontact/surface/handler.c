@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
  * GSL has one error handler for all threads, and the default one ends the process: it is off while at least
  * one thread uses GSL. If each thread restored the handler that it found, the last could leave it off for

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* GSL's error handler, one per process. Internal: never installed. */
 #ifndef RC_HANDLER_H
 #define RC_HANDLER_H

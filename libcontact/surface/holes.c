@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
  * Widths of holes: exact distances of missing points from measured ones. The time is proportional to the
  * size of the map (Felzenszwalb and Huttenlocher, Theory of Computing 8, 2012).

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
  * Inpainting: missing values solve Laplace's equation on the five-point stencil. The measured values are the
  * boundary values, and no flux crosses the edge of the map. The solver is conjugate gradients with the

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
  * The material ratio curve (Abbott and Firestone 1933): all heights, the highest first. Node k of n stands
  * for the ratios k/n to (k+1)/n, so that areas under the curve are sums. Heights between nodes are

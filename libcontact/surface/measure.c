@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Figures of a map. Sums are compensated and moments are taken about the mean, so that neither the number of
  * nodes nor a large constant costs digits. Several values are processed together, each in its own sum and
  * without branches, so that only memory limits the speed. */

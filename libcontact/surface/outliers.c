@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
  * Outliers: erroneous single points, found by the median of the 24 neighbours in a square of 5 x 5. A few bad
  * neighbours have no effect on this median.

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
  * Patches of the contact: nodes in contact, joined through their four neighbours. Each row is cut into runs
  * of contact; overlapping runs of neighbouring rows belong to one patch, found by union-find. Bands of rows

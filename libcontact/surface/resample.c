@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
  * Maps on other grids: means over coarser cells, cubic polynomials between nodes for finer ones.
  *

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
  * The median of a map. For a large map a sample gives two numbers between which the median lies almost
  * surely. One pass counts the numbers below and keeps the few between them (Floyd and Rivest 1975, Commun.

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
  * Robust statistics, insensitive to single points that lie far off: the median, and weights that exclude such
  * points. Internal: never installed.

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
  * Spheres and cylinders by least squares in z, the way in which heights are measured.
  *

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Surfaces from a formula or from a seed. */
 #include "synth.h"
 

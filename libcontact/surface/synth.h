@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Shared by the files that make surfaces. Internal: never installed. */
 #ifndef RC_SYNTH_H
 #define RC_SYNTH_H

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Edges tapered to one height, so that a map can be repeated. */
 #include "libcontact/common.h"
 

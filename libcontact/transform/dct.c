@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
  * The whole period is laid out and transformed as a real line. An even line has a real transform and an odd
  * one an imaginary transform, so that one transform of their sum serves both. FFTW's even and odd transforms

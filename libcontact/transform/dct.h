@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
  * Real even and odd transforms of lines, given by half a period (the discrete cosine and sine
  * transforms of type I). Internal: never installed.

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "fourier.h"
 
 #include <fftw3.h> /* after complex.h: fftw_complex is then double complex */

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
  * Fourier transforms of periodic maps and lines. Internal: never installed.
  *

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
  * Two locks. fftw_make_planner_thread_safe switches on FFTW's own lock for the whole process. Every call of
  * its planner then takes the lock, also calls from the program that uses this library. It is switched on when

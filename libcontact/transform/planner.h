@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
  * The lock of FFTW's planner, which only one thread may use at a time, also in a program with other users of
  * FFTW. Internal: never installed.

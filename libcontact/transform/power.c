@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
  * Rows are transformed as they arrive and stored as complex numbers. Then columns are transformed a few at a
  * time, two cache lines of each row. Columns are never written back whole. Of a spectrum only the squares are

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
  * Power of the waves of real maps, and autocorrelations, which follow from it. Internal: never installed.
  */

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
  * The interface of this folder: Fourier transforms of maps and lines by FFTW, and results from the power of
  * their waves. Internal: never installed.

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
  * The model of a contact that travels along x over body 1. At the position X the heights are
  *

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
  * The model of viscoelastic bodies in time: creep, relaxation, loads that come and go. Poisson's ratio is
  * constant in time. The operator at the time t is then J(t)/J(0) times the operator K of the inner, elastic

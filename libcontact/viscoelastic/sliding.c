@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
  * The model of steady sliding over a viscoelastic half-space. Body 2, rigid or elastic, carries the roughness
  * and slides with the speed v along x over the smooth half-space. In its frame all fields are steady: a wave

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
  * Sliding on a free map. Each term of the creep compliance leaves a wake: with L = v th, a cell under unit
  * pressure displaces the surface by

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
  * The displacement of a viscoelastic half-space over which a body slides, on a free map. Internal: never
  * installed.

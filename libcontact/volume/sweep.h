@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
  * The arithmetic of the sweeps, column by column of the waves: between volume.c and sweep_body.h,
  * which is compiled once for each precision. Internal: never installed.

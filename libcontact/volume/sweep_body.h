@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
  * The sweeps in one precision: the including file defines REAL and its constants.
  *

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 #define REAL double
 #define BITS uint64_t
 #define SHIFT 0x1.8p52

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Single precision: half the memory and memory traffic, for uses that do not need sixteen digits. */
 #define REAL float
 #define BITS uint32_t

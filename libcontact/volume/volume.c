@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
  * The sweeps over a stack of slabs: storage and order of the transforms. One map at a time is transformed
  * into waves, which are stored for each slab. At the depths between groups of RC_SWEEP_SLABS slabs the

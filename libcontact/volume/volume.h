@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
  * The effect of eigenstrain on a half-space, and of a pressure inside it: a stack of slabs under a periodic
  * map. Internal: never installed.

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
  * The model of two rough bodies that slide over each other along x, on a map that repeats, and wear. Body 2
  * passes all its alignments X over body 1 before the heights change much. Each body loses the mean over X:

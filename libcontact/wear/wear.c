@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
  * The model of wear: while the bodies slide by ds, the heights lose k p ds, with the pressure p of an inner
  * model and k = k1 + k2 (Archard 1953). Or body 1 stays in contact, and body 2 passes it along x on a track

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* What the two models of wear share: the same points stay in contact or a track passes (wear.c), or two rough
  * bodies slide over each other (two_bodies.c). */
 #ifndef RC_WEAR_H

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
  * The slabs of a body that may yield, from the stresses under the elastic pressure. Yielding spreads the
  * pressure, so that plastic strain does not reach as deep as the elastic stress suggests.

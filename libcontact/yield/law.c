@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
  * The yield stress: a straight line, or straight lines between the points of a table. Beyond its last point
  * the last line continues.

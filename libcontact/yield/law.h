@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
  * The yield law: von Mises with isotropic hardening. Internal: never installed.
  *

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
  * The model of a body that may yield in its volume, along a history of loads. A load is first solved as an
  * elastic contact. If its stresses stay below the yield stress everywhere, this is the solution, and no voxel

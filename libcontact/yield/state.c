@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
  * The state of a body that yields: figures, the pressure of the contact, and the voxels row by row. The
  * numbers of a voxel depend on what the next step needs:

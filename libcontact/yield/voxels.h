@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
  * The yielded voxels and their numbers, stored row by row, because the rows of a slab are computed one by one
  * by several threads. Other voxels take no memory. Internal: never installed.

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
  * A contact with a body that yields in its volume: plastic strain e below the surface, coupled to the
  * pressure.

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
  * Functions shared by the files of this folder; its model is in contact.h. Internal: never installed.
  */

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* A rigid ball under a constant load sinks into a viscoelastic body (Lee and Radok 1960). */
 #include <libcontact/contact.h>
 #include <math.h>

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Fully reversed bending and torsion at the endurance limits: the indices are 1. */
 #include <libcontact/contact.h>
 #include <math.h>

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* What a model tells: the names, units and values of its figures, and the means of its frames. */
 #include <libcontact/contact.h>
 #include <stdio.h>

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* A ball that yields at 1.5 GPa is loaded, unloaded, loaded again and loaded higher. */
 #include <libcontact/contact.h>
 #include <stdio.h>

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* A ball sticks and slips while a tangential force rises, falls and reverses (Mindlin). */
 #include <libcontact/contact.h>
 #include <math.h>

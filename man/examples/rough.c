@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* A rough surface is pressed flat. In complete contact the pressure is linear in the heights. */
 #include <libcontact/contact.h>
 #include <stdio.h>

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Ridges are pressed flat: the leakage along them is the sum of the cubes of the gap. */
 #include <libcontact/contact.h>
 #include <math.h>

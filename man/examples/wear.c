@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* A rough surface slides and wears. The worn volume is that of Archard's law. */
 #include <libcontact/contact.h>
 #include <stdio.h>

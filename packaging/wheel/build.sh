@@ -1,4 +1,5 @@
 #!/usr/bin/env bash
+# SPDX-License-Identifier: GPL-3.0-or-later
 # Makes the wheel that holds everything: tools, the libraries that they need, a font, manual pages, samples.
 #
 #     packaging/wheel/build.sh OUT [ROOT]
@@ -12,7 +13,7 @@ top=$(cd "$(dirname "$0")/../.." && pwd)
 . "$top/packaging/root.sh"
 case "${1-}" in
 -h | --help | '')
-    sed -n '2,9s/^# \{0,1\}//p' "$0"
+    sed -n '3,10s/^# \{0,1\}//p' "$0"
     exit $(($# == 0 ? 2 : 0))
     ;;
 esac

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 # Run in the root, in /libraries. It builds libraries from Debian's sources into /opt/rc, without the parts
 # that the tools do not use (ICU, OpenSSL, curl, X11, JPEG and others). fontconfig is built too, because the
 # one of Debian 11 writes into folders of fonts.

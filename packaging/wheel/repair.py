@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: GPL-3.0-or-later
 """repair.py WHEEL OUT: puts beside the tools of a wheel the shared libraries and the fonts that they need.
 
 It does the work of `auditwheel repair`, which is for extension modules: it gives programs a wrong RPATH, starts them

@@ -1,4 +1,5 @@
 #!/usr/bin/env bash
+# SPDX-License-Identifier: GPL-3.0-or-later
 # Tries a wheel where nothing else is: in a new root of Debian with Python alone, without fonts.
 #
 #     packaging/wheel/try.sh SUITE WHEEL [ROOT]
@@ -11,7 +12,7 @@ set -euo pipefail
 top=$(cd "$(dirname "$0")/../.." && pwd)
 . "$top/packaging/root.sh"
 [ $# -ge 2 ] || {
-    sed -n '2,8s/^# \{0,1\}//p' "$0"
+    sed -n '3,9s/^# \{0,1\}//p' "$0"
     exit 2
 }
 work=$(mktemp -d)

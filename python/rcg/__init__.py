@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Contact of rough surfaces: the rc-* tools as functions on numpy arrays.
 
     import rcg

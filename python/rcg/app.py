@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """rc-app: a page in the browser that runs the rc-* tools on this machine.
 
 The page is served on 127.0.0.1 alone, below a path with a secret token. A run is a list of commands. It has a

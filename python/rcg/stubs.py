@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """The type hints of rcg, from the option tables: python3 -m rcg.stubs TABLES.JSON prints __init__.pyi."""
 import json
 import sys

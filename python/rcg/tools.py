@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """The rc-* tools as functions, made from the option tables of the tools, so that both agree.
 
 Tables come from the file tables.json beside this module, which the build makes, or from the tools

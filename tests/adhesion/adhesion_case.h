@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Shared by the tests of adhesion. It has the solution of the states of a path, and Maugis' closed forms. */
 #ifndef ADHESION_CASE_H
 #define ADHESION_CASE_H

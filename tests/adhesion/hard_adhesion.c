@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Hard cases of adhesion: invalid requests, saddle points, separating bodies, jumps, thin and odd maps,
  * unequal spacings, a hardness, coatings. */
 #include <setjmp.h>

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Laws of every adhesive state. Its error is within the estimate, it is stable, and its cost is within the
  * documented one. Other units and mirrored maps give the corresponding state, and loads equal sums of
  * pressures. The number of threads does not change a path. */

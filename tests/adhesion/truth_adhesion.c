@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Adhesion against closed forms: Maugis' sphere, the limits of JKR and DMT, Bradley's rigid sphere, Johnson's
  * wave. A small map is compared with Newton's method for the pressures, with an influence matrix from closed
  * forms. */

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 # rc-fatigue: a ball that rolls, in SI; positions and a pass agree; limits of materials and of a table, residual
 # stress, reports, pictures; every wrong command line and stream is refused with its reason.
 . "$(dirname "$0")/../pipe.sh"

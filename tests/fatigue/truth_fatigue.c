@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Criteria of fatigue agree with closed forms: bending, torsion, uniaxial and combined cycles, in and out of
  * phase; rolling and sliding line contact (Johnson 1985, 4.49 and 7.8); a rolling ball. The smallest ball is
  * that of the best subset of the points, and Findley's plane is not worse than any of a brute search. */

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 # The tests of this folder source this file after pipe.sh. It has small inputs, and command lines for every
 # kind of work of every tool. Each writes only `out` or standard output. The number before a command line
 # multiplies the step from one failing allocation to the next.

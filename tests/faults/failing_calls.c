@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
  * failing_calls [-n NUMBER] [-f FAULT] [-c COUNT] COMMAND...: runs the command and makes its system call
  * number NUMBER fail. It counts the calls that FAULT affects: 1 is the first, 0 none. With -c the number of

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
  * Allocation number n fails: malloc, calloc, realloc, posix_memalign, aligned_alloc and FFTW's own.
  *

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Makes allocations fail one after another; failing_malloc.c defines which. This is the interface for a
  * program that is linked with it; the preloaded library reads the environment. */
 #ifndef FAILING_MALLOC_H

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Each allocation in a public function of libcontact fails, alone or with all later ones. The result must
  * still be right, or the function fails with a reason, leaves its arguments unchanged and holds no memory.
  * The list of functions is read from the headers; a function without a test is an error. */

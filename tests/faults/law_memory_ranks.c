@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Each allocation in libcontact on one of the processes that share a map fails, alone or with all later ones.
  * All processes must return the same: the right result, or one failure with its reason. None may wait for
  * another, and no memory may be held. RC_STRIDE in the environment is the step from one failing allocation to

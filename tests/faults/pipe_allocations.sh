@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 # Every allocation of every tool fails in turn, n = 1, 2, ... to the last, alone and with all later ones. The
 # tool must still do its work, or exit with status 1 and a message. It must leave the old file unchanged and
 # leave no other file. failing_malloc.c defines which allocations are counted. RC_STRIDE in the environment is

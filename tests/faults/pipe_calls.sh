@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 # Every system call on a file fails in turn, n = 1, 2, ... to the last, in every tool. The faults are a full
 # disk, a broken disk, an interruption, and no descriptors left. The tool must still do its work, or exit with
 # status 1 and a message, leave the old file unchanged and leave no other file. If reads and writes do half of

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 # rc-solve is killed at random moments and restarted with --checkpoint and --resume. The final pressure is the
 # same, and every file with a final name is complete. The test also checks files beside that of -o (maps,
 # pictures, checkpoints) under signals and on a full disk. RC_KILLS in the environment is the number of kills

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Calls of libcontact whose allocations fail in the tests, in one process (law_memory.c) and in several that
  * share a map (law_memory_ranks.c). */
 #ifndef USES_H

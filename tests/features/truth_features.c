@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Feature parameters of ISO 25178-2 equal closed forms for waves and posts. On rough maps they equal a
  * literal implementation of Wolf's rule. By this rule the hill of least height joins the hill across its
  * highest saddle, again and again. */

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Parameters of ISO 21920-2 equal closed forms for waves, triangles and steps, with ripples above and below
  * the limit for elements. Along a line of a map cubic interpolation reproduces second-degree surfaces and the
  * values at nodes. */

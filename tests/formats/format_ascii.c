@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Text matrices give the same map in every notation; other text is refused with the number of the line. */
 #include <stdarg.h>
 #include <stddef.h>

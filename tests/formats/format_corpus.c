@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Every channel of a real file is read with the same values as by the independent readers of the manifest. */
 #include <stdarg.h>
 #include <stddef.h>

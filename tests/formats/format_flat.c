@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Every variant of the flat formats is read according to its specification. */
 #include <stdarg.h>
 #include <stddef.h>

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Gzip files are unpacked completely or refused, and a decompression bomb takes no memory. */
 #include <stdarg.h>
 #include <stddef.h>

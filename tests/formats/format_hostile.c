@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* A flat file that is cut at any byte, or changed at any byte, is refused or gives a valid map. */
 #include <stdarg.h>
 #include <stddef.h>

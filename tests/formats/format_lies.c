@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* A synthetic file with one false field is refused, and the message names the field. */
 #include <stdarg.h>
 #include <stddef.h>

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* A file is opened once: whatever its reader took from it at first is not looked at again for the values. */
 #include <stdarg.h>
 #include <stddef.h>

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Park files made by this test are read in both byte orders; damaged ones are refused. */
 #include <stdarg.h>
 #include <stddef.h>

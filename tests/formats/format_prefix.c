@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* SI prefixes in every spelling give their powers of ten, and powers of ten give the prefixes. */
 #include <stdarg.h>
 #include <stddef.h>

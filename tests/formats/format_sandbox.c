@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* For any behaviour of a reader in the sandbox the program gets a result or a reason, in limited time and
  * memory. */
 #define _DEFAULT_SOURCE /* syscall, MAP_ANONYMOUS */

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* A grid stream is read back bit by bit. A damaged one is refused with the reason, without a crash and
  * without a frame that was not written. */
 #include <setjmp.h>

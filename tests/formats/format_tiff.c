@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* JPK and LEXT files made by this test are read in both byte orders. Damaged files, and files that would take
  * much memory or time, are refused. */
 #include <stdarg.h>

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 # Files like those that laboratories send, listed in wild.tsv with size, spacing, two heights, the text on
 # standard error, and the exit status.
 . "$(dirname "$0")/../pipe.sh"

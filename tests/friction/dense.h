@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Tractions of minimal energy by another method with dense matrices. One node after another is minimised
  * exactly on its disc until nothing changes. Newton's method finds the displacement of a force. */
 #ifndef DENSE_H

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Laws of every contact with friction: tractions are within their bounds and carry the force, slip is
  * opposite to them. The error is within the estimate. The work does not grow with the map; invalid requests
  * are refused. */

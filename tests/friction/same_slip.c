@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Tractions of minimal energy equal those of another method with dense matrices, up to 24 nodes, with a
  * history. It minimises one node after another exactly on its disc until nothing changes, and Newton's method
  * finds the displacement for the force. Displacements are also given on periodic maps, where the contact may

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Parts shared by the tests of friction: pressures on sliding bodies, and solutions of increments. */
 #ifndef SLIP_CASE_H
 #define SLIP_CASE_H

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Contact and friction together: a sticking punch is stiffer by Mossakovskii's factor; pressure and tractions
  * after the alternating passes are consistent. The change decreases from pass to pass; for identical
  * materials nothing is solved twice. */

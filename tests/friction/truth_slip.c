@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Friction agrees with closed forms: Mindlin's stiffness, partial slip of Cattaneo and Mindlin, the loop of
  * Mindlin and Deresiewicz, the superposition of Ciavarella and Jaeger. */
 #include <setjmp.h>

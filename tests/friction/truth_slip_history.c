@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Histories: growing contact, falling loads and turning forces converge with the number of increments, and
  * dissimilar bodies under a normal load have Spence's stick radius. */
 #include <setjmp.h>

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Influence coefficients of shear equal the integrals of Cerruti's and Boussinesq's solutions over a cell.
  * Responses to waves equal those of plane and antiplane strain. Sums by transforms equal plain double
  * sums. */

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Replaces hdf.c: returns results that libhdf5 could return for a hostile file, within the guarantees of
  * hdf.h. The bytes of the file determine the results of successive calls; after its end they are 0. */
 #include <math.h>

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* For any bytes the reader named in RC_FORMAT must refuse them with a reason or return a valid map, within a
  * second and within rc_memory_limit. Without RC_FORMAT the content chooses the reader. With RC_FUZZ_BYPASS
  * readers run without their sandbox in this process, so that the sanitizers see them. With

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Writes the files that the tests make by hand into folders FOLDER/FORMAT/, as seeds. */
 #include <stdio.h>
 #include <stdlib.h>

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* For any bytes the reader of grid streams must refuse them with a reason or return valid frames. It must do
  * so within a second and the memory of one frame. The frames, written and read again, must be unchanged.
  * Bytes are changed anywhere, also in values and sizes. Then, in three quarters of the cases, checksums and

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The cost of a run: the most memory held at a time, and processor seconds. */
 #ifndef METER_H
 #define METER_H

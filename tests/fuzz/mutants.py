@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """mutants.py [OPTIONS] [SUBJECT...]: checkpoints and tables with false contents, each given to its tool.
 
     mutants.py --count 4000                      4000 mutants of every kind of file, with the tools on PATH

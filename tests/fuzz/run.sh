@@ -1,4 +1,5 @@
 #!/bin/bash
+# SPDX-License-Identifier: GPL-3.0-or-later
 # run.sh BUILD SECONDS [FORMAT[:HARNESS]...]: fuzzes each reader for this time. It starts from the files of
 # the tests (RC_TESTS names the folder of the built tests) and from real files in RC_CORPUS. Of each it takes
 # the first 64 KiB, or the whole file if the format is a container. Prints executions and findings, which are

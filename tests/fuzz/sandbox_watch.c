@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
  * Runs readers in their sandbox: the coverage of the child is passed to the fuzzer, and a child that crashes
  * reports the place. A crash in the library is counted only, because the sandbox protects against it. A crash

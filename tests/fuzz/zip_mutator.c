@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Changes files inside ZIP archives. In three of four cases it unpacks a member, changes it and packs it
  * again, so that the fuzzing gets past the archive. Else it changes the bytes of the file. In half of the
  * cases it corrects the MD5 checksums in other members. */

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Bodies in contact have equal temperatures, and the mismatch bounds the error of the largest one. */
 #include <math.h>
 #include <stdarg.h>

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 # rc-heat: shares and temperatures with known values, units, time, depths, frames, warnings, refusals.
 . "$(dirname "$0")/../pipe.sh"
 

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Flash temperatures agree with closed forms and adaptive quadrature at all Peclet numbers. */
 #include <math.h>
 #include <stdarg.h>

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Contact of coated bodies is solved to 1e-8, elastic and with a hardness. Coats are a thousandth of a node
  * to a thousand maps thick, and 1e-4 to 1e4 times as stiff as the material below. */
 #include <setjmp.h>

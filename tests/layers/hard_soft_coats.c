@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Soft coats, from a thirtieth of a cell to five cells thick, compressible or not. The pressure equals that
  * of a dense quadratic program with the influence coefficients of the engines. The estimated error is not
  * below the error. */

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* For coated bodies as for one material: the estimated error is not below the error, load and bounds hold, a
  * mirrored surface has mirrored pressures. A layer divided in two gives the same result. */
 #include <setjmp.h>

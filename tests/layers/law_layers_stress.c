@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Laws of every stress field in a coated body: equilibrium, Hooke's law, continuity at interfaces, the load,
  * and the sum of waves. */
 #include <setjmp.h>

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Two ways to compute a stress in a coated body agree: engines, sections and slices, threads; and without
  * layers nothing is computed for them. */
 #include <setjmp.h>

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Displacements of coated bodies, from thin films to coats a thousand maps thick. Responses to waves and
  * influence coefficients of cells are compared with independent solutions. */
 #include <setjmp.h>

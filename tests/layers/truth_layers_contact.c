@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Contact of coated bodies compared with solutions of the dual integral equations of layers. The cases are
  * paraboloids, flat punches and waves on hard, soft and incompressible coats, thin and thick, on elastic and
  * rigid bases. The error decreases with finer grids. */

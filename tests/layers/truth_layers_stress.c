@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Stresses in a coated body equal those of the integral equations of its contact and, if all layers have one
  * material, those of a half-space. */
 #include <setjmp.h>

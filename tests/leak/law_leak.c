@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Laws of the flow: rotation, mirroring, shifts and other units do not change it. Wider gaps have more flow,
  * and the flow equals a dense solution of the same network. Flowing and stagnant fluid are those found by
  * removing nodes. The critical gap is that found by closing narrower nodes. The proven bounds agree at any

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Flow through the gaps of small rough contacts: the errors of the two rules for faces have opposite signs
  * and converge to 0. Little contact leaves paths open, much contact closes all. Larger contacts and the
  * threshold are in tests/long. */

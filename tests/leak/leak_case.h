@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Shared by the tests of leakage: a complete solution of a flow, with its maps. */
 #ifndef LEAK_CASE_H
 #define LEAK_CASE_H

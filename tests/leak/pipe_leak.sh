@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 # rc-leak on gaps with closed-form solutions, given as frames. Tested are rates and units, a list of loads,
 # and warnings and refusals of one sentence each.
 . "$(dirname "$0")/../pipe.sh"

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Rough elastic contacts, the flow through their gaps, and its values on coarser grids. */
 #ifndef ROUGH_CASE_H
 #define ROUGH_CASE_H

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Flow through gaps with closed-form solutions: waves along and across, parallel channels, narrow
  * constrictions, distant discs, the checkerboard. The order of convergence of the grid is checked too. */
 #include <setjmp.h>

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Checks of rc-app in headless Chromium for pipe_app_browser.sh: app_browser.py CHROMIUM ADDRESS FOLDER.
 
 FOLDER has rough-steel.x3p, broken.x3p, big.x3p (2048 x 2048) and node.rcg, and receives downloads and pictures.

@@ -1,4 +1,5 @@
 #!/usr/bin/perl
+# SPDX-License-Identifier: GPL-3.0-or-later
 # A tool that is broken in the way RC_BREAK, for broken_tools.sh: a symbolic link to this file with the name of
 # the tool. It runs the tool of this name in RC_REAL and changes what that has written: standard output, if it is
 # a file or a pipe, and the files of -o and --report. Each change is a line of the file RC_BREAK_LOG. Tools in

@@ -1,4 +1,5 @@
 #!/usr/bin/env bash
+# SPDX-License-Identifier: GPL-3.0-or-later
 # Tests of the tests: each test of whole command lines (pipe_*.sh) runs with tools that are broken in one way,
 # and should fail.
 #

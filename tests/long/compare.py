@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """compare.py OUT REFERENCE < TABLE: compares results of pipelines with those of the reference. Each line of
 the table begins with the name of a result and the kind of comparison (pipelines.sh). Prints the largest
 difference for each kind of comparison; names every result whose difference is too large, and then fails.

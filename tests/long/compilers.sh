@@ -1,4 +1,5 @@
 #!/usr/bin/env bash
+# SPDX-License-Identifier: GPL-3.0-or-later
 # Results do not depend on the compiler, the processor and the number of threads: tests/long/compilers.sh
 # [FOLDER] Builds the tools with gcc and clang, each with -O3 and -O0, in FOLDER (by default a temporary one).
 # Runs the pipelines of pipelines.sh and compares. qemu emulates the processors without AVX-512 and without

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """estimates.py hist|adhesion|tilt|maps SEED COUNT BIN: compares estimated and true error of the pressure
 for random contacts.
 

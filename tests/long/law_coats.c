@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Iterations on coated bodies. The coats are 0.01 to 100 times as stiff as their substrate, and one to 64
  * nodes thick. A periodic surface of 512 x 512 nodes has 2 and 40 % contact. */
 #include <setjmp.h>

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 # Estimated errors are almost never below the true errors: random problems compared with solutions of low
 # tolerance. Lists of loads on a body that yields, histories with a hardness, adhesive paths, tilted contacts,
 # free maps.

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The sampling error of fatigue covers the true one below random rough contacts, at depths from half to eight
  * times the distance of nodes. The pressure of each contact is constant in its cells. The truth is the same
  * pressure on cells that are divided into five: each history then has five times as many states, of the same

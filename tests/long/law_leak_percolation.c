@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Flow through the gaps of rough contacts. The order of convergence is checked, with the true flow between
  * those of the two rules in at least 18 of 20 cases. So is the contact fraction at which the last path
  * closes. */

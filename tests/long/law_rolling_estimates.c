@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Random cases of steady rolling, to several tolerances. The contacts are smooth, rough, white noise or flat
  * punches, with long cells and any nu, mu, creepage and spin. Each is compared with its solution to 1e-10: no
  * error is above its estimate, and the work stays bounded. The force of the grid is compared with that of a

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 # rc-slip: its estimated errors, compared with paths of 192 increments, on random maps and paths with both
 # boundaries. The paths have constant, growing and falling loads, and displacements. Their forces turn,
 # reverse or grow with the load. It takes about 8 minutes; SECONDS_MOST=60 limits it for a first impression.

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Random problems of friction against a dense solution by another method. They have forces of 0.1 to 0.999 of
  * what friction carries, or displacements, on free and periodic maps. 10 to 82 % of the nodes touch, cells
  * are 1:1 to 1:100, and there is a history. None stops short, and no estimate is below the error at any step.

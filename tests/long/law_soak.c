@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* A thousand solves of different sizes in one process leave its memory unchanged. Two solvers in two threads
  * at a time give the same results as alone, to the last bit. */
 #include <setjmp.h>

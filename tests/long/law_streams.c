@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* A hundred thousand frames take no more memory than a thousand, in every tool that passes frames on. A
  * profile of 2^31 + 9 nodes passes through them with every node at its place. So no index has 32 bits. */
 #define _DEFAULT_SOURCE /* wait4 */

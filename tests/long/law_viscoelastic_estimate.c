@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The estimated error of viscoelastic pressures is above the error, for 60 random materials, histories and
  * rough maps, against eight times as many increments. Errors below 1e-6 do not count: the contacts of the
  * reference have a tolerance of 1e-7. Then for 60 more whose increments the model chooses, against 480; there

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Random worn maps, then some with a coefficient of each node, some on a track that wears, and pairs that
  * slide over each other. They are compared with a run with a tolerance ten times smaller and contacts a
  * thousand times more accurate. The estimated errors of the worn depth and of the pressure are not below the

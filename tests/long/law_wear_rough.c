@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Rough periodic maps wear over four decades of distance under the usual tolerance of rc-wear. Worn depth,
  * pressure, largest pressure and contact area are compared with those of a reference run. Its tolerance is
  * 100 times smaller, and its contacts are 1000 times more accurate.

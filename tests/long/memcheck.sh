@@ -1,4 +1,5 @@
 #!/usr/bin/env bash
+# SPDX-License-Identifier: GPL-3.0-or-later
 # Runs valgrind's memcheck over the short tests, by the times of ctest, and over the tools:
 #
 #     tests/long/memcheck.sh BUILD [SECONDS]

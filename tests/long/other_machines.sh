@@ -1,4 +1,5 @@
 #!/usr/bin/env bash
+# SPDX-License-Identifier: GPL-3.0-or-later
 # The tests on processors of other kinds:
 #
 #     tests/long/other_machines.sh [--keep FOLDER] ARCH...

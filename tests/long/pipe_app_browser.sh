@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 # rc-app in headless Chromium: a real scan from the choice of the file to downloads by keyboard alone, a broken file,
 # a wrong unit, a cancelled run, a large map, a narrow window and dark colours.
 . "$(dirname "$0")/../pipe.sh"

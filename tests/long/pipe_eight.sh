@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 # Eight pipelines of rc-solve and rc-stress that run at the same time, on any number of cores, all finish with
 # the same results as alone.
 . "$RC_SOURCE/tests/pipe.sh"

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 # --memory and the kernel. The memory that --dry-run plans, or that the allocator counts, is within 5 % of the
 # kernel's peak. A limit 5 % below the needed memory is refused before any iteration, and one 5 % above it is
 # enough. Then it compares the counted memory of all tools, to a tenth. Arguments select the sizes of these

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 # Sourced by compilers.sh and other_machines.sh. It has pipelines that use every part of the tools, and the
 # permitted differences of their results with another compiler, processor or number of threads. Each line is a
 # pipeline: the name of its result, the kind of comparison, the commands. A pipeline reads the results of the

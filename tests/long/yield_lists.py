@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """yield_lists.py FIRST LISTS [TRUTH [INCREMENTS]]: estimates of --yield on random lists of loads.
 
 Seeds FIRST, FIRST + 1, ...: a self-affine or curved map of 3 x 5 to 64 x 64 nodes, periodic or, a third of them, free;

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* A small model of each row of models.list, with three points of a history, for the tests of this folder. */
 #ifndef RC_TEST_KINDS_H
 #define RC_TEST_KINDS_H

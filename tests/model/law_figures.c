@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Tables of figures: names, units and titles are valid for columns and axes, a name has one meaning in all
  * tables. Values are those of the members. */
 #include <setjmp.h>

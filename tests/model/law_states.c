@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* A state may be taken after every step, from the first to the last. A fresh model that goes on from it
  * ends with the same bits in all frames, in the figures other than those of the cost, and in the found
  * axes. This holds for every row of models.list that is marked `exact` in kinds.h. The others keep only

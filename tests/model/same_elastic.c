@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The elastic model gives the results of rc_solver to the last bit. The cases are loads and approaches, a
  * history with a hardness, a counter body that tilts, and layers. Others are stiffness and conductance, and
  * heights that are set later. */

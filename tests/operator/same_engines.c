@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Every engine agrees with the double sum for every kernel, size and spacing. On periodic maps it agrees, if
  * it supports them, with the sum over all waves. Bodies and engines are those of the lists. */
 #include <setjmp.h>

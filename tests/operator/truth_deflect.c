@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Displacements have closed forms: Love's loaded rectangle on the free boundary, waves on the periodic one.
  * Their bits are the same for any number of threads. */
 #include <setjmp.h>

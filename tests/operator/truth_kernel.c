@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The influence coefficients are the integrals of the point-load solutions over a cell. */
 #include <setjmp.h>
 #include <stdarg.h>

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The error of the multi-level sum is at most the requested one, for any pressure, grid, spacing and
  * kernel. */
 #include <setjmp.h>

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The pixels of a picture are the values of the map in the documented colours. Its chunks describe how it was
  * made: decoded by libpng, compared with colour tables from the literature. */
 #include <math.h>

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Reads pictures of rc-render for the tests: pixels, and positions of the parts of a graph. */
 #ifndef RC_TEST_PICTURES_H
 #define RC_TEST_PICTURES_H

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Points of a curve lie at the right positions between the marks of the axes, linear and logarithmic, and
  * laws follow their published closed forms. */
 #include <gsl/gsl_integration.h>

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* In a relief higher parts hide the parts behind them, the map rotates with the azimuth of the viewer.
  * Heights are exaggerated by the factor in the figure. In a hillshade the slopes that face the upper left are
  * bright. */

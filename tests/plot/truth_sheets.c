@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The panels of a sheet have one size, are in the order of the stream, row by row, and share their
  * colours. */
 #include "pictures.h"

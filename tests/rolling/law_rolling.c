@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Laws of steady rolling. B is monotone, and the solution is unique; rolling in time never leads away from
  * it; the energies agree. The tractions obey Coulomb's law. The error is within the estimate, the work is
  * bounded, and impossible requests are refused with the reason. */

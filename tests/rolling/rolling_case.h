@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Parts shared by the tests of rolling: pressures of ellipses, and models that roll under a known
  * pressure. */
 #ifndef ROLLING_CASE_H

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Steady rolling against known answers: CONTACT's published outputs (Vollebregt, repository eve70a/CONTACT,
  * examples carter2d, tractcurv, bentall), Carter's strip, and Kalker's linear theory. */
 #include <setjmp.h>

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* A path of rolling with spin on a periodic map is that of dense matrices, which know nothing of
  * transforms and of faces, with distances from the nearest middle. It does not depend on where the map
  * begins. A contact that reaches half a period from its middle is refused with spin, and has no moment

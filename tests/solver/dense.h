@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The contact of a small map as a dense quadratic program: an influence matrix from closed forms, an
  * active-set method, Cholesky's factorisation. It shares no code with the library. */
 #ifndef DENSE_H

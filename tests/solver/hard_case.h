@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Hard contacts as tables: each row is a contact. One function solves all of them and checks them against the
  * same bounds and, if it is known, the exact answer. */
 #ifndef HARD_CASE_H

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The solver stays stable in hard cases: one node, saturation, infeasible loads, sharp edges, strips, twelve
  * decades of scale. */
 #include <setjmp.h>

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Random contacts: sizes from one node up, thin maps, cells of any aspect ratio, and heights from white noise
  * to steps. The loads cover three decades, and a hardness is one that nearly every node reaches. Two
  * independent methods, pcg and pk99, give the same pressure, and pcg takes few steps. */

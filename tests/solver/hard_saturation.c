@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Contacts with a hardness, from a load at which nearly all nodes yield to a hardness that is just not
  * reached. Waves that approach full contact are solved too. */
 #include <setjmp.h>

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Contact is solved to 1e-8 for all units, shapes of cells and shapes of maps; results scale with the
  * units. */
 #include <setjmp.h>

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Contact of sharp, flat, single and random shapes is solved to 1e-8, and agrees with the exact answer if it
  * is known. */
 #include <setjmp.h>

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The load equals the hardness times a whole number of nodes. If this number of nodes yields and no other
  * node carries pressure, they are exactly at the hardness and are counted. The solution is recognised as
  * such. All other cases agree with a dense quadratic program. */

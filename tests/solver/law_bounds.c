@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Only bounds.h uses that the lower bound of the pressure is 0. On a periodic map a constant pressure causes
  * no displacement. If both bounds and the mean pressure increase by the same amount, so does the pressure
  * everywhere. */

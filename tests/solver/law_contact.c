@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Laws of every contact solution: load, bounds, complementarity, symmetry, and an error estimate that is not
  * below the true error. */
 #include <setjmp.h>

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* MPI counts in ints. A size that one rank cannot count is refused on all ranks, and a size that can be sent
  * in pieces is sent. The test allocates no map: it records messages instead of sending them. */
 #include <setjmp.h>

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The error estimate is never below the true error, in any iteration, and not far above it. Below 1e-3 and at
  * the end of a solve it is at most 1.5 times the error, and 1.6 times with an active hardness. Before, it is
  * at most about 4 times the error. */

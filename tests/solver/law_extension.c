@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The preconditioner E' A E is symmetric and positive. It is at least as large as the exact inverse and close
  * to it: eigenvalues of E' A E K on given contact sets show this. */
 #include <setjmp.h>

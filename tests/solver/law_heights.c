@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Other heights in the same solver. The result is that of a new solver, whatever the heights before. A
  * loading history in one solver equals the same history in new solvers, step by step. */
 #include <setjmp.h>

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* If the caller sets the flag `hurry`, a solver stops at once in any state. It does no further convolution
  * unless no gap exists yet. It carries the load, gives the displacement of the pressure to single precision,
  * and never reports a wrong convergence. Without the flag nothing changes. */

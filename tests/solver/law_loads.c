@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Loads in sequence, approaches, stiffness, yielding and discretization error. Each is compared with a
  * separate solution, Hertz, or its definition. */
 #include <setjmp.h>

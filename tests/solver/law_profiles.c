@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The work hardly grows with the length of a profile, or of a strip of a few rows. This holds as a row or a
  * column, periodic or free, uniform or coated. A line has its own extension, and load that a tile cannot
  * carry is shared with nearby tiles. */

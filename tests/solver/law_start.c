@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Making a solver does not iterate; its first steps run on coarser grids, where it can be stopped; with a
  * given start it omits them. Calls in the wrong order are refused. */
 #include <setjmp.h>

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Moves of the working set in any direction. The load does not change, pressures stay within the bounds, and
  * nodes outside of the set do not change. The report of the move is true. With tiles, each tile keeps the
  * load of the unclipped step if it can carry it. */

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The work of the method pcg does not grow with the grid: convolutions to 1e-4 on surfaces with
  * ever more, and ever shorter, waves. The work of the method pk99 is proportional to the number of nodes a
  * side. */

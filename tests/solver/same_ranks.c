@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Processes that share a map get the same results as one process, bit for bit: displacements,
  * contact, stresses. Each rank also solves the whole map alone. */
 #include <setjmp.h>

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Threads that use the library at the same time get the same results as one thread. Their program plans its
  * own transforms with FFTW. */
 #include <setjmp.h>

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* A compliance c of every node for itself adds c to the diagonal of K. The pressure is that of a dense
  * quadratic program with K + c I, with a c that differs by node, or with rows that move. It is also that of a
  * thin layer without Poisson's ratio, bare and over coats, on both boundaries and by each engine. The

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The conductance of a contact, compared with closed forms for a circle, several circles, a circle in a
  * periodic cell and Hertz's contact. A dense system of equations serves for any contact, yielding or not. */
 #include <setjmp.h>

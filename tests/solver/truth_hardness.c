@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* A map of hardness. The pressure is that of a dense quadratic program with an individual bound for each
  * node. It obeys the laws of contact in hard cases: two phases, equal heights, saturation, nodes without a
  * hardness. */

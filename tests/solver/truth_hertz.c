@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* A sphere on a half-space agrees with Hertz's contact: radius, pressure, approach, displacement, and the
  * stresses below; the errors decrease with finer grids. */
 #include <setjmp.h>

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Cone, flat punch and two equal spheres far apart: approach, radius and load have closed forms. */
 #include <setjmp.h>
 #include <stdarg.h>

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* A counter body that is free to tilt is compared with a dense quadratic program with two further constraints
  * for the moments. Its first touch is compared with a search over all triangles of nodes. */
 #include <setjmp.h>

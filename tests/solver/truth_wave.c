@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Flattened waves on a periodic map. Westergaard's area and pressure are tested from a tenth of the load of
  * full contact to the full one. The two-dimensional wave is that of Johnson, Greenwood and Higginson. */
 #include <setjmp.h>

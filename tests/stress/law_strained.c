@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The stress of plastic strain in slices. Its mean over a slab equals that of the sweeps through the volume,
  * also over a thin slab cut out of another. It adds to the stress of the pressure, and a section is a row of
  * a map. All depths together cost one sweep. */

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Laws of every stress field: equilibrium, compatibility, the load, mirror images and sums. */
 #include <setjmp.h>
 #include <stdarg.h>

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Different ways to compute the same stress agree. Each computes only what is needed: sections and slices,
  * engines, threads, one component or all; a table of counts. */
 #include <setjmp.h>

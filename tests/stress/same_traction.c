@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Maps of traction in several ways. A traction of mu times the pressure equals friction. A traction along y
  * equals one along x on the map with x and y exchanged. All loads together give the sum of their fields, and
  * each load costs only what it needs. Bare and coated bodies, free and periodic, are tested on maps and

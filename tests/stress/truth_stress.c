@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Stresses agree with closed forms: coefficients are integrals of point loads, a loaded rectangle agrees with
  * Love's at every depth, a sliding sphere with Hamilton's. */
 #include <setjmp.h>

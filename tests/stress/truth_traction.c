@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Stresses under maps of traction agree with closed forms. These are partial slip of a sphere (the integral
  * of Cerruti's point loads) and a wave of traction in any direction (plane and antiplane strain). A mean
  * traction gives a uniform shear at all depths. */

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Surface parameters do not depend on the position of the surface, its orientation, its units, or the number
  * of threads. */
 #include <setjmp.h>

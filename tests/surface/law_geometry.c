@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Rotated and mirrored maps obey the laws of rotation and reflection, bit for bit; a cropped map equals the
  * part. The sum of a surface and its replica is flat, and the order of two surfaces does not matter. */
 #include <setjmp.h>

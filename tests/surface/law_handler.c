@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Threads that call GSL through the library at the same time never call the error handler that the caller has
  * set. It is still set afterwards. */
 #include <gsl/gsl_errno.h>

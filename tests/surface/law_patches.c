@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Patches equal those of a plain flood fill. Count, area and perimeter of each are tested on free maps and
  * across the edges of periodic ones, for any number of threads. The search is fast. */
 #include <setjmp.h>

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Means over the cells of another grid keep the integral; if one size is a multiple of the other, they also
  * keep a plane. The transfer back is the transpose of the transfer: for any sizes, to coarser and to finer
  * grids. */

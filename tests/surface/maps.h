@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Maps for the tests of surfaces. */
 #ifndef MAPS_H
 #define MAPS_H

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The parameters of ISO 25178-2 equal closed forms for waves, ramps, chequerboards, posts, caps, grooves and
  * given height distributions. For maps with holes they equal plain double sums. */
 #include <setjmp.h>

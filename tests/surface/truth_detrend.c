@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The residual of the least-squares polynomial is orthogonal to every polynomial of its degree over the
  * measured points. It is 0 if the surface was such a polynomial. */
 #include <gsl/gsl_errno.h>

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* rc_filter is the Gaussian regression filter of order 0: its weighting function and its transmission are the
  * formulas of ISO 16610-61. With missing points, at edges and with robust weights it agrees with explicit
  * sums. */

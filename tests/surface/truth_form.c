@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* rc_detrend_form removes exactly the added form: polynomials, spheres and cylinders of either sign, any
  * position and tilt, with missing points, noise and spikes. */
 #include <math.h>

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Random surfaces with non-Gaussian heights have the requested distribution and size, and nearly the waves of
  * the Gaussian surface. On another grid they are the same surface. */
 #include <setjmp.h>

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The width of the widest hole agrees with a search over all pairs of nodes, and with known sizes. */
 #include <setjmp.h>
 #include <stdarg.h>

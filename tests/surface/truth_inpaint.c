@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Inpainted points solve Laplace's equation: discrete harmonic surfaces are restored exactly, and small maps
  * agree with a dense solution. */
 #include <setjmp.h>

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Sums, moments and slopes of maps agree with closed forms and sums in long double, for any datum and missing
  * points. */
 #include <setjmp.h>

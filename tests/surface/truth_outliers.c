@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* rc_outliers removes the same points as a method that sorts every neighbourhood, also at edges and beside
  * missing points. rc_taper multiplies the heights above the mean by a raised cosine. */
 #include <math.h>

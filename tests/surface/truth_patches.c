@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The corrected area of a contact is nearer to Hertz's than the area of its nodes. It is nearer by more than
  * half on average over twelve positions of the sphere between the nodes. */
 #include <setjmp.h>

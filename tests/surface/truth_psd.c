@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Power spectra. The power of a wave is in the right ring, and Parseval's theorem holds to 1e-9 with each
  * window and without. A known spectrum is recovered for any shape of the map. The Hurst exponent is that of
  * the surface to 0.05. */

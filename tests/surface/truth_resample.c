@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* On finer grids cubic polynomials are reproduced inside, parabolas up to the edge, and periodic maps like
  * their repetitions. On coarser grids each cell gets the mean of its measured points, and is missing if less
  * than half of it was measured. */

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Synthetic surfaces follow their formulas: indenters, waves, and random roughness. Every wave of the
  * roughness has the requested power and depends only on the seed. Its RMS is the requested one. */
 #include <setjmp.h>

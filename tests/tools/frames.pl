@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 # frames.pl FILE:CHANNEL[=NAME] ...: a stream of one case of these frames, the first of its channel in each file, in
 # this order, under these names.
 use strict;

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Opens FILE with Gwyddion's libraries and compares its first channel with the array of an NPY file: gwyddion
  * FILE NPY DX DY PART. Heights may differ by PART of the largest. Built by pipe_gwyddion.sh. */
 #include <math.h>

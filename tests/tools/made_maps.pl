@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 # made_maps.pl park|netcdf|mat NX NY: a file of that format with a map of that size, on standard output.
 use strict;
 use warnings;

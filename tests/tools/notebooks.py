@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """notebooks.py OUT NOTEBOOK...: runs the notebooks; OUT gets their pictures. A cell that fails ends it."""
 import base64
 import os

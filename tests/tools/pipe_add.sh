@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 # rc-add adds two facing surfaces. The sum of a surface and its replica is flat, two balls are equivalent to
 # one with the composite radius. Maps that do not match are refused with the command that helps.
 . "$(dirname "$0")/../pipe.sh"

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 # rc-app serves its page to this machine alone and with its token. It runs the tools with the commands that it
 # shows, which give the same bytes in a shell. Hostile names, large, broken and foreign files, cancelled runs,
 # several runs and closed pages end well.

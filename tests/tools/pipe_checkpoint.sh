@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 # rc-solve --checkpoint and --resume: an interrupted run continues, with the result of an uninterrupted one.
 . "$(dirname "$0")/../pipe.sh"
 

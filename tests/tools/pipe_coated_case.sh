@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 # The example of coated bodies, a hard film on steel under a rough ball, runs as printed in contact-layers(7)
 # and rc-stress(1). It gives the figures in these pages.
 . "$(dirname "$0")/../pipe.sh"

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 # bash, zsh and fish complete the options and words of --help and of the manual. These are every option of
 # every tool and every word that an option takes. They also complete units after a number, files, and the
 # channels of the file on the line.

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 # Contact has one meaning in all tools: the frame `contact` if a case has one, else a pressure above 0. For
 # bodies that attract each other it agrees with the gap, which is exactly 0 in contact. If a stream does not
 # determine the contact, the tools say so.

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 # The errors of rc-cost are those of the pressures of rc-solve with the same settings, computed here
 # independently. Its reference agrees with Hertz and Westergaard; and the proposed command has the stated
 # error.

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 # rc-cost --adhesion: its errors are those of the net pressures of rc-solve with these tolerances and grids,
 # computed here independently. The proposed command has the stated error; the cohesive length in nodes is that
 # of each grid.

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 # rc-cost --yield: its errors are those of the pressures of rc-solve with these increments and slabs, computed
 # here independently. The proposed command has the stated error.
 . "$(dirname "$0")/../pipe.sh"

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 # Curves for a journal: means with error bars, requested units and labels, and groups of rows as separate
 # curves with names. The test reads points from the SVG by the marks of its axes, and compares them with known
 # means and deviations.

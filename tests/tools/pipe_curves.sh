@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 # Tables and reports become curves. rc-render reads the reports of rc-solve in both forms. It refuses other
 # files, missing columns and tables without a curve, with the right exit status and without a picture.
 . "$(dirname "$0")/../pipe.sh"

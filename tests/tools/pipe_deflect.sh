@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 # rc-deflect gives the displacement of the solver, with every engine, and refuses impossible requests.
 . "$(dirname "$0")/../pipe.sh"
 

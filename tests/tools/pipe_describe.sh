@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 # rc-info --areal, --psd and --patches: the figures of waves, random surfaces and contacts, as JSON and as
 # text, and refusals.
 . "$(dirname "$0")/../pipe.sh"

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 # rc-detrend does its steps in the given order on the height of every case; it passes on all other frames and
 # records the steps.
 . "$(dirname "$0")/../pipe.sh"

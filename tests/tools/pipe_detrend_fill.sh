@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 # rc-detrend warns when it fills more than a twentieth of a surface, and gives the width of the widest hole.
 . "$(dirname "$0")/../pipe.sh"
 

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 # rc-detrend does not change a height if its case contains results computed from it, before or after the
 # height.
 . "$(dirname "$0")/../pipe.sh"

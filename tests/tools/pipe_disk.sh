@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 # What is left when the disk is full, a file may not grow (ulimit -f), a standard file is closed or a tool is
 # killed: files are whole or absent, reports have whole lines, and the exit status is 1 with the true reason.
 . "$(dirname "$0")/../pipe.sh"

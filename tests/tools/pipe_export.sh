@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 # rc-export writes the selected frames, completely or not at all, and refuses frames that a format cannot
 # hold.
 . "$(dirname "$0")/../pipe.sh"

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 # rc-export selects one case and some depths of a stream, and writes the depths of a stress as one array.
 . "$(dirname "$0")/../pipe.sh"
 

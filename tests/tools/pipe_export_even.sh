@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 # A section with uneven depths is not written as an even map: it is refused, written with its depths, or
 # resampled on request.
 . "$(dirname "$0")/../pipe.sh"

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 # A pipe that fails gives the reason once, in the tool that failed. All later tools end with the exit status
 # of that tool and leave nothing behind. Only streams carry the reason.
 . "$(dirname "$0")/../pipe.sh"

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 # --dry-run: the number of convolutions that it predicts is within a factor of 2 of that of the run, for each model.
 . "$(dirname "$0")/../pipe.sh"
 

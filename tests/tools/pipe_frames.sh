@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 # Frames and keys of a stream: every one that a tool writes is in rcg(5). For each tool that computes, the page says which it uses and
 # which it refuses; all others together change no bit of its results and no message.
 . "$(dirname "$0")/../pipe.sh"

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 # rc-pick crops, resamples, mirrors and rotates all frames of a case in the same way, in the order of the
 # command line. It removes keys that are no longer true for the map, and refuses invalid options.
 . "$(dirname "$0")/../pipe.sh"

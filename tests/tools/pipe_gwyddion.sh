@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 # Gwyddion reads the files of rc-export with the same numbers. It depends on GTK 2, so it is not among the
 # packages that the tests install:
 #     apt-get install gwyddion libgwyddion20-dev libgtk2.0-dev libgtkglext1-dev xvfb

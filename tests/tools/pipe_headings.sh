@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 # Scripts read reports by their headings and keys, which headings.txt records. For each command it has the
 # first line of its table. Below are all keys of its JSON lines in alphabetical order, an outer key before the
 # inner ones. Add a new column at the end of its list; no column changes its name, unit or position.

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 # The manual agrees with the tools. It has every option of --help and no other, correct mdoc, references to
 # existing pages only, and examples that run as printed.
 . "$(dirname "$0")/../pipe.sh"

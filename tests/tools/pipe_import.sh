@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 # rc-import converts real files to height streams, and leaves no incomplete stream if it refuses a file.
 . "$(dirname "$0")/../pipe.sh"
 

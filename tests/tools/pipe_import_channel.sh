@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 # Without --channel rc-import reads the topography, recognised by name and unit; --channel accepts the
 # beginning of a name.
 . "$(dirname "$0")/../pipe.sh"

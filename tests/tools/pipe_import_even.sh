@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 # A profile with uneven positions is refused with a message that names --even, which resamples it.
 . "$(dirname "$0")/../pipe.sh"
 

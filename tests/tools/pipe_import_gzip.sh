@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 # A gzip file of any format is unpacked while it is read, and a decompression bomb takes no memory.
 . "$(dirname "$0")/../pipe.sh"
 

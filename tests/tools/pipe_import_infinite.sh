@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 # Infinite heights are missing points, counted in a warning, in X3P and elsewhere; a root ISO5436 is read.
 . "$(dirname "$0")/../pipe.sh"
 

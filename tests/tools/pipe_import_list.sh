@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 # rc-import --list prints for each of many files its format, or the reason why it cannot be read. It fails at
 # the end if there was a bad file.
 . "$(dirname "$0")/../pipe.sh"

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 # rc-import reads the lengths of the file, and warns of implausible maps. They have a side above 1 m or below
 # 10 nm, or heights that span more than the longer side.
 . "$(dirname "$0")/../pipe.sh"

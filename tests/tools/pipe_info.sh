@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 # rc-info shows every frame of every stream with the right figures, for people and as JSON.
 . "$(dirname "$0")/../pipe.sh"
 

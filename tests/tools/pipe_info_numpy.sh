@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 # Feature and profile parameters of a sample surface equal those of a numpy program written from the
 # standards. So do those of a surface that is rough down to its nodes.
 . "$(dirname "$0")/../pipe.sh"

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 # rc-info makes one table of many scans: one row per frame, the same columns in all. Profiles along rows,
 # columns and oblique lines, and the material ratio at given heights, equal closed forms for waves.
 . "$(dirname "$0")/../pipe.sh"

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 # rc-info prints the main figures of a solution: load, contact, largest pressure, approach, yielding area, and
 # convergence; it omits unknown figures.
 . "$(dirname "$0")/../pipe.sh"

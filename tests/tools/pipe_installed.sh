@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 # An installation works in its folder, after it was moved, and under a name with a blank. Tools run, man finds
 # the pages, and other programs are built with the library, shared and static, by pkg-config and by
 # find_package.

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 # Keys with a fixed meaning: no tool that reads a stream takes a value that the key does not have (tests/formats/law_keys.c has these
 # values), and rc-pick corrects it.
 . "$(dirname "$0")/../pipe.sh"

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 # rc-solve --layer: the stream holds the body, rc-deflect and rc-stress read it there, and invalid layers are
 # refused.
 . "$(dirname "$0")/../pipe.sh"

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 # rc-stress on coated bodies as a command. Tested are its input from the stream, its output and report, and
 # refusals.
 . "$(dirname "$0")/../pipe.sh"

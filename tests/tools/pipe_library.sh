@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 # The example at the top of contact.h agrees with Hertz, and the programs of libcontact(3) with the solutions that they
 # name; the shared library exports the names that its headers declare and no other.
 . "$(dirname "$0")/../pipe.sh"
@@ -35,11 +36,11 @@ claim "  it gives the same result" bash -c "
 # ---- the programs of the page ----
 
 blocks "$library_page" EXAMPLES page
-# shown FILE: a display of the page is this file without its first line.
+# shown FILE: a display of the page is this file without its first two lines.
 shown() {
     local block
     for block in page/*; do
-        tail -n +2 "$1" | cmp -s - "$block" && return
+        tail -n +3 "$1" | cmp -s - "$block" && return
     done
     return 1
 }

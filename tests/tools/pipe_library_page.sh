@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 # libcontact(3), which man/library.awk makes from the headers, has every function with its arguments, every struct with
 # its fields, every constant with its value, and every comment. Every function has a description. Members of structs are
 # declared in one line each, with comments either above all of them or at the ends of lines.
@@ -106,7 +107,7 @@ lost() {
             open my $header, "<", $file or die; $_ = <$header>;
             while (m#/\*(.*?)\*/#sg) {
                 my $text = $1;
-                next if $text =~ /^ The names that the shared library offers|^ processes that share the map: contact\.h|^ NULL is/;
+                next if $text =~ /^ The names that the shared library offers|^ processes that share the map: contact\.h|^ NULL is|^ SPDX/;
                 (my $bare = $text) =~ s/[^A-Za-z0-9]//g;
                 print "$file: $text\n" if index(lc $all, lc $bare) < 0;
             }

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 # The memory that the allocator counts, with the code, is the peak of the tool within a tenth. A run that
 # needs more than --memory allows, or than the machine has, is refused before the work. It is refused at 5 %
 # less than the need that the refusal tells, and not at 5 % more. The peak in a report is that of the tool

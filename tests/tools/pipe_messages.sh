@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 # Messages help: a message names the next step, a warning about a list of loads is printed once with its
 # cases. The memory is printed on request.
 . "$(dirname "$0")/../pipe.sh"

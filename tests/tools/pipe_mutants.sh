@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 # Checkpoints with right checksums and false contents, and tables with false contents, are read or refused:
 # no tool crashes, hangs, or refuses without a message. tests/fuzz/mutants.py makes the files: here a few, with
 # RC_LONG 4000 of each kind.

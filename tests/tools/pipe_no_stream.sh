@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 # A tool that gets another file than a grid stream names the kind of file and the command that converts it.
 # The message for a pipe whose first program wrote nothing is different. If rc-import gets a stream, it names
 # the command to use instead, and that command works.

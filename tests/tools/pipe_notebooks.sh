@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 # The notebooks run from the first cell to the last, without a warning, and draw their figures.
 . "$(dirname "$0")/../pipe.sh"
 . "$RC_SOURCE/tests/python.sh"

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 # No tool writes NaN or infinity unless its input has them: not in frames, keys or reports, for any valid
 # numbers in the input. A tool whose results overflow reports this and fails.
 . "$(dirname "$0")/../pipe.sh"

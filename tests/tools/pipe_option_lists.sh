@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 # Every list of numbers may have equal ratios, a:b:log:n, and --help says so. A word in place of a number is
 # written to the history as this word. Two whole numbers with a comma between them may be one number with a
 # decimal comma. They are read as a list, with a warning that explains how to write the number.

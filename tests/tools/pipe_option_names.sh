@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 # The message for a misspelt option names the intended option. The message for an ambiguous abbreviation names
 # all matching options. British and American spelling are both accepted, and a value out of bounds never
 # counts as a missing one.

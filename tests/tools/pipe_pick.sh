@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 # rc-pick writes the selected frames completely, with the keys that were set, and lists the existing names if
 # a requested one is missing.
 . "$(dirname "$0")/../pipe.sh"

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 # The Python package rcg reads and writes streams like the tools, bit for bit, refuses the same streams, and
 # runs the tools. The output is that in a shell, and a failure has the message and the exit status of the
 # tool.

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 # Results of the Python package as a data set of xarray and a table of pandas.
 . "$(dirname "$0")/../pipe.sh"
 . "$RC_SOURCE/tests/python.sh"

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 # Under mpirun rc-solve, rc-deflect and rc-stress write the same bytes as one process; their report counts the
 # communication. If one process fails all end, with one message and without an incomplete file. RC_RANKS: the
 # numbers of processes to compare with one, by default "2".

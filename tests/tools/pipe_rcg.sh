@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 # The filter in rcg(5) compiles as printed and follows the rules for pipes: the tools read its output, and it
 # refuses a damaged stream.
 . "$(dirname "$0")/../pipe.sh"

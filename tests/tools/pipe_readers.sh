@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 # The readers in rcg(5) run as printed. For every frame of a stream each prints channel, size and largest
 # value as rc-info does, for both types. Each fails if the stream is cut off.
 . "$(dirname "$0")/../pipe.sh"

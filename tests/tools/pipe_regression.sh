@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 # The contacts of the sample surfaces do not change. Area, peak pressure, approach, plastic area and largest
 # Mises stress equal those of the table, which other engines and methods computed.
 . "$(dirname "$0")/../pipe.sh"

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 # rc-render draws the selected frame, from complete streams only, and otherwise fails with the right exit
 # status and without a picture.
 . "$(dirname "$0")/../pipe.sh"

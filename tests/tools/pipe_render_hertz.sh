@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 # Hertz's contact drawn on a map and on a cut, for a ball of rc-synth and for one added by rc-solve. Persson's
 # law is drawn with the table of rc-solve. The curves follow the formulas.
 . "$(dirname "$0")/../pipe.sh"

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 # A picture is a PNG, SVG or PDF according to its name: another suffix is a wrong command line, reported
 # before the work. Curves, sheets and reliefs, like single maps, are available in all three, with the
 # requested width on paper, text as text, and the requested font.

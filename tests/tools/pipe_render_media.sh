@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 # A section of a coated body shows its materials. It has a line at each interface, visible on every colour,
 # the number of each medium beside the plot, and its material in the legend. Values jump only at interfaces,
 # and slices name their medium.

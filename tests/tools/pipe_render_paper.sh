@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 # Pictures for papers are SVG and PDF with text as text. They have the requested size on paper, the unchanged
 # map, and the same bytes at any time.
 . "$(dirname "$0")/../pipe.sh"

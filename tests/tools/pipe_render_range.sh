@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 # The colour bar shows the range of its colours. Marks lie at the positions of their values, values beyond an
 # end have an arrow with a dark outline, visible on white paper. Gaps begin at 0.
 . "$(dirname "$0")/../pipe.sh"

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 # A section shows each depth at its position on the axis, for any steps between its rows, without bands. Its
 # largest value is marked, with its position.
 . "$(dirname "$0")/../pipe.sh"

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 # Shapes of figures: reliefs with a given exaggeration, and strips with a stretched vertical axis. The border
 # of the contact is drawn on maps of other channels, single or in a sheet. Titles are for a journal. Lengths
 # are measured in the SVG.

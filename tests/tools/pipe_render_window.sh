@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 # A window shows only this part of the map, with the coordinates of the map. A contact that is small compared
 # with its map gets a window by default. The title says so; the lines over a map lie at the border of the
 # contact.

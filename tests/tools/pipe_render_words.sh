@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 # Text on a figure. Long titles break between words, and units have their usual notation. Characters that no
 # font has give a warning for every kind of picture. The figure of an unconverged solution has a stamp beside
 # the data, not over them.

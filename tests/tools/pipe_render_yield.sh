@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 # rc-render on the pressure of a body that yields in its volume with little hardening. It draws means about
 # the nodes, in which the alternation from node to node cancels, and prints both largest values.
 . "$(dirname "$0")/../pipe.sh"

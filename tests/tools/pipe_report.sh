@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 # --report FILE.tsv writes a table with the names and units of the columns in its first line, and a row for
 # each case. Its cells have the scalars of the JSON lines that --report FILE writes for the same run.
 # --report - writes only these lines to standard output; the stream goes to the file of -o, and a file named

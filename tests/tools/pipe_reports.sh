@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 # Reports of all tools have the same shape: boundary, tol, converged, effects with reasons, seconds with a total, and
 # names of estimated errors. --dry-run writes the expected cost as numbers, with the same effects.
 . "$(dirname "$0")/../pipe.sh"

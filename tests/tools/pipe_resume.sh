@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 # The law of --resume (resume.py): a run with one option, key, frame or file changed since its checkpoint is
 # refused, and the message names the change, or its result is that of a fresh run. Before a release all modes
 # of the tools are walked; of every commit some.

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 # rc-slip --creep and --creep-force: rolling, steady and from case to case, against CONTACT's published outputs
 # (Vollebregt, repository eve70a/CONTACT, examples carter2d, bentall and catt_to_cart), Kalker's table and the laws of power; plan, frames, refusals.
 . "$(dirname "$0")/../pipe.sh"

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 # Heat and wear of a contact that rolls, through pipes: rc-heat and rc-wear take the friction energy of rc-slip, whose sum is force times
 # creepage and moment times spin, and refuse to take mu p for it.
 . "$(dirname "$0")/../pipe.sh"

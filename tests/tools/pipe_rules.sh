@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 # The law of the rules between options (rules.py): what the option tables say is refused, with the words that
 # --help has, and the manual names it. Then --help of a tool whose options have headings.
 . "$(dirname "$0")/../pipe.sh"

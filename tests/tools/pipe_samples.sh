@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 # Their script reproduces the sample surfaces, and the demo runs on them.
 . "$(dirname "$0")/../pipe.sh"
 

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 # Every tool accepts maps of one node, one row or one column or refuses them with the reason. A map of 46,400
 # x 46,400 nodes has more nodes than 32 bits count. If it does not fit into memory, the message gives the
 # right size.

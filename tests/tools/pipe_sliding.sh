@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 # rc-solve --relaxation --speed: the friction of a wave in full contact is that of the formula. Each speed is a
 # case, a resumed run writes the same bytes, and contradictions are refused.
 . "$(dirname "$0")/../pipe.sh"

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 # rc-slip: partial slip, loop and displacement of a ball; paths, histories and cases; dissimilar bodies;
 # frames, plan, report, warnings; refusals.
 . "$(dirname "$0")/../pipe.sh"

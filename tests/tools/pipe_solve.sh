@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 # rc-solve reacts to a signal while it waits for its input, and removes the keys of an earlier solution.
 . "$(dirname "$0")/../pipe.sh"
 . "$RC_SOURCE/tests/symbols.sh"

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 # rc-solve --adhesion: a ball that is pressed, pulled and pulled off; balance of loads; paths; frames; the
 # curve; warnings and refusals.
 . "$(dirname "$0")/../pipe.sh"

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 # rc-solve --conductivity prints the conductance of Hertz's contact in both units, and with yielding. It
 # prints none for coated bodies, and none without the option. Refusals are tested too.
 . "$(dirname "$0")/../pipe.sh"

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 # The figures of rc-solve for a case: --verbose prints the main figures of the report. Nodes that yield under
 # this load differ from nodes at the hardness. The mean gap is that between the bodies; the requested value is
 # in the report beside the result.

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 # rc-solve on a case with a map of hardness beside the heights. The maps have two phases, or spots without a
 # hardness.
 . "$(dirname "$0")/../pipe.sh"

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 # --history: each load acts on the shape after the earlier loads. Unloading, and loading again up to the
 # largest load so far, is elastic; and the result equals that of the same sequence in separate runs.
 . "$(dirname "$0")/../pipe.sh"

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 # In a --history the load against the approach from the first touch of the initial shape is one curve. No loop
 # gains work, elastic reloading follows the unloading curve, unloading ends at the residual indentation, and
 # the first load agrees with Hertz. Curves of rc-render use this approach.

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 # The force on a profile may be given per unit width. For a plain force the report has the width; a rigid body
 # needs no modulus.
 . "$(dirname "$0")/../pipe.sh"

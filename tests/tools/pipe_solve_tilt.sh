@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 # rc-solve --tilt free. A ball rolls to the point where the load acts, and planes in the heights do not
 # matter. Without the option nothing changes. --at, checkpoints, lists and refusals are tested too.
 . "$(dirname "$0")/../pipe.sh"

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 # rc-solve warns of doubtful solutions, and names the case and the load.
 . "$(dirname "$0")/../pipe.sh"
 

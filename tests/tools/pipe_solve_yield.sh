@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 # rc-solve --yield: the elastic solution, to the byte, if nothing yields; loads in sequence; frames, tables of
 # hardening; warnings and refusals.
 . "$(dirname "$0")/../pipe.sh"

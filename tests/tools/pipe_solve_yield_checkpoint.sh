@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 # rc-solve --yield with --checkpoint and --resume. A history of a yielding body that is interrupted at any
 # point continues with the result of an uninterrupted one.
 . "$(dirname "$0")/../pipe.sh"

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 # The report of rc-stress gives the largest and the smallest value of each component with its position, over
 # all materials and in each. They equal the closed form for two waves. Depths far below the map get a warning.
 . "$(dirname "$0")/../pipe.sh"

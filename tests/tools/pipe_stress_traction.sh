@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 # rc-stress with frames of traction beside the pressure. A traction of mu p is equivalent to --mu, at any
 # place in the case. The report and refusals are tested too.
 . "$(dirname "$0")/../pipe.sh"

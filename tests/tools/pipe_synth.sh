@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 # rc-synth makes the requested surface on the requested grid, and refuses options that are missing, contradict
 # each other or have no meaning.
 . "$(dirname "$0")/../pipe.sh"

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 # rc-solve --travel: each position is the contact of a map that rc-pick has cut or rc-add has summed. A
 # resumed run writes the same bytes, and contradictions are refused.
 . "$(dirname "$0")/../pipe.sh"

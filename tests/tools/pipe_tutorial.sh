@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 # The pipeline of README runs, and commands have the same meaning in bash and in zsh. Before a release the
 # tutorial of contact(7) runs as printed. Its commands print the text on the page. The figures in its
 # sentences are in that text or are computed here. Its commands draw its pictures.

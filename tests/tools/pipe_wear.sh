@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 # rc-wear: a ball that wears over four decades, in SI, and its running-in curve. Tested are the three ways to
 # say how much wears, early ends, both bodies, coats and a hardness. An interrupted run continues, and unknown
 # settings are refused.

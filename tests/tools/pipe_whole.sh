@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 # The whole pipeline works as commands, and bad input gets a clear error, the right exit status and
 # no half-written file.
 . "$(dirname "$0")/../pipe.sh"

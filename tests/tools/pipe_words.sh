@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 # Texts and names in a file do not act on a terminal: no tool prints a control character, neither in messages
 # nor in its output.
 . "$(dirname "$0")/../pipe.sh"

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 # Points of the paths of an SVG of curves, in the units of its axes, which are read off the marks: for each path a line that
 # begins with its colour and its kind: solid, dashed, marker (a path of one point) or bars (in pieces).
 local $/;

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Checks of rc-app for pipe_app.sh: python_app.py ADDRESS CHECK [ARGUMENT...]. A page is a client of HTTP like this one."""
 import http.client
 import json

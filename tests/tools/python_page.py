@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """python_page.py PAGE: fails unless the page of rc-report is well-formed and complete in itself; prints title and heading."""
 import base64
 import sys

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Parameters of ISO 25178-2 and ISO 21920-2 by numpy, programmed from the standards, compared with those of rc-info: python_parameters.py FILE.
 
 Hills by pointers to the steepest of eight neighbours, saddles of all pairs of hills that touch, and Wolf's rule literally: repeatedly the lowest hill joins the hill across its highest saddle. Prints each parameter with both values; fails if the largest relative difference is too large."""

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """The checks of pipe_python.sh for the package rcg, one function each: python_rcg.py NAME ARGUMENT..."""
 import concurrent.futures
 import copy

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """
 The law of --resume: a run with one thing changed since its checkpoint is refused, and the message names the
 thing, or its result is that of a fresh run with the change. Changed are each option of `--completions json`,

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """
 The law of the rules between options, for every tool that is named. `--completions json` has the rules, and each
 one is broken here on a command line of its own:

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The free memory is the minimum of that of the machine, the rest of each control group of the process, and
  * its own limits. The test reads them from files like those of the kernel. */
 #define _DEFAULT_SOURCE /* MAP_ANONYMOUS */

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* A number on the command line gives the SI value of its text to the last bit; other text is refused. */
 #include <setjmp.h>
 #include <stdarg.h>

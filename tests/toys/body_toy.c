@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
  * A body that is not part of the library, in one file and one row of a list. It has springs on a rigid base,
  * coupled to their neighbours within a range L. The displacement by a unit pressure on a cell is K(x, y) =

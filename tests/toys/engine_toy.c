@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
  * An engine that is not part of the library: one file and one row of a list. It is the double sum, with the
  * kernel computed row by row in the memory of one row.

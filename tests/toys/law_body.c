@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* A body from one file and one row of a list works like any other. The solver finds its contact with an error
  * estimate, free and periodic, with yielding; stresses, which this body does not define, are refused. */
 #include <setjmp.h>

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 # An effect of rc-solve is one file and one row of a list (settling.c). Tested are its options, its points, its
 # model around the elastic one, frames, report, plan, checkpoint and refusals.
 . "$(dirname "$0")/../pipe.sh"

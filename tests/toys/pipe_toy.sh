@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 # A tool of options and a maker, over tools/model. Tested are history, report, frames, warnings, checkpoint
 # and plan.
 . "$(dirname "$0")/../pipe.sh"

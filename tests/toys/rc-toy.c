@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* A tool for the model of relaxing.c: its options and its maker; tools/model does everything else. */
 #include <math.h>
 

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
  * A model that is not part of the library, in one file and one row of a list. Under the contact is a layer of
  * springs, which settles at each node by s towards the compliance c times the pressure, ds/dt = (c p - s) /

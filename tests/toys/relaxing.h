@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* A model that is not part of the library: a relaxing layer of springs on one of the bodies. */
 #ifndef TOY_RELAXING_H
 #define TOY_RELAXING_H

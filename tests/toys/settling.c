@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
  * An effect that is not part of rc-solve, in one file and one row of a list: --settle-time, the contact on a bed of
  * springs, which is the model of relaxing.c around that of the other effects.

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* A method that is not part of the library, in one file and one row of a list. It is steepest descent in the
  * metric of the preconditioner. Each step goes to the minimum along its direction and is projected onto the
  * bounds. */

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Repeated passes over a body that yields, without hardening. A line contact shakes down below p0 = 4 k
  * (Johnson 1962) and ratchets above. A ball does so at 4.68 k, which its groove raises in a few passes.
  * Plastic work never falls. A contact that travels the other way leaves the mirror image of the strain.

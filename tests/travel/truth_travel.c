@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* A contact that travels. Each position is compared with a contact of its own, whose heights are summed
  * here. A ball on an inclined plane rises with the plane, also between nodes. A surface between nodes is
  * compared with its Fourier series. Convolutions are counted. */

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 # rc-solve --relaxation: creep of a ball follows Hertz with J(t), materials from files, checkpoints, the cost
 # before the run, and refusals.
 . "$(dirname "$0")/../pipe.sh"

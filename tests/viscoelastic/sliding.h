@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* What the tests of steady sliding share: materials, maps and a model that is driven to a speed. */
 #ifndef TESTS_VISCO_SLIDING_H
 #define TESTS_VISCO_SLIDING_H

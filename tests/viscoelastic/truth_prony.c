@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* A modulus and its compliance belong together to rounding: over 20 decades, with times that nearly coincide
  * and moduli that nearly vanish, and for a fluid. A standard linear solid has its closed form. The fit of a
  * master curve of a fractional solid has the known misfit, and averages the noise of the curve. */

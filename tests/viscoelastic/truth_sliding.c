@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Steady sliding over a viscoelastic half-space. A cylinder has the pressure and the friction of Hunter 1961.
  * Waves in full contact have the friction of Persson's integral. On rough maps the displacement is that of
  * the complex compliance, summed here wave by wave; gap and pressure are those of a contact. Slow and fast

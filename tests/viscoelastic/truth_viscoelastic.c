@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Compares viscoelastic contacts in time with exact answers. Under a load that only rises, contact and
  * approach are those of elastic bodies under the equivalent load, on any rough map. After a fall of the load
  * the contact is an elastic one of the rise (Ting 1966). A ball follows Ting's load and Hertz's approach. A

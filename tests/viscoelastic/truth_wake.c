@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Steady sliding over a viscoelastic half-space on a free map. The displacement is that of coefficients found
  * here one by one, by quadrature of Love's formula behind the cell; gap and pressure are those of a contact,
  * and the losses of all terms of the material are the friction. Slow and fast bodies are elastic. A mirrored

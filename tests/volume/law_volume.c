@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Laws of strain in slabs: reciprocity, symmetry, bounds of the stiffness with and without contact,
  * equilibrium, and a free surface. Every plane carries the load. The predicted memory is checked too. */
 #include <setjmp.h>

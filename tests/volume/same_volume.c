@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Different ways to compute the same slabs agree: threads, precisions, rotated maps, slabs divided in two, an
  * explicit sum of plane waves. Omitting components does not change the others. */
 #include <setjmp.h>

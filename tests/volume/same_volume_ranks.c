@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Processes that share a map get the same displacements and stresses of slabs as one process, bit
  * for bit. */
 #include <setjmp.h>

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Stresses and displacements by strain in slabs and by pressure agree with finite elements in depth. They
  * agree with point stresses averaged by quadrature, and with Eshelby's sphere. */
 #include <setjmp.h>

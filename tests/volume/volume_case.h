@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Shared by the tests of the volume. It has strains and stresses of all voxels, and a stack of slabs. */
 #ifndef VOLUME_CASE_H
 #define VOLUME_CASE_H

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Compares worn heights and pressures with closed forms. Each wave in full contact decays at its own rate.
  * The pressure of a circular and of a strip punch becomes even by the modes of the operator. A ball wears to
  * the rigid limit, and stiff roughness to its Abbott curve. In the end the pressure is even, or k p is where

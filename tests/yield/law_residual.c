@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The residual stress of an unloaded body that has yielded in its volume is in equilibrium. Its divergence is
  * 0, the surface is free, no plane carries a force, and tractions do not jump between slabs. The stresses are
  * computed at Chebyshev points of each slab, where they are smooth functions (exponentials times

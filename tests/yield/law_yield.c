@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Known results for bodies that yield in their volume. They are the place and the load of first yielding, and
  * the hardness in the fully plastic state. They are also residual stresses after unloading, and the limit of
  * shakedown under rolling. Also: the estimated error is not below the error. */

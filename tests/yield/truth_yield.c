@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Plasticity in the volume, compared with a minimum of the same convex energy that another method finds, with
  * a dense quadratic program for the contact. The return to the yield surface is compared with its closed
  * form. */

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
  * Draws the items of a canvas with cairo, as pixels or as the pages of a PDF.
  */

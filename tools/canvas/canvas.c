@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
  * The list of items on the page; cairo_page.c and svg.c write it to files.
  */

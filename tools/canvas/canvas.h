@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
  * The interface of this folder. A page for figures is in pixels from the upper left corner. It stores shapes
  * and texts, and converts them to pixels, a PDF or an SVG when it is written. Text is UTF-8 in the sans serif

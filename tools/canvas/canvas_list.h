@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The items of a canvas, for the files that convert it to pixels, PDF or SVG. */
 #ifndef RC_CANVAS_LIST_H
 #define RC_CANVAS_LIST_H

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
  * Colours for values. A colour map is a list of colours at even steps, interpolated in sRGB. The steps are
  * small enough that the lightness (CIELAB L*) is monotonic. viridis and magma follow the maps of these names

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Colours for values. */
 #ifndef RC_COLORMAP_H
 #define RC_COLORMAP_H

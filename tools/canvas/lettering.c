@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
  * Only this file uses Pango, and only this file and cairo_page.c use cairo.
  */

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Text by Pango: its width, its drawing, characters that no font has. */
 #ifndef RC_LETTERING_H
 #define RC_LETTERING_H

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Pictures as PNG: 8-bit sRGB, with texts that describe how they were made. */
 #ifndef RC_PNG_H
 #define RC_PNG_H

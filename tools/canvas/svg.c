@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
  * The items of a canvas as SVG 1.1, one element each. Text stays text, in the family that it was
  * measured with; images are PNGs inside the file.

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
  * Completions of bash, zsh and fish, made from the option tables. They contain names of options, their words,
  * units after numbers, files, and the channels of the streams on the command line. The tables are also

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Suffixes of the names of pictures. */
 #ifndef RC_ENDING_H
 #define RC_ENDING_H

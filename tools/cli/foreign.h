@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Input that is not a grid stream: its kind, and the command that converts it. */
 #ifndef RC_FOREIGN_H
 #define RC_FOREIGN_H

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
  * The line of a tool in the history of a stream: its name, the version, and the options that change the
  * result.

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
  * Reads input: the frames of all streams, one after another, with checks of them.
  */

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
  * Output of a tool for people: messages, progress, and the message when it cannot continue.
  */

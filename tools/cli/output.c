@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
  * Output that appears whole or not at all, also when a signal ends the tool.
  */

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
  * Only options.c, input.c, output.c and tool.c share this header, not the tools themselves.
  */

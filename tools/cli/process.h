@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Sibling tools as processes. */
 #ifndef RC_PROCESS_H
 #define RC_PROCESS_H

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
  * A tool under mpirun: its processes share every map, each process with some rows. `ranks` of struct tool is
  * NULL in a build without MPI, and in a tool that was not started by a launcher of MPI. The functions then

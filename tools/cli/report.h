@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
  * The report of --report: a row for each case as soon as it is done, with figures in SI units. A row is a
  * JSON object in one line. In a file with the suffix .tsv or .csv it is a line of a table, with tabs or

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
  * Rules between options, from the option tables: .one_of, .needs and .against. They are checked here when the
  * command line has been read, and printed in --help and for programs.

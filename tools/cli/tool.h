@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
  * All rc-* tools share this header: options, input and output streams, messages, signals, exit. Every main
  * does: start, read, *work*, write, finish; only the work differs.

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
  * Words of options, from the tables of the library and the formats. Each function returns word k = 0, 1, ...,
  * and NULL past the last, as .words of struct opt requires.

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
  * The interface of this folder: rc-cost. A trial is one way to solve the contact, or to compute its stresses.
  * The reference is the most accurate solution. rc-solve, rc-stress and rc-leak do the work, one process per

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Measures the cost of a trial, and the error of its pressures or stresses against the reference. */
 #include "cost.h"
 

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
  * Error against time: a graph of the pressures and, if there are stresses, one below for them.
  */

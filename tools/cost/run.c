@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The programs that rc-cost runs, their files, reports and messages. */
 #include "cost.h"
 

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
  * Selects, orders and repeats the trials. The expected time of each is rc-solve's, corrected by the measured
  * times of earlier trials on this map. A machine may differ by several times, and a surface may need fewer or

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Prints the results as a table, as a report, and as the one command for a time or an accuracy. */
 #include "cost.h"
 

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
  * The trials in the order of the table: every method with every engine of libcontact's tables. The first of
  * each, which "auto" uses, are tried in small steps of the tolerance and on coarser grids. The others are

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Endurance limits of materials or of a table, and residual stresses. */
 #include "fatigue.h"
 

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
  * The bodies of a contact in the keys of a stream: `e1 nu e2 nu2` and, for a layered body 1, `layers`.
  * `layers` has "t,E,nu" of each material in SI, the top first, joined by ";", the substrate last with t =

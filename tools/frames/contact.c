@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
  * The nodes in contact. A pressure determines them, except the net pressure of bodies that attract each
  * other. It is not 0 at almost all nodes, and may be negative where the gap is closed. rc-solve writes the

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
  * The nodes in contact and the boundary, from the frames of a case. All tools use these definitions.
  */

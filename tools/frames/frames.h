@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
  * The interface of this folder: which frames of a stream are selected, and what they say of bodies, contact
  * and boundary.

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
  * Frames selected on the command line by channel, case, section and depth. Each word and number of the lists
  * must match a frame: otherwise the tool ends with a message that lists the existing ones.

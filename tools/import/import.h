@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
  * The interface of this folder: the bytes of a file, the choice of a channel, and warnings of implausible
  * values.

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Warns of sizes that surfaces hardly ever have: most often the file has a wrong unit. */
 #include "import.h"
 

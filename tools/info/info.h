@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
  * The interface of this folder: parameters of surfaces, spectra and contacts, for rc-info.
  */

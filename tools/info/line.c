@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
  * Profiles of a map and their parameters. The profiles are all rows, all columns, or one line at any angle.
  */

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Names of parameters in the standards, and their units. */
 #include "info.h"
 

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
  * Rows of figures. Rows of --report are flat, so that the parameters of many scans form one table. All rows
  * have the columns of the requested options, and figures that a frame lacks are unknown. In --json the

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
  * The interface of this folder: a file to which a run adds frames, and from which another run continues
  * (--checkpoint).

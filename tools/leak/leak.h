@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Options, case and report of rc-leak. */
 #ifndef RC_TOOL_LEAK_H
 #define RC_TOOL_LEAK_H

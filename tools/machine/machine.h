@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
  * The interface of this folder: services of the operating system: memory, pipes, and files that appear whole
  * or not at all. Nothing here depends on a tool.

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
  * Memory of the machine that a process uses, and how much more it may use before the system would end it.
  */

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* A separate file, because _GNU_SOURCE would change signal() in output.c. */
 #define _GNU_SOURCE /* F_SETPIPE_SZ */
 #include "pipe.h"

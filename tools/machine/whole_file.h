@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Files that appear whole or not at all: they are written under another name in the same folder and renamed
  * when complete. If the tool fails or a signal ends it, half-written files are removed. */
 #ifndef RC_WHOLE_FILE_H

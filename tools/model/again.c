@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
  * Warnings that several cases share: of the first case in full, of the others in one line at the end.
  */

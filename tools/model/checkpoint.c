@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
  * --checkpoint and --resume: a file of states, from which an interrupted run continues.
  *

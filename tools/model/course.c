@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Steps a model to a point, with progress and checkpoints. */
 #include "model.h"
 

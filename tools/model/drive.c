@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* A tool with a model has points, frames, a report, warnings and --dry-run. */
 #include "model.h"
 

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
  * The interface of this folder: a tool drives a model (libcontact/model.h) through the points of a history.
  * The tool itself has its options, the maker of its model and, if needed, keys of frames, columns of the

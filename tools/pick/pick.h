@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The interface of this folder: the steps of rc-pick that cut, resample and rotate maps. */
 #ifndef RC_PICK_H
 #define RC_PICK_H

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
  * The axes of maps, colour bars and graphs: their marks and their drawing.
  */

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
  * Figures for publications: a map with axes, colour bar, title and legend. The two axes of a map have the
  * same scale unless the map would be a very thin strip (FIGURE_ASPECT); the figure then says so.

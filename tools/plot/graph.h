@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
  * Curves of one quantity over another on linear or logarithmic axes: lines with markers, bars, dashed laws;
  * the legend is under the plot.

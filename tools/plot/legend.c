@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
  * The legend at the foot of a picture: texts side by side, most with a sample of what they explain.
  */

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
  * The media of a section: a line at each interface, and beside the plot the number of each medium, which the
  * legend explains.

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The layout of a figure: sizes, marks and lines of text, determined before drawing. All lengths are in
  * pixels. */
 #ifndef RC_PAGE_H

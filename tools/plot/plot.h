@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
  * The interface of this folder: figures and charts on a canvas. It uses grids, but no tool.
  */

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Maps on pixels: the values in a pixel, and lines across the map. */
 #ifndef RC_RASTER_H
 #define RC_RASTER_H

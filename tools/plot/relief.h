@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
  * A map as a lit surface in a box, seen obliquely from above, without perspective: parts behind higher ones
  * are hidden.

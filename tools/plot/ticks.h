@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Numbers in a figure: a suitable unit, and marks at steps of 1, 2 or 5. */
 #ifndef RC_TICKS_H
 #define RC_TICKS_H

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
  * --adhesion: work, law and range of the attraction between the bodies.
  */

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
  * Bodies that attract each other: the option --adhesion for the tools that solve them.
  */

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Parts of an estimated error: their sum, the largest, and their keys in a report. */
 #include "errors.h"
 

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
  * The parts of the estimated error of a solution at the end of a path, and the largest of them.
  */

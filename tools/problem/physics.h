@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
  * Options of a contact for the tools that solve it: load, elasticity, hardness, form, boundary.
  */

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
  * The interface of this folder: options of a contact (load, bodies, boundary), the options --yield and
  * --adhesion, and the parts of an estimated error.

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
  * --relaxation: terms on the command line, a table of terms, or a master curve.
  */

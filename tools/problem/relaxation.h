@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
  * The option --relaxation: a viscoelastic material, for the tools that solve it.
  */

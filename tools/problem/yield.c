@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
  * --yield: the yield law of body 1, the options that exclude it, and its slabs.
  */

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
  * The option --yield: a body that yields in its volume, for the tools that solve it.
  */

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
  * Curves of frames: values along a line, their distribution, and the fraction of the map above a value.
  */

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
  * The frames of a picture: the best one of the selected frames, or several of one channel, and beside them
  * the pressures and contacts of their cases.

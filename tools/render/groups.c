@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
  * Groups of rows of a table: with the same values in some columns, or with the same x.
  */

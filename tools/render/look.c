@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
  * The properties of a figure of frames: words, colours, contact, and position.
  */

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
  * Means of the pressure on a body that yields in its volume. Without hardening the pressure alternates from
  * node to node by some per cent, because waves of two nodes have no effect in the volume. Means over 2 x 2

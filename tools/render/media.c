@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
  * The materials of a section, from the key `layers`: for its lines, its legend and its values.
  */

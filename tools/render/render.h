@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
  * The interface of this folder: the frame of a stream that rc-render draws, and the texts of the figure.
  */

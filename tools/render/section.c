@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
  * Sections: rows at any depths are interpolated to even rows, so that each depth is at its position on the
  * axis. In a coated body stresses jump at interfaces, where the curves end.

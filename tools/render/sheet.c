@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
  * Several maps in one picture: number of columns and rows, common properties, titles of the panels.
  */

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
  * Columns of numbers from reports: tables with tabs or commas, whose first line names the columns as
  * `load/N`, and JSON with one object per row. An array of JSON is a column: each object with arrays is then a

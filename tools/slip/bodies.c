@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Elastic constants of the bodies for tangential displacements. */
 #include "slip.h"
 

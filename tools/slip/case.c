@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* A case of rc-slip: solves its corners one after another and writes the frames of each. */
 #include "slip.h"
 

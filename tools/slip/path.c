@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Paths: loads and forces, corner by corner. */
 #include "slip.h"
 

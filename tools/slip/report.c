@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Report, plan and warnings of rc-slip. */
 #include "slip.h"
 

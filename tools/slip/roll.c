@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Rolling under the pressure of the stream: its options, its model, and its plan. */
 #include "slip.h"
 

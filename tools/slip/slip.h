@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Declarations for all files of rc-slip. */
 #ifndef RC_TOOL_SLIP_H
 #define RC_TOOL_SLIP_H

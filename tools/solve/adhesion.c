@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
  * --adhesion: bodies that attract each other. The loads or approaches of a list are a path: each state starts
  * from the last one, for rising and falling values. --pull-off adds a case in which the bodies are separated.

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* A case of rc-solve: solves its loads one after another, finds their figures and writes their frames. */
 #include "solve.h"
 

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Rows of every contact: layers, the sphere, the boundary, the approach. */
 #include "solve.h"
 

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* --discretization: estimates the discretization error from a second solution on a coarser grid. */
 #include "solve.h"
 

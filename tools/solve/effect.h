@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
  * An effect is a row: its options, its model, and what it adds to points, frames, messages and the report. Its
  * options and its state are in its own file, which ends in its `struct effect`; effects.list has the rows, and

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
  * Nodes yield at a hardness: --hardness, which all contacts have, or a map of it in the case. With --history the
  * shape that they leave stays for later loads.

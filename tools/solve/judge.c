@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
  * Messages about a solution on standard error: warnings of its limits, and its figures with --verbose.
  */

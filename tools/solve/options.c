@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The options of rc-solve: those of every contact, and those of its effects. */
 #include "solve.h"
 

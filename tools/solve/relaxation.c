@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
  * --relaxation: body 1 is viscoelastic. With --time each case is a time: one load that acts from 0 s on has a list
  * of times, and a list of loads has the time of each.

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Report of a solution, and plan of --dry-run. */
 #include "solve.h"
 

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
  * --relaxation with --speed: body 2 slides steadily over the viscoelastic body 1, a case a speed. One load
  * has a list of speeds, one speed a list of loads, and lists of equal length belong together.

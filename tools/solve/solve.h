@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
  * The interface of this folder: a run of rc-solve. effect.h has the rows that it walks.
  */

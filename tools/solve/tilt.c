@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* --tilt free: the counter body turns until no moment acts on it. */
 #include "solve.h"
 

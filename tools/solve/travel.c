@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
  * --travel: the contact travels along x over the map, a case a position. A ball (--radius) or the surface of
  * --counter is pressed on the whole map, or on a window that goes along. With --yield the plastic strain

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
  * --yield: body 1 yields in its volume. A load is first solved for an elastic body. If the stresses stay
  * below the yield stress everywhere, this is the solution, and no plastic volume was computed. Otherwise the

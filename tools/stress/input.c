@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The pressure, tractions and body of a case, from the stream and the options that rc-stress and rc-fatigue
  * share. */
 #include "stress.h"

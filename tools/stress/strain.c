@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
  * The plastic strain that follows the pressure in a case, as rc-solve --yield writes it. For each slab, from
  * the surface down, it has exx eyy exy exz eyz, and peeq, which causes no stress.

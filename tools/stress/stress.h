@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
  * The interface of this folder: --report and --dry-run of rc-stress, and the plastic strain in a case.
  */

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Shapes: checks of their options, their functions, and the table of them. */
 #include "synth.h"
 

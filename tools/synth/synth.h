@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The interface of this folder: the shapes of rc-synth. */
 #ifndef RC_SYNTH_SHAPES_H
 #define RC_SYNTH_SHAPES_H

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
  * Tables of numbers in columns, from text files. Tabs, else semicolons (with which numbers may have a decimal
  * comma), else commas, else blanks separate the cells of a line. '#' begins a comment. A first line without

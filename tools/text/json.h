@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* JSON objects for reports, one per line: fields in the order in which they are given; unknown is null. */
 #ifndef RC_JSON_H
 #define RC_JSON_H

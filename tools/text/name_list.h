@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* A list of names for a message: a dozen of them, and their number. */
 #ifndef RC_NAME_LIST_H
 #define RC_NAME_LIST_H

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Names as users type them: in British or American spelling, and with mistakes. */
 #ifndef RC_NAMES_H
 #define RC_NAMES_H

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Numbers and words for people to read. Without _to a text lives until the end of the block. */
 #ifndef RC_SHOWN_NUMBERS_H
 #define RC_SHOWN_NUMBERS_H

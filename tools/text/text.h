@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
  * The interface of this folder: numbers, units and names as users type and read them, tables of numbers, and
  * JSON. Nothing here depends on a tool.

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Numbers as users write them on a command line: "240N", "6GPa", "1.1um", "0:50um:45". */
 #ifndef RC_UNITS_H
 #define RC_UNITS_H

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
  * Gzip files (RFC 1952) with one or several members. A few packed bytes can give any number of bytes, so the
  * data are unpacked twice. The first pass counts and checks them piece by piece; the second unpacks into

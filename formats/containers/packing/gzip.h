@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Gzip files; see gzip.c. */
 #ifndef RC_GZIP_H
 #define RC_GZIP_H

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Streams of zlib (RFC 1950) inside files. */
 #ifndef RC_INFLATE_H
 #define RC_INFLATE_H

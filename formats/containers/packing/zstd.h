@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Frames of Zstandard (RFC 8878) inside files; only this file uses libzstd; without it such frames are
  * refused. */
 #ifndef RC_ZSTD_H

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
  * BCR and BCRF (ImageMet): a header of key = value lines, filled up to 2048 bytes, then numbers, row 0 first.
  * They are 16-bit in bit2nm nanometres, or 32-bit floats in zunit. Where zmin is given, the lowest of them is

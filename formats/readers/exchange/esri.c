@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
  * ESRI ASCII grid. Lines of a key and a number (ncols, nrows, corner, cellsize, NODATA_value) come first.
  * Then come the values, the top row first. The file has no unit.

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
  * Surfer grids, bottom row first, have three kinds. DSAA is text: columns and rows, limits of x, y and z, the
  * values. DSBB is the same in binary with 32-bit floats. DSRB has sections of a name, a length and bytes. The

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
  * Gwyddion Simple Field: a line that says so, `key = value` lines, and 1 to 4 NUL up to a multiple of 4
  * bytes. Then follow 32-bit floats, little-endian, the top row first; NaN is a missing point.

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
  * Gwyddion's own format: GWYP and a tree of objects, little-endian. An object is its name, a NUL, its size in
  * 32 bits and its items. An item is its name, a NUL, a letter for the type and the value. At the top, items

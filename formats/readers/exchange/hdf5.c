@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
  * HDF5: every dataset of numbers with two dimensions is a channel, rows by columns, row 0 first.
  * The attributes dx and dy (m) and unit or units, as rc-export writes them, say what it is;

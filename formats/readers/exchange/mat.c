@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
  * MATLAB and Octave, MAT version 5 (save -v6, and -v7, which packs each variable with zlib): 128 bytes of
  * header, then variables. Each is an element: 8 bytes of type and size, and the content. An array has four

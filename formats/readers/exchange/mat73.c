@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
  * MATLAB, MAT version 7.3 (save -v7.3): HDF5 behind 512 bytes of MATLAB's own. Each variable is a dataset or
  * group at the top, the attribute MATLAB_class says what it is. Numbers run down the columns, so that to HDF5

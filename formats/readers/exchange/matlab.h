@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Finds the map that the variables of a MATLAB file define, in any version of the file; see mat.c,
  * mat73.c. */
 #ifndef RC_MATLAB_H

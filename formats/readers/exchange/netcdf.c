@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
  * NetCDF classic (versions 1, 2 and 5) is big-endian throughout. It has a header with dimensions, attributes
  * and variables. The values of each variable follow from its offset on. A variable along the record

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
  * NumPy array: 93 4e 55 4d 50 59, a version, the length of the header, and the header. The header is a
  * dictionary as text: {'descr': '<f8', 'fortran_order': False, 'shape': (2, 3), }. The array is [row,

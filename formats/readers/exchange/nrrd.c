@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
  * NRRD of Teem: lines `field: value` after NRRD000n up to an empty one, then the values. The first axis,
  * which is x, runs fastest; row 0 is the first. They are raw, packed with gzip, or text. Axes of one value

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
  * SDF, the surface data file of ISO 25178-71 (EUNA 15178): as text,
  *

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
  * TIFF of floats has one sample a pixel and a map a page, with the first row on top. Programs that save
  * heights so give no unit; the spacing is that of ImageJ, whose description names the unit of the resolution,

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
  * Createc DAT (STMAFM) has 16384 bytes of `key=value` lines, some keys twice ("Num.X / Num.X"). Then come the
  * planes in sequence, the top row first:

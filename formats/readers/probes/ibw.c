@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
  * Igor binary wave, version 5, in either byte order. It has 64 bytes of lengths, 320 of wave header, the
  * numbers, then texts of those lengths. A wave of one dimension is a profile, of two a map. The third one

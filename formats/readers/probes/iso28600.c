@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
  * ISO 28600, the data transfer format of ISO/TC 201 for scanning probes. It is text with 128 lines of header,
  * each known by its number alone. Then comes a line for each point with the values of its channels between

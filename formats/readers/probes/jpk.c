@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
  * JPK image scans (.jpk, .jpk-qi-image): a TIFF whose first page is a thumbnail with the data of the scan in
  * private tags. Each other page is one channel.

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
  * NT-MDT (Nova) has 33 bytes of header. Then come frames of any kind, each with its size, type and date. Two
  * kinds are maps, little-endian, the lowest row first:

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
  * PicoView MI (Molecular Imaging, Agilent): lines with the key in the first 14 columns, and a line "data"
  * that says how the numbers are stored. Then come the numbers of all buffers in sequence, little-endian, the

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
  * NanoScope (Digital Instruments, Veeco, Bruker) has a text header in sections. Then come images of whole
  * numbers, little-endian, the bottom row first.

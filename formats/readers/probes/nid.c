@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
  * Nanosurf: an INI header that ends in "#!". Then come the data of all channels in sequence, in the order of
  * their groups, the bottom row first.

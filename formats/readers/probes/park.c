@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
  * Park Systems TIFF: the image is a thumbnail; the data are the bytes of the private tag 50434, and 50435 is
  * their header. All values are little-endian in any TIFF; text is UTF-16; the lowest row comes first. A

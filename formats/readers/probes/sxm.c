@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
  * Nanonis SXM (SPECS): `:KEY:` lines, each with lines of values below it, up to `:SCANIT_END:` and the bytes
  * 1a 04. Then come floats, channel after channel, as the table DATA_INFO lists them:

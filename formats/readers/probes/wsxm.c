@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
  * WSxM (Nanotec): a text header that states its size, then the numbers, little-endian, from the bottom right
  * corner backwards. Only Z Amplitude, the height from the lowest to the highest number, gives their scale: a

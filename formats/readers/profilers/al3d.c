@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
  * Alicona AL3D: tags of 52 bytes (a key of 20, a value of 30, CR LF), then images at the places
  * that the tags name. The depth image is of 32-bit floats in metres, little-endian, row 0 first,

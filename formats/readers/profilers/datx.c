@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
  * Zygo DATX: an HDF5 file with a table /MetaData of (group, key, value); a value in braces is the name of
  * another group. Root > Measurement > Surface > Path names the dataset of heights, rows by columns. Where the

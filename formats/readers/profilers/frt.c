@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
  * FRT MicroProf has a magic line, the number of blocks, and the blocks. A block has a 16-bit kind, a length
  * and that many bytes, little-endian. Heights are whole numbers from the bottom row on; 1 marks a missing

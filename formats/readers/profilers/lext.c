@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
  * Olympus LEXT (OLS4000) is a TIFF with a page for each kind of picture. The description of the first page is
  * XML with the scales, in picometres; those of the other pages are their names. HEIGHT has the heights;

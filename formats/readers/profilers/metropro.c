@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
  * Zygo MetroPro: a header of big-endian fields, an intensity image that is passed over, and the
  * phase as 32-bit numbers, row 0 first. A height is phase * S * O * wavelength / R, where R is the

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
  * Digital Surf Mountains, MNT: a compound file whose stream ScopedContents holds the document. It has 8 bytes
  * of length, then a tree of entries. An entry is a tag (u16), a length (u64) and its content, little-endian.

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
  * Wyko OPD: the directory begins at byte 2, and the blocks follow it in the same order. The heights are in
  * one block, column by column, the bottom row first, in units of the wavelength over Mult. Each of the other

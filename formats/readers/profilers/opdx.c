@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
  * Dektak OPDx (Bruker Vision64) has "VCA DATA" and a tree of items, little-endian. An item is a name (32 bits
  * of length, the bytes), a byte for the type, and a value. Profiles are doubles below 1D_Data, maps are

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
  * Sensofar PLU is little-endian. It has a date as text, the sizes twice in the header, and 32-bit floats in
  * micrometres from byte 508 on, row 0 first. 1000001 marks a missing point.

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
  * Sensofar PLUX: a ZIP archive with index.xml. It gives the size of the image, the step of a pixel in
  * micrometres (called FOV), and the member of each layer. A member holds heights: float, little-endian,

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
  * Digital Surf: a header of 512 bytes, little-endian, a comment, a part private to the writer, and
  * the heights as whole numbers, row 0 first. A height is number * step + offset in the unit of z.

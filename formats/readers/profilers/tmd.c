@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
  * TrueMap: a line that says so, a comment that ends in NUL, sizes, lengths and offsets, 32-bit
  * floats, little-endian, row 0 first. There is no unit in the file. It is millimetres from GelSight, which

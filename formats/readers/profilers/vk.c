@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
  * Keyence VK: VK3_ and VK4_ begin with a table of offsets, little-endian. They lead to the conditions of the
  * measurement and to up to three height images of whole numbers, row 0 first, lengths in picometres. VK6 and

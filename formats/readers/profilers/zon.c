@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
  * Keyence ZON (macroscopes VR): KPK0 or KPK1, the length of a picture (u32), the picture, and a ZIP archive
  * whose members have numbers for names. One member is XML with the metres per pixel and per count, and one

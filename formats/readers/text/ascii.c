@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
  * A matrix of heights as text, with or without a header; below it others, each with its own header,
  * are further channels. Headers that are understood:

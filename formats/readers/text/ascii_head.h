@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The header of a matrix of heights as text; see ascii.c. */
 #ifndef RC_ASCII_HEAD_H
 #define RC_ASCII_HEAD_H

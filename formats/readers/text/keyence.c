@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
  * Keyence's image data as text (VK-X, VR, VHX). Rows of values are in quotes, between commas, semicolons or
  * tabs. A header of keys in the user's language, then a title alone and the heights:

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
  * The first row and column of a matrix as text: heights, labels that count rows and columns, or positions.
  *

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
  * Profiles as text: a column of positions, evenly apart, and one of heights, after a header of any kind.
  * titled_table.h describes how units and roles are found. A column that counts the points is ignored, one

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
  * SMD is the file of software measurement standards (ISO 5436-2:2001). It has records of text, each ended by
  * the byte 3,

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Tables of numbers in text that come behind a header of whatever kind, with or without titles; in
  * UTF-8, Latin-1 or UTF-16 with its mark. A file is opened once for its three readers: matrices (ascii.c),
  * profiles (profile.c) and lists of points (xyz.c). */

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
  * Wyko (Veeco, Bruker) as text: `Wyko ASCII Data File Format 0`, two flags, then names and values between
  * tabs. Then come the blocks of an OPD file, one a line: name, type, length, value. The numbers of a block of

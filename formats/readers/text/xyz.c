@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
  * Lists of points: columns x, y, z in any order of the points, which must lie on a raster, or in one line.
  * The least x and y come first; a point of the raster that the list leaves out is missing. A line of any

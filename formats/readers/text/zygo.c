@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
  * Zygo as text: `Zygo XYZ Data File - Format 1` and `Zygo ASCII Data File - Format 2`. A header whose
  * lines have their meaning by their number, up to a line `#`:

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
  * The double sum without approximation, on any lattice: the engine `direct` and the coarsest level of the
  * engine `mlms`.

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
  * The sum u_ij = sum_kl K_(i-k)(j-l) p_kl, N^2 terms without approximation: the reference for other engines.
  *

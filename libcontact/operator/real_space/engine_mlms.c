@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
  * The multi-level sum (mlms.h): N (log 1/tol)^2 operations, and little memory besides the maps.
  */

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
  * Multi-level multi-summation after Polonsky and Keer 1999 (Wear 231, section 3.1; "the paper").
  *

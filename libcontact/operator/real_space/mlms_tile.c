@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
  * One tile of one level: pressures to the coarse grid, corrections there, and displacements back.
  */

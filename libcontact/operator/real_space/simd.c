@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
  * The loops of simd_body.h for two, four and eight doubles in a register.
  */

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
  * The inner loops of the sums in real space, compiled for each width of registers. Rows are contiguous in x;
  * loops process whole vectors of x, not single nodes.

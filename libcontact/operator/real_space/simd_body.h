@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
  * The loops of simd.h for one width: WIDTH doubles in a vector, NAME(x) names of that width,
  * TARGET what the compiler may use. The file that includes this sets them, once for each width.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 'use strict';
 // A map on a canvas: zoom, place and value. The colours are those of rc-render, which draws all figures.
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 'use strict';
 // The page: forms from the option tables, runs on the server, views of their results. The tools do all work.
 

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* HDF5 files made by this test are read; files with links to other files, and decompression bombs, are
  * refused. */
 #include <stdarg.h>

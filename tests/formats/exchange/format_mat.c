@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The channels of a MAT file, refused files, and damaged files. */
 #include <stdarg.h>
 #include <stddef.h>

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* NetCDF files made by this test are read in all versions and types; damaged files and files with wrong sizes
  * are refused. */
 #include <stdarg.h>

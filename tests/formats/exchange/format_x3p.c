@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* X3P files are tested with their types, missing points, positions and checksums. */
 #include <stdarg.h>
 #include <stddef.h>

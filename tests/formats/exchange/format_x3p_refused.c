@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Every defect of an X3P file is refused with a message that names it. */
 #include <stdarg.h>
 #include <stddef.h>

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Workbooks made by this test: blocks of numbers in sheets are profiles and maps; formulas without a value
  * are refused. */
 #include <stdarg.h>

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Decoders of exported files, written from the descriptions of the formats; they share no code with
  * the writers. */
 #ifndef DECODERS_H

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* A decoder of each format that shares no code with the writer reads the written files. So does the project's
  * reader if there is one. Both find the given numbers. */
 #include <stdarg.h>

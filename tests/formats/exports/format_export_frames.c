@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Other content of written files: members and checksums, several frames; frames that a format cannot hold are
  * refused. */
 #include <stdarg.h>

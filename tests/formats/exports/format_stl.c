@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* A relief is a closed block. Every edge occurs once in each direction, its volume is the volume under the
  * map, and its upper face is the map to scale. */
 #include <stdarg.h>

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Files of arrays as NumPy, MATLAB and other programs write them. */
 #include <stdlib.h>
 #include <string.h>

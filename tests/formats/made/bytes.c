@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* A growing buffer of bytes, and the numbers in the maps of files made by hand. */
 #include "made.h"
 

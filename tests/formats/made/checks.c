@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Checks that every reader, and every map that it returns, must pass. */
 #include <stdarg.h>
 #include <stddef.h>

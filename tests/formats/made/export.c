@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Frames for the writers, and their files in memory. */
 #include <stdarg.h>
 #include <stddef.h>

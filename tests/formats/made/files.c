@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
  * Small files of every flat format, byte by byte according to its specification, without the project's
  * writers. They have 3 columns, 2 rows, and every variant that the readers support.

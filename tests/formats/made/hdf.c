@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* HDF5 files made in memory. */
 #include <stdarg.h>
 #include <stddef.h>

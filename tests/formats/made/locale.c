@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* A locale with a decimal comma, to test that numbers in files have a point in every locale. */
 #include <stdarg.h>
 #include <stddef.h>

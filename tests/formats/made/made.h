@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
  * Files made in memory for the tests of formats, byte by byte without the project's writers, and the checks
  * that every reader must pass. This folder is built once as the library `made`.

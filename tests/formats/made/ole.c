@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Compound files of one stream, and documents of Mountains in them. */
 #include <stdlib.h>
 #include <string.h>

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* A file that is opened for one list of its maps, or for one of them. */
 #ifndef MADE_OPEN_H
 #define MADE_OPEN_H

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Files of other instruments and programs, made by hand. */
 #include <math.h>
 #include <stdio.h>

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Files of scanning probe microscopes and of their programs, made by hand. */
 #include <math.h>
 #include <stdio.h>

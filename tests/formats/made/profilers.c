@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Files of profilometers and interferometers, made by hand. */
 #include <math.h>
 #include <stdlib.h>

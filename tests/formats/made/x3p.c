@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* X3P files made in memory, whose parts a test can replace. */
 #include <stdarg.h>
 #include <stddef.h>

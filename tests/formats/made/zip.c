@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* ZIP archives made in memory, for the readers of their members. */
 #include <stdarg.h>
 #include <stddef.h>

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* DATX files made by this test are read with and without the table that names their heights. Other HDF5
  * files, damaged files and heights in an unknown unit are refused. */
 #include <stdarg.h>

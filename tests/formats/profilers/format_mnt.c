@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Documents of Mountains: data other than measured surfaces are refused, and so are false tables and
  * blocks. */
 #include <stdarg.h>

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* PLUX files made by this test are read; damaged files, files with wrong sizes and decompression bombs are
  * refused. */
 #include <stdarg.h>

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Keyence ZON files made by this test: an archive after a picture, with marks for points that were not
  * measured. */
 #include <stdarg.h>

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* X3P: maps with an absolute axis, whose points have their own positions. A point is x and y, where these
  * are, and z. The places must lie on an even grid: then they say no more than its steps and directions. */
 #include <math.h>

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* X3P: main.xml, read and judged. */
 #include <math.h>
 #include <stdlib.h>

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* X3P: heights, valid points and checksums. */
 #include <math.h>
 #include <stdlib.h>

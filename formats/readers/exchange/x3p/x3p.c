@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
  * X3P, ISO 25178-72 (earlier ISO 5436-2): a ZIP archive that holds
  *

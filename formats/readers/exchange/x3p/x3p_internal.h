@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Declarations for the files of the X3P reader; see x3p.c. */
 #ifndef RC_X3P_INTERNAL_H
 #define RC_X3P_INTERNAL_H

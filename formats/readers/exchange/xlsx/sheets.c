@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* XLSX: the contents of the archive, ECMA-376. */
 #include <math.h>
 #include <stdio.h>

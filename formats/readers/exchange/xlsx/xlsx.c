@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
  * Workbooks (XLSX) are ZIP archives of XML. The reader looks in each sheet for blocks of numbers:
  * neighbouring columns that are filled over the same rows. A block, with the titles above it, is read like a

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Sheets of an XLSX workbook as cells; see xlsx.c. */
 #ifndef RC_XLSX_INTERNAL_H
 #define RC_XLSX_INTERNAL_H
