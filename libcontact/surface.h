@@ -183,8 +183,8 @@ RC_API enum rc_status rc_hole_width(const struct rc_shape *shape, const double *
 /* Relative difference below which spacings count as equal. */
 #define RC_SAME_SPACING 1e-6
 
-/* Computes means of v, which is constant in the cells of `from`, over the cells of `to`. This grid has any
- * other number of nodes on the same area; the spacings are ignored. The integral is preserved. It brings
+/* Computes means of v, which is constant in the cells of `from`, over the cells of `to`. Both grids
+ * have the same area and any numbers of nodes; the spacings are ignored. The integral is preserved. It brings
  * heights to a coarser grid, and pressures back. If v is partly missing (NaN), the mean is over the rest of
  * the cell; a cell is missing if less than half of it is measured. v and out do not overlap. */
 RC_API void rc_resample_means(const struct rc_shape *from, const double *v,
@@ -203,8 +203,8 @@ RC_API bool rc_resample_covers(const struct rc_shape *from, const struct rc_shap
  * six nodes (Keys 1981), exact for cubic polynomials and smooth to the first derivative. It wraps if
  * `periodic`; otherwise a parabola extrapolates the map. Near a missing value it is bilinear, closer constant
  * in the old cell, and missing in a missing cell. Equal cells are copied. v and out do not overlap. RC_FAIL
- * when `to` exceeds the map or memory is short. It needs another map if one axis becomes coarser and the
- * other finer, else a few rows. */
+ * when `to` exceeds the map or memory is short. The memory is another map if one axis becomes coarser and the
+ * other finer, otherwise a few rows. */
 RC_API enum rc_status rc_resample(const struct rc_shape *from, const double *v, bool periodic,
                                   const struct rc_shape *to, double *out, struct rc_err *err);
 

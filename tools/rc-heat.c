@@ -35,7 +35,7 @@ static const struct opt opts[] = {
      .help = "cycles per second: heat from the frames dissipation of rc-slip, summed over the cases"},
     {.name = "rolling", .type = OPT_NUMBER, .unit = UNIT_SPEED, AT(rolling), ABOVE_0, .arg = "V",
      .against = RULES({.with = "speed|moving",
-                      .because = "it and the creepages of the stream give the motion of both bodies"}),
+                      .because = "the speed of rolling and the creepages of the stream give both motions"}),
      .help = "speed of rolling towards +x: heat from the frame dissipation of rc-slip --creep"},
     {.name = "speed", .type = OPT_NUMBERS, .unit = UNIT_SPEED, AT(speed), .min = -INFINITY,
      .max = INFINITY, .result = true, .arg = "VX[,VY]", .help = "sliding speed along x and y"},

@@ -30,7 +30,7 @@ static const struct opt opts[] = {
      .help = "add the mirror images about two edges, and solve the contact as periodic"},
     {.group = physics_options, AT(physics)},
     {.name = "nu", .type = OPT_NUMBER, AT(nu), .min = -1, .max = 0.5, .above = true, .arg = "RATIO",
-     .against = RULES({.with = "nu1", .because = "it already gives Poisson's ratio", .remedy = "leave out --nu"}),
+     .against = RULES({.with = "nu1", .because = "--nu1 is the ratio for the stresses too", .remedy = "leave out --nu"}),
      .help = "Poisson's ratio for the stresses (default: --nu1, else 0.28)"},
     {.name = "title", .type = OPT_TEXT, AT(title), .arg = "TEXT",
      .help = "title of the page (default: the name of the file)"},

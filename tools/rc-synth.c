@@ -58,7 +58,7 @@ static const struct opt opts[] = {
      .help = "direction of a cylinder's axis, of a paraboloid's R1, of the lay of selfaffine"},
     {.name = "place", .type = OPT_NUMBERS, .unit = UNIT_M, .at = offsetof(struct synth_args, place),
      .result = true, .word = "highest", .arg = "X,Y|highest",
-     .needs = RULES({.with = "like", .word = "highest", .because = "it is the highest measured point of the file"}),
+     .needs = RULES({.with = "like", .word = "highest", .because = "the file has the highest point"}),
      .help = "indenters: position of the apex (default: the middle)"},
     {.name = "amplitude", .type = OPT_NUMBER, .unit = UNIT_M,
      .at = offsetof(struct synth_args, amplitude), .max = INFINITY, .above = true, .result = true,

@@ -50,7 +50,7 @@ static const struct opt opts[] = {
     {.name = "cycles", .type = OPT_NUMBERS, AT(cycles), .min = 0, .max = INFINITY, .result = true,
      .arg = "LIST", .help = "instead: numbers of cycles or passes, with a frame slip or dissipation of rc-slip"},
     {.name = "motion", .type = OPT_TEXT, AT(motion), .result = true, .arg = "same|track:LENGTH|sliding",
-     .needs = RULES({.with = "counter", .word = "sliding", .because = "it is the surface of body 2"}),
+     .needs = RULES({.with = "counter", .word = "sliding", .because = "body 2 needs a surface"}),
      .against = RULES({.with = "cycles", .word = "track|sliding",
                        .because = "in a cycle of fretting the same points stay in contact"},
                       {.with = "until", .word = "sliding", .because = "it is not implemented"}),

@@ -834,8 +834,8 @@ rc_wear_check(struct rc_wear_problem *law, size_t n, struct rc_err *err)
     if (law->energy != NULL &&
         (law->part != NULL || law->track > 0 || law->two_bodies || law->until_area > 0 ||
          law->until_depth > 0 || law->until_spread > 0))
-        return rc_err_set(err, "wear by a given energy has no coefficient of each node, track, "
-                               "sliding or condition beside it");
+        return rc_err_set(err, "wear by a given energy excludes coefficients of nodes, a track, "
+                               "sliding and conditions: leave them out");
     if (!(law->track >= 0) || isinf(law->track))
         return rc_err_set(err, "track of %g m: it must be at least 0 and finite", law->track);
     if (law->track > 0 && law->k[1] > 0 && law->part != NULL)

@@ -100,7 +100,7 @@ claim "they must be unique" takes 3 'z-axis, scan b'
 claim "a number counts as in --list" takes 2 2
 claim "a complete name has priority" takes 4 'Z-Axis Sensor, Scan forward'
 claim "upper and lower case are equal" takes 1 'DEFLECTION, scan forward'
-refuses 1 "many.nid: 'z-a' begins the names of 3 channels: 2 'Z-Axis, Scan forward' in m, 3 'Z-Axis, Scan backward' in m, 4 'Z-Axis Sensor, Scan forward' in m" \
+refuses 1 "many.nid: 'z-a' is the beginning of 3 names of channels: 2 'Z-Axis, Scan forward' in m, 3 'Z-Axis, Scan backward' in m, 4 'Z-Axis Sensor, Scan forward' in m" \
     "several that it could be are named" 'rc-import --channel z-a many.nid'
 refuses 1 "no channel 'Axis'; there are 1 'Deflection, Scan forward' in m, 2 " \
     "the middle of a name is none" 'rc-import --channel Axis many.nid'

@@ -50,7 +50,7 @@ claim "--dry-run lists the tilt" bash -c 'says "tilt +on" rc-solve --dry-run --l
 
 # ---- refusals ----
 
-refuses 2 '--tilt free does not work with --periodic, because it has no centre of tilt' "a periodic map" "rc-solve --load 1N --estar 1GPa --periodic --tilt free rough.rcg"
+refuses 2 '--tilt free does not work with --periodic, because a periodic map has no centre of tilt' "a periodic map" "rc-solve --load 1N --estar 1GPa --periodic --tilt free rough.rcg"
 refuses 2 '--tilt free does not work with --history' "a history" "rc-solve --load 1N --estar 1GPa --hardness 1GPa --history --tilt free rough.rcg"
 refuses 2 '--at has no effect without --tilt free' "a place without" "rc-solve --load 1N --estar 1GPa --at 1um,0 rough.rcg"
 refuses 2 'it must be X,Y' "half a place" "rc-solve --load 1N --estar 1GPa --tilt free --at 1um rough.rcg"

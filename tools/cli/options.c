@@ -23,7 +23,7 @@ static const struct opt common[] = {
      .max = 4096, .arg = "N", .help = "threads to use (default: RC_THREADS, else all cores)"},
     {.name = "memory", .type = OPT_NUMBER, .unit = UNIT_BYTES, .min = 1, .max = 1e18,
      .arg = "LIMIT", .help = "limit of the memory, as 512M or 4G; larger runs are refused"},
-    {.name = "type", .type = OPT_CHOICE, .arg = "f64|f32", .help = "of the values written"},
+    {.name = "type", .type = OPT_CHOICE, .arg = "f64|f32", .help = "type of the values written"},
     {.name = "quiet", .type = OPT_FLAG, .at = offsetof(struct tool, quiet),
      .help = "no warnings"},
     {.name = "verbose", .type = OPT_FLAG, .at = offsetof(struct tool, verbose),

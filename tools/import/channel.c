@@ -132,8 +132,8 @@ import_pick(const struct rc_channel *channel, size_t n, const char *wanted, bool
     if (found == 1)
         return RC_OK;
     if (found > 1)
-        return rc_err_set(err, "'%s' begins the names of %zu channels: %s", rc_word_shown(wanted),
-                          found, names_of(channel, n, wanted, names));
+        return rc_err_set(err, "'%s' is the beginning of %zu names of channels: %s",
+                          rc_word_shown(wanted), found, names_of(channel, n, wanted, names));
     for (size_t k = 0; k < n; k++)
         name_nearer(wanted, channel[k].name, nearest);
     return rc_err_set(err, "no channel '%s'; there are %s%s", rc_word_shown(wanted),

@@ -51,7 +51,7 @@ const struct opt history_option[] = {
 const struct opt tilt_options[] = {
     {.name = "tilt", .type = OPT_CHOICE, .at = offsetof(struct tilt_args, tilt), .result = true,
      .list = (const char *const[]){"fixed", "free", NULL},
-     .against = RULES({.with = "periodic", .word = "free", .because = "it has no centre of tilt"},
+     .against = RULES({.with = "periodic", .word = "free", .because = "a periodic map has no centre of tilt"},
                       {.with = "history", .word = "free", .because = "it is not implemented"}),
      .help = "free: the counter body tilts until the moment is zero (default fixed)"},
     {.name = "at", .type = OPT_NUMBERS, .unit = UNIT_M, .at = offsetof(struct tilt_args, at),

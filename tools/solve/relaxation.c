@@ -92,8 +92,8 @@ warn_of_material(struct run *run)
                   law.misfit);
     if (m->relaxed == 0)
         tool_warn(&run->d.t, "--relaxation: the relaxed modulus is 0, so that body 1 flows without "
-                             "end under a load: for a solid give the modulus that stays, first as "
-                             "in 1MPa,9MPa:1ms, or in a line `inf E` of a table");
+                             "end under a load: for a solid give its relaxed modulus, first as in "
+                             "1MPa,9MPa:1ms, or in a line `inf E` of a table");
     if (m->terms > 0 && shortest > 0 && shortest < m->time[0])
         tool_warn(&run->d.t,
                   "--time: %s passes between two times, and the shortest relaxation time is %s: "

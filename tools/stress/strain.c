@@ -66,8 +66,8 @@ stress_strain_take(struct tool *t, const struct rc_grid *p, struct rc_grid *g,
     if (!begin(t, p, s))
         tool_refuse(
             t, g,
-            "plastic strain, but the pressure has no key slabs: it is not that of this body: "
-            "take the stream as rc-solve has written it");
+            "the pressure before this plastic strain has no key slabs, so it belongs to another "
+            "body: take the stream as rc-solve has written it");
     tool_demand_grid_of(t, g, p);
     keep(t, s, g, part);
     return true;

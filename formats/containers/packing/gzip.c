@@ -92,8 +92,8 @@ unpack(const struct rc_file *file, size_t most, unsigned char *to, size_t *size,
         if (n > most)
             return rc_err_set(
                 err,
-                "its %zu bytes of gzip data unpack to more than %zu MiB, which is the limit for so "
-                "few: --memory LIMIT sets another",
+                "its %zu bytes of gzip data unpack to more than %zu MiB, the limit for a file of "
+                "this size: --memory LIMIT sets another",
                 file->size, most >> 20);
         if (said != Z_OK && said != Z_STREAM_END)
             return refuse(&z, said, n, err);

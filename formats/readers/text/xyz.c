@@ -76,9 +76,10 @@ find_axis(const struct cloud *c, size_t which, struct axis *axis, struct rc_err 
     for (size_t k = 0; k < points; k++) {
         start = (sorted[k] - axis->first) / axis->step;
         if (!(fabs(start - round(start)) < 0.1))
-            return rc_err_set(
-                err, "the points are on no raster: %zu different %c from %s on, not evenly spaced",
-                axis->n, "xy"[which], rc_number(axis->first));
+            return rc_err_set(err,
+                              "the points are on no raster: their %zu values of %c from %s on are "
+                              "not evenly spaced",
+                              axis->n, "xy"[which], rc_number(axis->first));
     }
     return RC_OK;
 }
