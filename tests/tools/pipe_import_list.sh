@@ -6,7 +6,7 @@
 printf '# Channel: Topo\n# Width: 6 um\n# Height: 5 um\n# Value units: nm\n1 2 3\n4 5 6\n' >a.txt
 sed 's/Topo/Other/' a.txt >c.txt
 printf 'neither here nor there\n' >b.txt
-refuses 1 '^rc-import: b.txt: not recognised' "a bad file among good ones is told of" \
+refuses 1 '^rc-import: b.txt: not recognised' "a bad file among good ones is named in a message" \
     'rc-import --list a.txt b.txt c.txt >list.txt'
 claim "--list continues before and after a bad file" test "$(grep -o '^[ac].txt: ascii\|Topo$\|Other$' list.txt | tr '\n' ' ')" = \
     "a.txt: ascii Topo c.txt: ascii Other "

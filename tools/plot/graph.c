@@ -614,7 +614,7 @@ set_legend(struct page *p)
     legend_add(p, 1 + g->n + HOLLOW, g->hollow);
     legend_add(p, 1 + g->n + FRONT, g->front);
     legend_add(p, 0, g->note);
-    snprintf(text, sizeof text, "%zu %s at or below 0 cannot be on a logarithmic axis", notes->lost,
+    snprintf(text, sizeof text, "%zu %s at or below 0 left out: logarithmic axis", notes->lost,
              notes->lost == 1 ? "point" : "points");
     legend_add(p, 0, notes->lost > 0 ? text : NULL);
 }
