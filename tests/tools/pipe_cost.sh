@@ -141,7 +141,7 @@ refuses 1 'case 2.*a picture is for one case' "a picture of two cases" "rc-cost 
 
 rc-synth sphere --nx 96 --dx 5um --radius 7.5mm -o ball.rcg
 claim "trials above --limit are omitted and named" bash -c '
-    rc-synth sphere --nx 500 --dx 1um --radius 7.5mm |
+    rc-synth sphere --nx 800 --dx 1um --radius 7.5mm |
         rc-cost --load 500N --estar 114GPa --kernel direct --threads 1 --limit 4s >short.txt &&
     [ "$(grep -c "^# pcg, direct, .*: left out: it would take about .* left of --limit" short.txt)" = 3 ]'
 claim "--dry-run prints the expected time and runs no trial" bash -c '
