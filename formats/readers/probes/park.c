@@ -160,8 +160,8 @@ park_open(struct park *p, const struct rc_file *file, struct rc_err *err)
                           (unsigned)version, VERSION_1, VERSION_2);
     if (!rc_tiff_bytes(p->tiff, DATA_TAG, &p->data, &p->size) ||
         !rc_tiff_bytes(p->tiff, HEADER_TAG, &header.data, &header.size))
-        return rc_err_set(err, "tag %d (data) or tag %d (header of the data) is missing",
-                          DATA_TAG, HEADER_TAG);
+        return rc_err_set(err, "tag %d (data) or tag %d (header of the data) is missing", DATA_TAG,
+                          HEADER_TAG);
     rc_tiff_text(p->tiff, RC_TIFF_DATE, p->date, sizeof p->date);
     rc_tiff_text(p->tiff, RC_TIFF_SOFTWARE, p->program, sizeof p->program);
     return take_header(p, &header, version == VERSION_2, err);
