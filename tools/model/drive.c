@@ -318,8 +318,8 @@ put_row(struct drive *d, const struct rc_model *m, const struct rc_point *at)
         report_effects(r, d->calls.effects(d));
     report_seconds(r,
                    (const struct report_phase[]){
-                       {"setup", d->setup}, {"iterate", d->course.iterate}, {NULL, 0}},
-                   d->looked - d->began);
+                       {"setup", d->is.setup}, {"iterate", d->course.iterate}, {NULL, 0}},
+                   d->is.looked - d->is.began);
     report_memory(r);
     report_finish_row(r);
 }
@@ -416,7 +416,7 @@ tell(struct drive *d, const struct rc_model *m, const char *where)
                                    shown(value, rc_model_number(m, *name), f->unit));
     }
     if (at > 0)
-        tool_note(&d->t, "%s: %s%.2g s", where, text, tool_now() - d->began);
+        tool_note(&d->t, "%s: %s%.2g s", where, text, tool_now() - d->is.began);
 }
 
 static bool
@@ -512,7 +512,7 @@ end_point(struct drive *d, struct rc_model *m)
     struct rc_point at;
 
     tool_must(&d->t, d->course.g, rc_model_look(m, &at, &d->t.err));
-    d->looked = tool_now();
+    d->is.looked = tool_now();
     d->is.silent = false;
     (d->calls.judge != NULL ? d->calls.judge : drive_judge_point)(d, m);
     if (!d->is.silent)
@@ -536,14 +536,14 @@ drive_points(struct drive *d, const struct rc_grid *g, struct rc_model *m)
     for (d->at = 0; d->at < d->points && !d->is.ended; d->at++) {
         if (d->at > 0 && tool_interrupted() != 0)
             break; /* the first point is written in any case */
-        d->began = tool_now();
+        d->is.began = tool_now();
         c->number++;
         c->checkpoint = d->checkpoint;
         mark_point(d);
         if (d->calls.begin != NULL)
             d->calls.begin(d, m);
         course_set(c, m, &d->point[d->at]);
-        d->setup = tool_now() - d->began;
+        d->is.setup = tool_now() - d->is.began;
         tool_catch_signals(); /* a tool may release them for the first plan */
         d->status = course_run(c, m);
         end_point(d, m);

@@ -160,6 +160,8 @@ struct drive_is {
     bool lasts;  /* set by the tool, which frees the model: it serves further cases */
     bool silent; /* set by `judge`: the point has no frames and no row */
     bool spare;  /* set by the tool: the values of the heights are free for those of frames */
+    double began, setup,
+        looked; /* s: start of the point; until its first step; its figures are known */
 };
 
 struct drive {
@@ -188,8 +190,6 @@ struct drive {
     size_t points, at; /* at: the point that is reached */
     struct drive_is is;
     enum rc_status status;
-    double began, setup,
-        looked; /* s: start of the point; until its first step; its figures are known */
 };
 
 /* Ends the tool where options contradict each other; the lists must have the same length, or one number. axes

@@ -55,8 +55,8 @@ end_row(struct drive *d, bool converged)
     report_effects(r, effects_of(run));
     report_seconds(r,
                    (const struct report_phase[]){
-                       {"setup", d->setup}, {"iterate", d->course.iterate}, {NULL, 0}},
-                   d->looked - d->began);
+                       {"setup", d->is.setup}, {"iterate", d->course.iterate}, {NULL, 0}},
+                   d->is.looked - d->is.began);
     report_memory(r);
 }
 

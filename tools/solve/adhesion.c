@@ -236,7 +236,7 @@ tell(struct run *run, const char *where, const struct rc_adhesion_state *f, bool
                   "%s: pull-off at %s +- %s, at approach %s; %zu states, %.3g convolutions, %.2g s",
                   where, shown_in_unit(f->pull_off_load, "N"),
                   shown_in_unit(f->pull_off_spread, "N"), shown_in_unit(f->pull_off_approach, "m"),
-                  f->states, f->convolutions, tool_now() - run->d.began);
+                  f->states, f->convolutions, tool_now() - run->d.is.began);
     tool_note(
         &run->d.t,
         "%s: force %s, of which %s attracts, contact area %s (%.3g %% of the map, %zu nodes), "
@@ -246,7 +246,7 @@ tell(struct run *run, const char *where, const struct rc_adhesion_state *f, bool
         shown_area(f->contact_area), 100 * f->contact_fraction, f->contact_nodes,
         shown_in_unit(f->approach, "m"), f->stability, f->jumps, f->jumps == 1 ? "jump" : "jumps",
         f->converged ? "converged" : "not converged", f->pressure_error, f->iterations,
-        f->convolutions, tool_now() - run->d.began);
+        f->convolutions, tool_now() - run->d.is.began);
 }
 
 static void

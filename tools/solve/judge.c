@@ -178,7 +178,7 @@ tell(struct run *run, const char *where, const struct solution *s)
               shown_in_unit(c->max_pressure, "Pa"), over_nodes,
               isnan(c->approach) ? "unknown" : shown_in_unit(c->approach, "m"),
               shown_in_unit(c->mean_gap, "m"), c->converged ? "converged" : "not converged", error,
-              *s->took != '\0' ? s->took : took, tool_now() - run->d.began);
+              *s->took != '\0' ? s->took : took, tool_now() - run->d.is.began);
 }
 
 void

@@ -191,11 +191,11 @@ solve_report(struct drive *d, const struct rc_model *m)
                                       : by != NULL   ? by->engine
                                                      : "left out: no load"));
     report_seconds(r,
-                   (const struct report_phase[]){{"setup", run->d.setup},
+                   (const struct report_phase[]){{"setup", run->d.is.setup},
                                                  {"iterate", run->d.course.iterate},
                                                  {"result", run->result},
                                                  {NULL, 0}},
-                   run->done - run->d.began);
+                   run->done - run->d.is.began);
     report_memory(r);
     report_ranks(r, &run->d.t);
     /* the columns stay the same for all cases */
