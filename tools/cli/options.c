@@ -701,7 +701,6 @@ options_read(struct tool *t, int argc, char **argv)
     t->operand = argv + optind;
     t->operands = (size_t)(argc - optind);
     t->verbose = t->verbose || t->debug;
-    rules_check(t);
     warn_of_commas(t);
     warn_of_repetition(t, twice);
 }
