@@ -150,7 +150,7 @@ stiffness_state(const struct run *run)
     if (is_asked(run))
         return "on";
     snprintf(text, sizeof text, "left out: %s",
-             without != NULL ? without->no_stiffness : "one load and no --stiffness");
+             without != NULL ? without->no_stiffness : "no --stiffness");
     return text;
 }
 
