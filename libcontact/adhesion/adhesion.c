@@ -1325,6 +1325,9 @@ rc_adhesion_solver_past(struct rc_adhesion_solver *a)
     return &a->past;
 }
 
+/* Of E*: a state of a file beyond it cannot be one of these bodies, and its eigenvalue would be rounding. */
+static const double most_pressure = 1e9;
+
 enum rc_status
 rc_adhesion_solver_start(struct rc_adhesion_solver *a, const double *pressure, double approach,
                          struct rc_err *err)
@@ -1337,6 +1340,9 @@ rc_adhesion_solver_start(struct rc_adhesion_solver *a, const double *pressure, d
     for (size_t k = 0; k < g->problem.nx * g->problem.ny; k++)
         if (!isfinite(pressure[k]))
             return rc_err_set(err, "pressure %zu is not a finite number", k);
+        else if (fabs(pressure[k]) > most_pressure * a->whole->modulus)
+            return rc_err_set(err, "pressure %zu, %g Pa, is more than %g of E*", k, pressure[k],
+                              most_pressure);
     free_coarse(&a->grids);
     memset(g->maps.d, 0, g->problem.n * sizeof *g->maps.d);
     for (size_t j = 0; j < g->problem.ny; j++)

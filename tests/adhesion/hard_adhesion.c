@@ -84,6 +84,9 @@ requests(void **state)
     assert_int_equal(rc_adhesion_solver_set_approach(a, INFINITY, &err), RC_FAIL);
     p[7] = INFINITY;
     assert_int_equal(rc_adhesion_solver_start(a, p, 0, &err), RC_FAIL);
+    p[7] = -1e37; /* of a damaged state: no contact of these bodies has it */
+    assert_int_equal(rc_adhesion_solver_start(a, p, 0, &err), RC_FAIL);
+    assert_non_null(strstr(err.text, "pressure 7, -1e+37 Pa"));
     assert_int_equal(rc_adhesion_solver_start(a, h, NAN, &err), RC_FAIL);
     rc_adhesion_solver_free(a);
     h[9] = NAN;
