@@ -54,8 +54,8 @@ rc_shape_coarser(const struct rc_shape *s)
                              s->ny > 1 ? 2 * s->dy : s->dy};
 }
 
-/* Appends ": take one of A, B, C" to the sentence, the names of the rows k = 0, 1, ... (NULL past the last), each
- * once. Returns RC_FAIL. */
+/* Appends ": take one of A, B, C" to the sentence, the names of the rows k = 0, 1, ... (NULL past the
+ * last), each once. Returns RC_FAIL. */
 enum rc_status rc_err_choices(struct rc_err *err, const char *(*row)(const void *of, size_t k),
                               const void *of);
 

@@ -64,8 +64,8 @@
  *     rc_stress_free or rc_stress_set_loads, and the map of rc_model_set_compliance until another is set.
  *   - Members of options: keep what they point to, unchanged, until the object is freed.
  *   - Inner models: the maker of an outer model owns the inner model from the call on, also when it fails. An
- *     inner model NULL makes it fail with the message of that one, so that makers can be nested. rc_model_free
- *     of the outermost model frees all.
+ *     inner model NULL makes it fail with the message of that one, so that makers can be nested.
+ *     rc_model_free of the outermost model frees all.
  *   - Results: what a returned pointer points to belongs to the object, until the next call that changes it.
  *
  * Tolerance. `tol` bounds the estimated error of the object that has it. An outer model does not divide its

@@ -15,8 +15,8 @@
  *            rc_model_number(m, "max_pressure"));
  *     rc_model_keep(m, &err); // without it the next go forgets the point
  *
- * rc_model_run is the go with all steps, where the caller has nothing to do between them. A maker checks the problem; the first go allocates the large arrays. Everything
- * is SI. This header comes with contact.h.
+ * rc_model_run is the go with all steps, where the caller has nothing to do between them. A maker checks the
+ * problem; the first go allocates the large arrays. Everything is SI. This header comes with contact.h.
  */
 #ifndef RC_MODEL_H
 #define RC_MODEL_H

@@ -42,7 +42,7 @@ static const struct opt opts[] = {
     {.name = "criteria", .type = OPT_WORDS, AT(criteria), .result = true, .words = criterion_word,
      .arg = "LIST",
      .needs = RULES({.with = "pass", .word = "shakedown",
-                    .because = "only then the residual stresses do not vary along the travel"}),
+                     .because = "only then the residual stresses do not vary along the travel"}),
      .help = "of %s (default: crossland, dangvan, amplitude)"},
     {.name = "dangvan", .type = OPT_CHOICE, AT(dangvan), .result = true, .arg = "cut|full",
      .needs = RULES({.with = "criteria dangvan"}),
@@ -51,7 +51,8 @@ static const struct opt opts[] = {
      .help = "the contact passes along x or y: all points of a line get the stresses of the whole line"},
     {.name = "depths", .type = OPT_NUMBERS, .unit = UNIT_M, AT(depths), .min = 0,
      .max = INFINITY, .result = true, .word = "auto", .arg = "LIST",
-     .one_of = RULES({.with = "depths", .remedy = "as in --depths 1um,5um or --depths 1um:50um:log:20, or leave "
+     .one_of = RULES({.with = "depths",
+                      .remedy = "as in --depths 1um,5um or --depths 1um:50um:log:20, or leave "
                                                 "their choice to --depths auto"}),
      .help = "depths: a,b,c, a:b:n or a:b:log:n, or auto: dense near the surface"},
     {.name = "residual", .type = OPT_TEXT, AT(residual), .result = true, .arg = "FILE",

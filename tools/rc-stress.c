@@ -19,7 +19,8 @@ static struct args {
 static const struct opt opts[] = {
     {.name = "depths", .type = OPT_NUMBERS, .unit = UNIT_M, AT(depths), .min = 0,
      .max = INFINITY, .result = true, .word = "auto", .arg = "LIST",
-     .one_of = RULES({.with = "depths", .remedy = "as in --depths 0,1um,5um or --depths 0:50um:26, or leave their "
+     .one_of = RULES({.with = "depths",
+                      .remedy = "as in --depths 0,1um,5um or --depths 0:50um:26, or leave their "
                                                 "choice to --depths auto"}),
      .help = "depths: a,b,c, a:b:n or a:b:log:n, or auto: dense near the surface"},
     {.name = "components", .type = OPT_WORDS, AT(components), .result = true,

@@ -36,10 +36,12 @@ static const struct opt opts[] = {
      .needs = RULES({.with = "archard", .because = "V = K P s/H"}),
      .help = "H of --archard; 600HV is 600 times 9.80665 MPa. The bound of the pressure is that of rc-solve"},
     {.name = "energy", .type = OPT_TEXT, AT(energy), .result = true, .arg = "K1[,K2]",
-     .needs = RULES({.with = "mu|cycles", .because = "the energy is mu P s, or with --cycles the frame dissipation "
+     .needs = RULES({.with = "mu|cycles",
+                     .because = "the energy is mu P s, or with --cycles the frame dissipation "
                                                     "of rc-slip --output height,dissipation"}),
      .against = RULES({.with = "coefficient|archard", .because = "each says how much wears"}),
-     .help = "instead: volume per energy of friction, in mm3/J or m3/J: of --mu, or of the frame dissipation"},
+     .help = "instead: volume per energy of friction, in mm3/J or m3/J: of --mu, or of the frame "
+             "dissipation"},
     {.name = "mu", .type = OPT_NUMBER, AT(mu), ABOVE_0, .result = true, .arg = "COEFFICIENT",
      .needs = RULES({.with = "energy", .because = "the energy is mu P s"}),
      .help = "coefficient of friction of --energy"},
@@ -48,7 +50,8 @@ static const struct opt opts[] = {
      .one_of = RULES({.with = "distance|cycles", .remedy = "as in --distance 1m,10m"}),
      .help = "sliding distances from the start, each a case"},
     {.name = "cycles", .type = OPT_NUMBERS, AT(cycles), .min = 0, .max = INFINITY, .result = true,
-     .arg = "LIST", .help = "instead: numbers of cycles or passes, with a frame slip or dissipation of rc-slip"},
+     .arg = "LIST",
+       .help = "instead: numbers of cycles or passes, with a frame slip or dissipation of rc-slip"},
     {.name = "motion", .type = OPT_TEXT, AT(motion), .result = true, .arg = "same|track:LENGTH|sliding",
      .needs = RULES({.with = "counter", .word = "sliding", .because = "body 2 needs a surface"}),
      .against = RULES({.with = "cycles", .word = "track|sliding",

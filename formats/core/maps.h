@@ -116,8 +116,8 @@ enum rc_status rc_map_is_text(struct rc_map *map, const struct rc_file *file, si
 /* Describes a file; RC_FAIL with the reason. */
 typedef enum rc_status rc_maps_find(const struct rc_file *file, struct rc_maps *maps,
                                     struct rc_err *err);
-/* For find: `size` zero bytes for what the reader opens. rc_maps_shut calls close, unless it is NULL, and frees
- * them, also where find fails. NULL with the reason. */
+/* For find: `size` zero bytes for what the reader opens. rc_maps_shut calls close, unless it is NULL,
+ * and frees them, also where find fails. NULL with the reason. */
 void *rc_maps_open(struct rc_maps *maps, size_t size, void (*close)(void *opened),
                    struct rc_err *err);
 void rc_maps_shut(struct rc_maps *maps);
@@ -132,7 +132,8 @@ RC_OWNER(rc_maps)
 enum rc_status rc_maps_describe(struct rc_maps *maps, rc_maps_find *find, struct rc_err *err);
 /* Gives their number; the first `most` are listed. */
 size_t rc_maps_list(const struct rc_maps *maps, struct rc_channel *channel, size_t most);
-/* Reads one of them, as often as it is asked for. The wish may add a spacing and a unit to that of the maps. */
+/* Reads one of them, as often as it is asked for. The wish may add a spacing and a unit to that of the
+ * maps. */
 struct rc_grid *rc_maps_read(struct rc_maps *maps, const struct rc_wish *wish, size_t index,
                              struct rc_notes *notes, struct rc_err *err);
 

@@ -638,9 +638,9 @@ begin_coarse(struct rc_adhesion_solver *a)
     a->stage = STAGE_COARSE;
 }
 
-/* Under a load the iteration moves the bodies as a whole, past barriers of the energy. With a frozen attraction
- * Phi has one minimum, and its gap lies between the start and the nearest state, if A has no positive entries
- * outside its diagonal. */
+/* Under a load the iteration moves the bodies as a whole, past barriers of the energy. With a frozen
+ * attraction Phi has one minimum, and its gap lies between the start and the nearest state, if A has no
+ * positive entries outside its diagonal. */
 static bool
 freezes(enum rc_gap_control control, const struct way *way, bool pulls)
 {
@@ -834,7 +834,8 @@ thaws(struct rc_adhesion_solver *a)
     return !g->frozen.on;
 }
 
-/* A step with frozen attraction. When the error has fallen, the attraction becomes that of the present gap. */
+/* A step with frozen attraction. When the error has fallen, the attraction becomes that of the present
+ * gap. */
 static enum rc_status
 turn(struct rc_adhesion_solver *a)
 {

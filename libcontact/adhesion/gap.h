@@ -146,7 +146,8 @@ struct rc_gap_run {
     size_t iterations;
 };
 
-/* A row of the grid is one work item. The functions of rows, and those that call them, get the whole state. */
+/* A row of the grid is one work item. The functions of rows, and those that call them, get the whole
+ * state. */
 struct rc_gap {
     struct rc_gap_problem problem;
     struct rc_gap_set set;

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
- * The model of adhesion: rc_adhesion_solver along a history of loads or approaches; the approach -INFINITY is a
- * retraction to the pull-off load. Keeping a point adds its plastic dents to the shape.
+ * The model of adhesion: rc_adhesion_solver along a history of loads or approaches; the approach -INFINITY is
+ * a retraction to the pull-off load. Keeping a point adds its plastic dents to the shape.
  */
 #include "adhesion.h"
 

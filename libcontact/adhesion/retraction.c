@@ -45,8 +45,9 @@ static const double growth = 1.5;
 /* The same while the load rises. Half takes 6 % more convolutions, double 2 % (9 pull-offs of
  * bench/constants.py). */
 static const double growth_after = 2;
-/* A fine step does not resolve events that are closer together than this fraction of the lowest load. Half changes the convolutions by less than
- * 1 %, double takes 3 % more (9 pull-offs of bench/constants.py). */
+/* A fine step does not resolve events that are closer together than this fraction of the lowest load.
+ * Half changes the convolutions by less than 1 %, double takes 3 % more (9 pull-offs of
+ * bench/constants.py). */
 static const double fine_step = 0.05;
 /* Fraction of the lowest load: smaller differences do not count. Half takes 2 % more convolutions.
  * Double takes 4 % fewer, and the pull-off load is up to 6e-4 off (9 pull-offs of

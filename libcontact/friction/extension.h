@@ -73,8 +73,8 @@ bool rc_extension_set(struct rc_extension *e, const unsigned char *face, double 
 /* z = M r; both are 0 along directions that are not free. */
 void rc_extension_apply(struct rc_extension *e, float *const r[2], float *const z[2]);
 
-/* Removes from (x, y) the components that are not free at a node with tractions q. The part along the tangent is
- * a number times the tangent, which is exactly 0 where (x, y) and q have one direction. */
+/* Removes from (x, y) the components that are not free at a node with tractions q. The part along the
+ * tangent is a number times the tangent, which is exactly 0 where (x, y) and q have one direction. */
 static inline void
 rc_free_part(unsigned char face, double qx, double qy, double *x, double *y)
 {

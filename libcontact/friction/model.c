@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
- * The model of friction: rc_friction_solver under the pressure of an inner model, or under a known one. Friction depends
- * on the path, so load, force and displacement change in proportion from point to point, in increments.
+ * The model of friction: rc_friction_solver under the pressure of an inner model, or under a known one.
+ * Friction depends on the path, so load, force and displacement change in proportion from point to point, in
+ * increments.
  *
  * Dissimilar bodies are coupled. Tractions move the surface along its normal, so that the inner model gets
  * heights without this displacement. Pressure moves the bodies along each other. Pressure and tractions are

@@ -548,8 +548,8 @@ extrapolate(const struct rolling *f, struct rc_rolling_figures *to)
                  : NAN;
 }
 
-/* Finds the friction energy, and the factor by which that of the nodes that slip becomes all of it. In a steady
- * state of similar bodies it is the supplied energy. */
+/* Finds the friction energy, and the factor by which that of the nodes that slip becomes all of it. In
+ * a steady state of similar bodies it is the supplied energy. */
 static void
 find_dissipation(struct rolling *f, struct rc_rolling_figures *to)
 {

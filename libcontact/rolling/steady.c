@@ -377,8 +377,9 @@ take(struct rc_steady *d, double part)
     look(d);
 }
 
-/* The displacement that a node keeps if it sticks. `before` is that of the surfaces until now, in the map that
- * then moves by some columns. Surface that comes in is free, so that its displacement does not matter. */
+/* The displacement that a node keeps if it sticks. `before` is that of the surfaces until now, in the
+ * map that then moves by some columns. Surface that comes in is free, so that its displacement does not
+ * matter. */
 static inline double
 held(const struct rc_tangential *t, const double *rigid, const double *before, size_t columns,
      size_t k)

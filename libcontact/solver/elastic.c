@@ -22,8 +22,8 @@ struct soft {
     double along;       /* 1/Pa, of the rows */
 };
 
-/* Inside another model a contact is short, so that a state on the way has its start: the pressure, or `fresh`,
- * the load (a guess if the approach is given) and the number of the method. */
+/* Inside another model a contact is short, so that a state on the way has its start: the pressure, or
+ * `fresh`, the load (a guess if the approach is given) and the number of the method. */
 struct start {
     double *p, load, number;
     bool fresh;
@@ -494,8 +494,8 @@ read_inside(struct elastic *e, struct rc_state *s, const struct iteration *it, b
         rc_state_refuse(s, "memory is short");
 }
 
-/* A state holds the dents of earlier points and the pressure. The pressure of a kept point is the start of the
- * next contact: it is left out unless this is an inner model. */
+/* A state holds the dents of earlier points and the pressure. The pressure of a kept point is the start
+ * of the next contact: it is left out unless this is an inner model. */
 static void
 state(struct rc_model *m, struct rc_state *s)
 {

@@ -1,8 +1,9 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
  * The elastic model for an outer model that solves another contact by a sequence of elastic ones on its own
- * heights (viscoelastic/sliding.c). Between two contacts the pressure stays, and the outer model has it judged
- * with other heights without a convolution. Pressures are in Pa, displacements and heights in m, n numbers.
+ * heights (viscoelastic/sliding.c). Between two contacts the pressure stays, and the outer model has it
+ * judged with other heights without a convolution. Pressures are in Pa, displacements and heights in m, n
+ * numbers.
  */
 #ifndef RC_ELASTIC_H
 #define RC_ELASTIC_H

@@ -232,7 +232,8 @@ pose_at(struct wear *v, const double *heights, struct rc_err *err)
     return rc_model_set_heights(v->base.inner, heights, err);
 }
 
-/* The heights and the compliance of this stage. The heights of the last contact of a leg stay in pa, for a state. */
+/* The heights and the compliance of this stage. The heights of the last contact of a leg stay in pa,
+ * for a state. */
 static enum rc_status
 pose(struct wear *v, struct rc_err *err)
 {

@@ -131,8 +131,8 @@ struct rc_yield_depths {
     double part;          /* part of the nodes of these slabs whose Mises stress exceeds `yield` */
     double most, deepest; /* Pa, the largest Mises stress; m, its depth */
 };
-/* Takes boundary, body 1, threads and `hurry` of the contact. RC_FAIL as rc_stress_new, and if memory is short;
- * RC_MORE: the caller cannot wait, and nothing is known. */
+/* Takes boundary, body 1, threads and `hurry` of the contact. RC_FAIL as rc_stress_new, and if memory
+ * is short; RC_MORE: the caller cannot wait, and nothing is known. */
 enum rc_status rc_yield_depths(const struct rc_shape *shape, const struct rc_problem *contact,
                                const double *p, double yield, struct rc_yield_depths *depths,
                                struct rc_err *err);

@@ -364,7 +364,8 @@ done:
     return status;
 }
 
-/* MAKER(name, model): the function `name` makes this model. FIGURE(name, result): the function `name` gives this result of a model m. */
+/* MAKER(name, model): the function `name` makes this model. FIGURE(name, result): the function `name`
+ * gives this result of a model m. */
 #define MAKER(name, model)                                                                         \
     static struct rc_model *name(struct rc_err *err)                                               \
     {                                                                                              \

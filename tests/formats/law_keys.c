@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* A key with a fixed meaning has one of its words, or a number within its bounds; any other value is refused with a message that
- * names the key and the value. Other keys have any value. */
+/* A key with a fixed meaning has one of its words, or a number within its bounds; any other value is
+ * refused with a message that names the key and the value. Other keys have any value. */
 #include <stdarg.h>
 #include <stddef.h>
 #include <setjmp.h>

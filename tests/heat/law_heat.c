@@ -157,8 +157,9 @@ periodic(void **state)
     }
 }
 
-/* A column is a row that is turned: motion along it cools, motion across it does nothing. Without motion along
- * it a profile has no steady state, and a single node, a plane without edge, never has one. */
+/* A column is a row that is turned: motion along it cools, motion across it does nothing. Without
+ * motion along it a profile has no steady state, and a single node, a plane without edge, never has
+ * one. */
 static void
 column(void **state)
 {

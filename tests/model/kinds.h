@@ -88,8 +88,8 @@ coupled(struct rc_err *err)
                            err);
 }
 
-/* A rough ball, which leaves the leading edge free, rolls with a creepage and spin, at a steady state or along
- * a path; the first load dents it. */
+/* A rough ball, which leaves the leading edge free, rolls with a creepage and spin, at a steady state
+ * or along a path; the first load dents it. */
 static struct rc_model *
 roller(bool path, struct rc_err *err)
 {

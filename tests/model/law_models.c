@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Laws of every model. A run may be stopped after any step and continued from its state in another model. The
- * result is the same as that of a run without a stop. Points that were not kept have no effect. Other data
- * are refused as a state, a false number in a state does no harm, and figures and frames have names. The test runs for every row of models.list, and
- * also with the model of tests/toys. */
+/* Laws of every model. A run may be stopped after any step and continued from its state in another
+ * model. The result is the same as that of a run without a stop. Points that were not kept have no
+ * effect. Other data are refused as a state, a false number in a state does no harm, and figures and
+ * frames have names. The test runs for every row of models.list, and also with the model of tests/toys. */
 #include "kinds.h"
 
 enum {

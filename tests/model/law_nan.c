@@ -1,8 +1,9 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* NaN is never a result. Each row of models.list gets numbers that are NaN, infinite, or so large or small that
- * sums overflow: in points, heights and stored states. The model refuses them with a sentence, or it is not
- * converged. It never says "converged" with NaN in a frame, or in a figure that is known otherwise. After a go
- * or a step that failed, figures are unknown, and look, keep, step and frames are refused. */
+/* NaN is never a result. Each row of models.list gets numbers that are NaN, infinite, or so large or
+ * small that sums overflow: in points, heights and stored states. The model refuses them with a
+ * sentence, or it is not converged. It never says "converged" with NaN in a frame, or in a figure that
+ * is known otherwise. After a go or a step that failed, figures are unknown, and look, keep, step and
+ * frames are refused. */
 #include "kinds.h"
 
 enum {

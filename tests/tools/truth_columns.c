@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* A table of numbers in columns gives the SI values of its text, whatever its separators, names and units; other
- * tables are refused with the line. */
+/* A table of numbers in columns gives the SI values of its text, whatever its separators, names and
+ * units; other tables are refused with the line. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
- * An effect that is not part of rc-solve, in one file and one row of a list: --settle-time, the contact on a bed of
- * springs, which is the model of relaxing.c around that of the other effects.
+ * An effect that is not part of rc-solve, in one file and one row of a list: --settle-time, the contact on a
+ * bed of springs, which is the model of relaxing.c around that of the other effects.
  */
 #include <math.h>
 
@@ -15,10 +15,12 @@ static struct {
 
 /* clang-format off */
 static const struct opt options[] = {
-    {.name = "settle-time", .type = OPT_NUMBERS, .unit = UNIT_S, .base = &args.time, .min = 0, .max = INFINITY,
+    {.name = "settle-time", .type = OPT_NUMBERS, .unit = UNIT_S, .base = &args.time,
+     .min = 0, .max = INFINITY,
      .above = true, .result = true, .points = true, .arg = "LIST", .help = "times of the loads, each a case",
      .needs = RULES({.with = "settle-compliance", .because = "nothing settles"}),
-     .against = RULES({.with = "yield|adhesion|relaxation|travel|tilt free", .because = "it is not implemented"})},
+     .against = RULES({.with = "yield|adhesion|relaxation|travel|tilt free",
+                       .because = "it is not implemented"})},
     {.name = "settle-compliance", .type = OPT_NUMBER, .base = &args.compliance, .min = 0, .max = INFINITY,
      .above = true, .result = true, .arg = "M/PA", .help = "final settlement over pressure",
      .needs = RULES({.with = "settle-time"})},

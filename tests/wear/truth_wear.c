@@ -626,8 +626,8 @@ a_smooth_body_is_a_track(void **state)
     rc_model_free(m[1]);
 }
 
-/* A given energy wears each node by the coefficient times it, on any way to a number of cycles; the pressure is
- * that of the worn heights. What has no meaning beside it is refused. */
+/* A given energy wears each node by the coefficient times it, on any way to a number of cycles; the
+ * pressure is that of the worn heights. What has no meaning beside it is refused. */
 static void
 an_energy_wears_exactly(void **state)
 {

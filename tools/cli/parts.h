@@ -23,7 +23,8 @@ void option_json_list(struct json *json, const char *name, const char *words);
 bool completions_print(const struct tool *tool, const char *shell);
 /* Ends the tool if the command line breaks a rule of an option. */
 void rules_check(struct tool *tool);
-/* "needs --tilt free; not with --history": the rules of an option, as in --help; valid until the next call. */
+/* "needs --tilt free; not with --history": the rules of an option, as in --help; valid until the next
+ * call. */
 const char *rules_text(const struct tool *tool, const struct opt *option);
 /* Writes them as members of an object. */
 void rules_json(struct json *json, const struct tool *tool, const struct opt *option);

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
- * --dry-run: what a tool would do with a map and what it would cost, in lines for people and, with --report, as
- * a row for programs. With --report - only the row is printed.
+ * --dry-run: what a tool would do with a map and what it would cost, in lines for people and, with --report,
+ * as a row for programs. With --report - only the row is printed.
  */
 #ifndef RC_PLAN_H
 #define RC_PLAN_H

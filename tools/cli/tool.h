@@ -54,8 +54,8 @@ enum opt_type {
     OPT_TEXTS, /* appended too, in the same order; the argument is kept as text */
 };
 
-/* A rule about an option and others, as in {.with = "tilt free", .because = "..."}. It is a clause of one sentence:
- * "--at has no effect without --tilt free, because ...: REMEDY". */
+/* A rule about an option and others, as in {.with = "tilt free", .because = "..."}. It is a clause of
+ * one sentence: "--at has no effect without --tilt free, because ...: REMEDY". */
 struct opt_rule {
     /* Names of options, each with a word after a blank or without, separated by '|'. LIST as the word of
      * OPT_NUMBERS means several values, and the .arg of an OPT_NUMBER a number instead of .word. */
@@ -106,9 +106,9 @@ struct opt {
     /* A row without a name: the rows of this table, whose .at are relative to that of the row, if they have
      * no .base. It may have rules for all of them. */
     const struct opt *group;
-    /* A row with a group, or a row of its own: the heading of these rows, or of the following ones, in --help.
-     * Rows with the same heading stand together there. Headings of groups count only if the table of the tool
-     * has one too. In struct tool every row has its heading. */
+    /* A row with a group, or a row of its own: the heading of these rows, or of the following ones, in
+     * --help. Rows with the same heading stand together there. Headings of groups count only if the
+     * table of the tool has one too. In struct tool every row has its heading. */
     const char *title;
 };
 
@@ -157,8 +157,8 @@ struct tool_info {
     void (*settle)(struct tool *tool);
     /* NULL, or changes a frame that tool_channel passes on. */
     void (*passing)(struct tool *tool, struct rc_grid *grid);
-    /* Names of the library's tables of figures in its reports, up to NULL, and a table of its own figures; NULL:
-     * none. */
+    /* Names of the library's tables of figures in its reports, up to NULL, and a table of its own
+     * figures; NULL: none. */
     const char *const *figures;
     const struct rc_figure *own;
     bool mends;  /* takes keys with values that they cannot have, to correct them */
@@ -249,8 +249,8 @@ bool tool_given(const struct tool *tool, const char *name);
 /* This tool's line for the history of a stream: name, version, the options that change the result, in SI.
  * Valid until the next call. */
 const char *tool_history(struct tool *tool);
-/* The value of the option of row k as in that line, "yes" for a flag; "" if it was not given or does not change
- * the result. Valid until the next call. */
+/* The value of the option of row k as in that line, "yes" for a flag; "" if it was not given or does
+ * not change the result. Valid until the next call. */
 const char *tool_result_value(struct tool *tool, size_t k);
 /* The same options as separate words for another command; at most `most` words. Valid until the next call. */
 size_t tool_result_words(struct tool *tool, const char *word[], size_t most);

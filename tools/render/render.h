@@ -260,8 +260,8 @@ struct drawn {
 
 /* True if --log selects this axis. */
 bool wording_log(const struct curve_style *style, char axis);
-/* Draws a graph of these series with the words, units and axes of the command line, else with the title and the
- * subtitle that suit it; sets drawn->title, and takes the stamp from there. */
+/* Draws a graph of these series with the words, units and axes of the command line, else with the title
+ * and the subtitle that suit it; sets drawn->title, and takes the stamp from there. */
 struct canvas *wording_graph(struct tool *tool, const struct curve_style *style, const char *title,
                              const char *subtitle, struct graph *graph, struct graph_series *series,
                              struct drawn *drawn);
@@ -307,8 +307,8 @@ struct beside frames_beside(const struct frames *frames, size_t k);
 /* True if the depth was chosen because its magnitude is the largest of several. */
 bool frames_by_size(const struct frames *frames);
 
-/* Reads all inputs and keeps the frames to draw. Ends the tool if there is none, and names omitted frames that
- * the user may have meant. */
+/* Reads all inputs and keeps the frames to draw. Ends the tool if there is none, and names omitted
+ * frames that the user may have meant. */
 void frames_read(struct frames *frames, struct tool *tool);
 /* Frees the values, which the drawing no longer needs, and keeps the keys. */
 void frames_empty(struct frames *frames);

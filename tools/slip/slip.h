@@ -83,8 +83,8 @@ struct slip_run {
     const struct slip_motion *motion;
 };
 
-/* A motion of the bodies is a row: slip_motions has them, and the first one that the options ask for moves the
- * bodies of all cases. */
+/* A motion of the bodies is a row: slip_motions has them, and the first one that the options ask for
+ * moves the bodies of all cases. */
 struct slip_motion {
     bool (*ask)(const struct slip_args *args);
     void (*read)(struct slip_run *run,

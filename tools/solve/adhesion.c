@@ -31,11 +31,13 @@ static struct {
 /* clang-format off */
 static const struct opt options[] = {
     {.group = adhesion_option, .base = &args.law,
-     .against = RULES({.with = "tilt free", .because = "with adhesion the bodies move along their normal only"},
+     .against = RULES({.with = "tilt free",
+                       .because = "with adhesion the bodies move along their normal only"},
                       {.with = "discretization", .because = "a coarser grid may not resolve the law",
                        .remedy = "solve a coarser map in a second command instead"},
                       {.with = "stiffness", .remedy = "use a list of --approach values instead"},
-                      {.with = "conductivity", .because = "the analogy of conductance and stiffness holds only "
+                      {.with = "conductivity",
+                       .because = "the analogy of conductance and stiffness holds only "
                                                           "without attraction"},
                       {.with = "output plastic",
                        .because = "there is no plasticity in the volume with adhesion"})},

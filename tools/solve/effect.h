@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
- * An effect is a row: its options, its model, and what it adds to points, frames, messages and the report. Its
- * options and its state are in its own file, which ends in its `struct effect`; effects.list has the rows, and
- * the other files of this folder walk them. An effect tells the others what it found through struct run, in the
- * words of a contact: loads, bodies, bounds, points. -DRC_EFFECTS_LIST=... replaces the
- * list; tests/toys/settling.c is a row of another list.
+ * An effect is a row: its options, its model, and what it adds to points, frames, messages and the report.
+ * Its options and its state are in its own file, which ends in its `struct effect`; effects.list has the
+ * rows, and the other files of this folder walk them. An effect tells the others what it found through struct
+ * run, in the words of a contact: loads, bodies, bounds, points. -DRC_EFFECTS_LIST=... replaces the list;
+ * tests/toys/settling.c is a row of another list.
  */
 #ifndef RC_SOLVE_EFFECT_H
 #define RC_SOLVE_EFFECT_H
@@ -74,8 +74,9 @@ struct effect {
         by_gap; /* the pressure does not show which nodes touch, but frame `contact` of the model does */
     const char *method, *engine; /* words of the report for a model without a solver */
 
-    /* Cost. `expect`: of a point; the model must exist, also for --dry-run. `plan`: instead of it in --dry-run.
-     * `loads`: of all points over the first one. `work`: convolutions for figures of each point. */
+    /* Cost. `expect`: of a point; the model must exist, also for --dry-run. `plan`: instead of it in
+     * --dry-run. `loads`: of all points over the first one. `work`: convolutions for figures of each
+     * point. */
     enum rc_status (*expect)(struct run *run, const struct rc_problem *problem,
                              struct rc_expected *expected, struct rc_err *err);
     void (*plan)(struct run *run, const struct rc_problem *problem, struct rc_expected *expected);
@@ -89,21 +90,21 @@ struct effect {
 
     /* Before a point; the largest checkpoint is chosen. */
     void (*begin)(struct run *run, struct rc_model *m, const struct rc_problem *problem);
-    /* After it: takes figures of the model; false: the point is not a case. `find` asks a solver with a pressure for
-     * more figures. `errors`, at the end, replaces the estimated error and its parts. */
+    /* After it: takes figures of the model; false: the point is not a case. `find` asks a solver with a
+     * pressure for more figures. `errors`, at the end, replaces the estimated error and its parts. */
     bool (*look)(struct run *run, struct rc_model *m, struct solution *s);
     void (*find)(struct run *run, struct rc_solver *solver, struct solution *s);
     void (*errors)(struct run *run, struct solution *s);
 
-    /* Warnings. `judge_alone`: instead of all others. `high`: of a high pressure, a part of E*; true: it has warned.
-     * `end`: last, and why the point did not converge; true: it has said why. */
+    /* Warnings. `judge_alone`: instead of all others. `high`: of a high pressure, a part of E*; true:
+     * it has warned. `end`: last, and why the point did not converge; true: it has said why. */
     void (*judge)(struct run *run, const char *where, const struct solution *s);
     void (*judge_alone)(struct run *run, const char *where, const struct solution *s);
     bool (*high)(struct run *run, const char *where, const struct solution *s);
     bool (*end)(struct run *run, const char *where, const struct solution *s);
 
-    /* Frames: keys; words of --output that belong to it, and what to say of them without it; values that are not
-     * those of the model (NULL: they are). */
+    /* Frames: keys; words of --output that belong to it, and what to say of them without it; values
+     * that are not those of the model (NULL: they are). */
     const char *const
         *foreign; /* keys that the heights may have, and frames without the effect have not */
     void (*keys)(struct run *run, struct rc_grid *g);

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
- * Nodes yield at a hardness: --hardness, which all contacts have, or a map of it in the case. With --history the
- * shape that they leave stays for later loads.
+ * Nodes yield at a hardness: --hardness, which all contacts have, or a map of it in the case. With --history
+ * the shape that they leave stays for later loads.
  */
 #include "solve.h"
 
@@ -109,8 +109,9 @@ warn_of_nothing(struct run *run)
                   "map of it, or --yield: give one of them");
 }
 
-/* Sets the fraction of the tolerance for a load at which nodes yield. The error of its shape stays for later loads,
- * and relative to a smaller load it is larger: the sum stays within the tolerance. 0: no load changes the shape. */
+/* Sets the fraction of the tolerance for a load at which nodes yield. The error of its shape stays for
+ * later loads, and relative to a smaller load it is larger: the sum stays within the tolerance. 0: no
+ * load changes the shape. */
 static void
 set_part(struct run *run, struct rc_problem *problem)
 {
@@ -161,7 +162,8 @@ const struct effect solve_effect_history = {
     .report = report_history,
 };
 
-/* Its option is below those of the effects that imply it, so that a checkpoint is refused by their names first. */
+/* Its option is below those of the effects that imply it, so that a checkpoint is refused by their
+ * names first. */
 
 static bool given;
 

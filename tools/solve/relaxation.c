@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
- * --relaxation: body 1 is viscoelastic. With --time each case is a time: one load that acts from 0 s on has a list
- * of times, and a list of loads has the time of each.
+ * --relaxation: body 1 is viscoelastic. With --time each case is a time: one load that acts from 0 s on has a
+ * list of times, and a list of loads has the time of each.
  */
 #include "solve.h"
 
@@ -33,7 +33,8 @@ static const struct opt options[] = {
                        .remedy = "give --nu1, and --E2 --nu2 or --E2 rigid"},
                       {.with = "hardness|yield|adhesion|travel", .because = "it is not implemented"},
                       {.with = "tilt free", .because = "the bodies move along their normal only"},
-                      {.with = "discretization", .remedy = "solve a coarser map in a second command instead"}),
+                      {.with = "discretization",
+                       .remedy = "solve a coarser map in a second command instead"}),
      .help = "body 1 is viscoelastic: relaxed modulus and terms of E(t), or a file (instead of --E1)"},
     {.name = "shift", .type = OPT_NUMBER, .base = &args.shift, .min = 0, .max = INFINITY, .above = true,
      .result = true, .arg = "FACTOR",

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
- * The response of a solution to small changes: its stiffness and, by analogy, its conductance, whose computation
- * finds the stiffness too if no node is at the hardness.
+ * The response of a solution to small changes: its stiffness and, by analogy, its conductance, whose
+ * computation finds the stiffness too if no node is at the hardness.
  */
 #include "solve.h"
 

@@ -41,7 +41,8 @@ static const struct opt options[] = {
                       {.with = "adhesion", .because = "it is not implemented"},
                       {.with = "tilt free", .because = "the bodies move along their normal only"},
                       {.with = "discretization", .remedy = "solve one position with it in a second command"}),
-     .help = "the contact travels over the map: its positions along x, from the middle of the map, each a case"},
+     .help = "the contact travels over the map: its positions along x, from the middle of the "
+             "map, each a case"},
     {.name = "counter", .type = OPT_TEXT, .base = &args.counter, .result = true, .arg = "FILE",
      .needs = RULES({.with = "travel"}),
      .help = "heights of body 2, which travels (or a ball: --radius); mirrored as by rc-add"},
@@ -241,8 +242,8 @@ pass_of(const struct run *run)
     return run->d.at / args.travel.n + 1;
 }
 
-/* Takes the heights of a position and, at the last one of a pass, the figures of the pass. Frames are written in
- * the last pass only. */
+/* Takes the heights of a position and, at the last one of a pass, the figures of the pass. Frames are
+ * written in the last pass only. */
 static bool
 look(struct run *run, struct rc_model *m, struct solution *s)
 {
