@@ -1,0 +1,48 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/*
+ * Maps that repeat along one axis and are free along the other. The load is a wave along the repeating axis,
+ * and along the free axis it is 1 on one cell and 0 elsewhere. Internal: never installed.
+ */
+#ifndef RC_LINE_H
+#define RC_LINE_H
+
+#include "body.h"
+
+/* Nodes along the free axis, counted from the middle of the loaded cell, and the wave along the other. */
+struct rc_line_at {
+    double cell;    /* m: width of a cell                                                     */
+    size_t step, n; /* cells from node to node, and number of nodes, both at least 1          */
+    double wave;    /* rad/m, >= 0                                                            */
+    double datum;   /* m: where a displacement without limit (only if the wave is 0) is 0     */
+};
+
+enum {
+    RC_LINE_MOST = RC_STRESS_KERNELS
+};
+/* Symbols (struct rc_kernel) as functions of the wave number q along the free axis. */
+struct rc_line_source {
+    size_t count; /* functions computed together, at most RC_LINE_MOST */
+    unsigned odd; /* bit k: function k is odd in q                     */
+    /* Function k at n wave numbers, rad/m, for each out[k] that is not NULL; q > 0, or q >= 0 if the wave is
+     * not 0. */
+    void (*symbols)(const void *of, size_t n, const double *q, double *const out[]);
+    const void *of;
+};
+
+/* Writes function k at the nodes to out[k], if this is not NULL. The field of a load cos(wave y) is
+ * out cos(wave y), or out sin(wave y) if the kernel is odd in y. The error is below 1e-12 of the largest
+ * value on the free axis (between the nodes too), and follows that of the symbols. RC_FAIL when memory is
+ * short. */
+enum rc_status rc_line_coefficients(const struct rc_line_source *source,
+                                    const struct rc_line_at *at, double *const out[],
+                                    struct rc_err *err);
+
+/* The same for a kernel with a symbol. The free axis is x or y. */
+enum rc_status rc_kernel_line(const struct rc_kernel *kernel, bool along_x,
+                              const struct rc_line_at *at, double *out, struct rc_err *err);
+/* The same for the stresses at a depth whose bit is set. */
+enum rc_status rc_inside_lines(const struct rc_inside *inside, unsigned kernels, bool along_x,
+                               const struct rc_line_at *at, double *const out[RC_STRESS_KERNELS],
+                               struct rc_err *err);
+
+#endif
