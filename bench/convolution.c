@@ -127,7 +127,7 @@ peak_child(char **argv)
     double before;
     void *plan;
 
-    sum.boundary = (enum rc_boundary)atoi(argv[4]);
+    sum.boundary = (struct rc_boundary)atoi(argv[4]);
     sum.tol = atof(argv[5]);
     for (size_t k = 0; k < n; k++)
         u[k] = p[k] = 1;
@@ -153,7 +153,7 @@ against_fftw(void)
     for (size_t m = 512; m <= 2048; m *= 2)
         for (int boundary = 0; boundary < 2; boundary++) {
             struct rc_sum sum = square(m);
-            size_t padded = boundary == RC_FREE ? 2 * m : m;
+            size_t padded = rc_repeats(boundary) == 0 ? 2 * m : m;
             double *p = must(rc_alloc(m * m, sizeof *p)), *u = must(rc_alloc(m * m, sizeof *u));
             struct pair its;
             struct sum_work sum_work;
@@ -162,7 +162,7 @@ against_fftw(void)
             struct rc_err err;
             void *plan;
 
-            sum.boundary = (enum rc_boundary)boundary;
+            sum.boundary = (boundary == 0 ? RC_FREE : RC_PERIODIC);
             for (size_t k = 0; k < m * m; k++)
                 p[k] = uniform(&seed);
             plan_time = now();
@@ -175,9 +175,9 @@ against_fftw(void)
             duel((struct work){sum_run, &sum_work}, (struct work){pair_run, &its}, best);
             e->free(plan);
             pair_free(&its);
-            printf("%6zu %-9s %10.2f %10.2f %8.2f %12.1f %12.1f ", m,
-                   boundary == RC_FREE ? "free" : "periodic", 1e3 * best[0], 1e3 * best[1],
-                   best[0] / best[1], 1e3 * plan_time, 1e3 * its_plan);
+            printf("%6zu %-9s %10.2f %10.2f %8.2f %12.1f %12.1f ", m, rc_boundary_word(boundary),
+                   1e3 * best[0], 1e3 * best[1], best[0] / best[1], 1e3 * plan_time,
+                   1e3 * its_plan);
             fflush(stdout);
             peak_bytes(e, &sum);
             printf("\n");
@@ -268,7 +268,7 @@ sizes(void)
         static const struct {
             const char *name;
             double tol;
-            enum rc_boundary boundary;
+            struct rc_boundary boundary;
         } columns[] = {{"direct", 0, RC_FREE},
                        {"fft", 0, RC_FREE},
                        {"fft", 1e-4, RC_FREE},

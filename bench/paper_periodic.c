@@ -43,8 +43,8 @@ extended(size_t m, double step, const double *rough)
 }
 
 static struct run
-in_middle(size_t m, double step, const double *rough, enum rc_boundary boundary, const char *engine,
-          double tol)
+in_middle(size_t m, double step, const double *rough, struct rc_boundary boundary,
+          const char *engine, double tol)
 {
     struct rc_shape shape = {m, m, step, step};
     struct rc_problem problem = {.boundary = boundary,

@@ -22,7 +22,7 @@
 
 struct surface {
     const char *name;
-    enum rc_boundary boundary;
+    struct rc_boundary boundary;
     double load; /* periodic: mean pressure over E* and RMS slope; free: load relative to that for a
                  Hertz circle as wide as the map */
     double hardness; /* over the mean pressure; 0: none                                        */
@@ -69,7 +69,7 @@ make(const struct surface *what, struct rc_shape shape, double *h)
     struct rc_err err;
 
     must_be(rc_synth_selfaffine(&shape, &roughness, h, &err), &err);
-    if (what->boundary == RC_PERIODIC) {
+    if (!rc_has_mean(what->boundary)) {
         problem.load = what->load * estar * slope * area;
     } else {
         double r = 20 * side, *sphere = map_new(shape.nx * shape.ny);
@@ -80,8 +80,9 @@ make(const struct surface *what, struct rc_shape shape, double *h)
         problem.load = what->load * 4 * estar * pow(side / 2, 3) / (3 * r);
     }
     if (what->hardness > 0)
-        problem.hardness = what->hardness * problem.load / area *
-                           (what->boundary == RC_FREE ? 1 / (0.7 * pow(what->load, 2. / 3)) : 1);
+        problem.hardness =
+            what->hardness * problem.load / area *
+            (rc_repeats(what->boundary) == 0 ? 1 / (0.7 * pow(what->load, 2. / 3)) : 1);
     return problem;
 }
 

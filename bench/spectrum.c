@@ -22,7 +22,7 @@ enum {
 
 struct row {
     const char *name;
-    enum rc_boundary boundary;
+    struct rc_boundary boundary;
     double mean; /* pressure over E* and RMS slope; 0: a disc of 0.3 of the map */
 };
 
@@ -204,8 +204,8 @@ spectrum(const struct row *row, size_t m)
     rc_preconditioner_set(o.extension, w);
     extremes(&o, &least[1], &most[1]);
     printf("%-8s %-8s %5zu %8.4f | %8.4f %8.3f | %8.4f %8.3f\n", row->name,
-           row->boundary == RC_FREE ? "free" : "periodic", m, (double)o.count / (double)n, least[1],
-           most[1], least[0], most[0]);
+           rc_boundary_word(row->boundary), m, (double)o.count / (double)n, least[1], most[1],
+           least[0], most[0]);
     fflush(stdout);
     rc_preconditioner_free(o.extension);
     rc_operator_free(op);

@@ -187,7 +187,7 @@ write_free(struct write_work *w)
 
 static void
 slice_row(const struct rc_shape *shape, const double *p, const char *name,
-          enum rc_boundary boundary, double depth, struct write_work *stream,
+          struct rc_boundary boundary, double depth, struct write_work *stream,
           struct write_work *bytes)
 {
     const struct rc_stress_options o = {
@@ -208,7 +208,7 @@ slice_row(const struct rc_shape *shape, const double *p, const char *name,
     rc_fft_quarter(fft, &field.cx, &field.cy);
     field.quarter = must(calloc(field.cx * field.cy, sizeof(double)));
     must_be(rc_fft_load(fft, 0, p, &err), &err);
-    take_turns(boundary == RC_FREE ? 5 : 4, work, 1, 4, least);
+    take_turns(rc_repeats(boundary) == 0 ? 5 : 4, work, 1, 4, least);
     transforms = RC_COMPONENTS / 2 * (least[1] + least[4]);
     printf("  %-24s%8.1f%8.1f%8.1f%8.2f%10.1f%8.1f%8.2f%8.0f\n", name, 3e3 * least[1],
            3e3 * least[4], 1e3 * least[0], least[0] / transforms, 1e3 * least[2], 1e3 * least[3],

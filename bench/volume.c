@@ -86,7 +86,8 @@ measure(size_t n, enum rc_precision precision, size_t threads, bool upper)
     struct rc_shape shape = {n, n, 1e-6, 1e-6};
     double h[SLABS], least[3];
     bool strained[SLABS];
-    struct rc_slabs_options options = {.slabs = SLABS,
+    struct rc_slabs_options options = {.boundary = RC_PERIODIC,
+                                       .slabs = SLABS,
                                        .thickness = h,
                                        .shear = 8e10,
                                        .nu = 0.3,

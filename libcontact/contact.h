@@ -176,7 +176,7 @@ struct rc_pair {
 /* ---- convolution ---- */
 
 struct rc_conv_options {
-    enum rc_boundary boundary;
+    struct rc_boundary boundary;
     /* a row of engines.list, or NULL or "auto" */
     const char *engine;
     /* asked error of u, relative to the sum of |K| |p|; 0: rounding */
@@ -219,7 +219,7 @@ RC_API void rc_conv_free(struct rc_conv *conv);
 /* ---- solver ---- */
 
 struct rc_problem {
-    enum rc_boundary boundary;
+    struct rc_boundary boundary;
     /* the bodies */
     struct rc_pair pair;
     /* total normal force, N, > 0; with an approach a guess, or 0 */
@@ -703,7 +703,7 @@ RC_API const struct rc_adhesion_figures *rc_adhesion_result(const struct rc_mode
  * moved over it by the displacement (on a periodic map their mean planes). Slip is the motion of body 1 over
  * body 2, opposite to the traction. */
 struct rc_friction_law {
-    enum rc_boundary boundary;
+    struct rc_boundary boundary;
     /* uniform bodies, those of the inner model */
     struct rc_pair pair;
     /* Poisson's ratio of both, if only E* of the pair is known */
@@ -1255,7 +1255,7 @@ enum rc_heat_partition {
     RC_HEAT_SHARE    /* one given number */
 };
 struct rc_heat_problem {
-    enum rc_boundary boundary;
+    struct rc_boundary boundary;
     struct rc_heat_body body[2];
     /* s since heating began; 0: the steady state */
     double time;
@@ -1356,7 +1356,7 @@ struct rc_eigenstrain {
 };
 
 struct rc_stress_options {
-    enum rc_boundary boundary;
+    struct rc_boundary boundary;
     /* body 1; the stresses in a uniform one do not depend on e. */
     struct rc_body body;
     /* the surface also carries the traction mu p along +x; 0 if there are maps of traction */
@@ -1422,7 +1422,7 @@ RC_API double rc_stress_coarser(const struct rc_shape *shape,
  * depths, itself and one a millionth deeper; none is in a rigid half-space. Among ranks (NULL: none) p is the
  * rows held here. RC_FAIL, and NULL for the depths, when memory is short. */
 RC_API enum rc_status rc_stress_depths(const struct rc_ranks *ranks, const struct rc_shape *shape,
-                                       const double *p, enum rc_boundary boundary,
+                                       const double *p, struct rc_boundary boundary,
                                        const struct rc_body *body, double **depths, size_t *n,
                                        struct rc_err *err);
 /* Stresses under the pressure p (Pa) in a half-space. Free: the pressure is constant in each cell.

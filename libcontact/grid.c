@@ -35,6 +35,49 @@ rc_size_mul(size_t a, size_t b, size_t *product, struct rc_err *err)
     return RC_OK;
 }
 
+/* ---- boundaries ---- */
+
+static const struct {
+    const char *word;
+    struct rc_boundary boundary;
+} boundaries[] = {
+    {"free", {.x = false}},
+    {"periodic", {.x = true, .y = true}},
+    {"periodic-x", {.x = true}},
+    {"periodic-y", {.y = true}},
+};
+
+const char *
+rc_boundary_word(struct rc_boundary boundary)
+{
+    size_t k = 0;
+
+    while (!rc_same_boundary(boundaries[k].boundary, boundary))
+        k++;
+    return boundaries[k].word;
+}
+
+bool
+rc_boundary_named(const char *word, struct rc_boundary *boundary)
+{
+    size_t k = 0;
+    const size_t n = sizeof boundaries / sizeof *boundaries;
+
+    while (k < n && strcmp(boundaries[k].word, word) != 0)
+        k++;
+    if (k < n)
+        *boundary = boundaries[k].boundary;
+    return k < n;
+}
+
+struct rc_boundary
+rc_boundary_on(const struct rc_shape *s, struct rc_boundary boundary)
+{
+    if (rc_repeats(boundary) == 1 && boundary.datum == 0)
+        boundary.datum = boundary.x ? (double)s->ny * s->dy : (double)s->nx * s->dx;
+    return boundary;
+}
+
 /* Areas, wave numbers and their powers are numbers of double precision within these spacings. */
 static const double least_spacing = 1e-60, largest_spacing = 1e60;
 

@@ -81,11 +81,83 @@ struct rc_shape {
  * would overflow size_t. */
 RC_API enum rc_status rc_shape_check(const struct rc_shape *shape, struct rc_err *err);
 
-/* How the map continues beyond its edges. */
-enum rc_boundary {
-    RC_FREE,    /* a half-space whose surface extends, without load, beyond the map */
-    RC_PERIODIC /* the map repeats without end */
+enum rc_map_axis {
+    RC_X,
+    RC_Y
 };
+
+/* How the map continues beyond its edges, axis by axis. Pressure is constant in a cell along a free axis, and
+ * band-limited along an axis that repeats. */
+struct rc_boundary {
+    /* true: the map repeats without end along this axis; false: the surface of the half-space extends,
+     * without load, beyond the map */
+    bool x, y;
+    /* m; used if exactly one axis repeats: the displacement of a line load has no limit, and is taken as 0 at
+     * this distance from the load. 0: the length of the free axis. Pressure, area and gap do not depend on
+     * it. */
+    double datum;
+};
+
+/* The boundary that repeats along these axes. */
+static inline struct rc_boundary
+rc_boundary_of(bool x, bool y)
+{
+    struct rc_boundary boundary;
+
+    boundary.x = x;
+    boundary.y = y;
+    boundary.datum = 0;
+    return boundary;
+}
+
+/* No axis repeats; both do. */
+#define RC_FREE rc_boundary_of(false, false)
+#define RC_PERIODIC rc_boundary_of(true, true)
+
+/* True if the map repeats along this axis. */
+static inline bool
+rc_wraps(struct rc_boundary boundary, enum rc_map_axis axis)
+{
+    return axis == RC_X ? boundary.x : boundary.y;
+}
+
+/* How many of the two axes repeat: 0, 1 or 2. */
+static inline int
+rc_repeats(struct rc_boundary boundary)
+{
+    return (int)boundary.x + (int)boundary.y;
+}
+
+/* True if a uniform pressure displaces the surface relative to a point far away: some axis is free. */
+static inline bool
+rc_has_mean(struct rc_boundary boundary)
+{
+    return rc_repeats(boundary) < 2;
+}
+
+/* A cost that is proportional to the padded map, twice as long along each free axis, from its values on
+ * a free map and on one that repeats along both axes. */
+static inline double
+rc_by_padding(struct rc_boundary boundary, double free_map, double periodic)
+{
+    return rc_repeats(boundary) == 0   ? free_map
+           : rc_repeats(boundary) == 2 ? periodic
+                                       : periodic + (free_map - periodic) / 3;
+}
+
+/* True if both repeat along the same axes. The datum is not compared. */
+static inline bool
+rc_same_boundary(struct rc_boundary a, struct rc_boundary b)
+{
+    return a.x == b.x && a.y == b.y;
+}
+
+/* The word in streams and reports: free, periodic, periodic-x, periodic-y. */
+RC_API const char *rc_boundary_word(struct rc_boundary boundary);
+/* The boundary of this word, with the datum 0; false when there is none. */
+RC_API bool rc_boundary_named(const char *word, struct rc_boundary *boundary);
+/* The boundary with its datum: that of the map's free axis where it is 0 and exactly one axis repeats. */
+RC_API struct rc_boundary rc_boundary_on(const struct rc_shape *shape, struct rc_boundary boundary);
 
 /* A node is in contact if its value in the frame `contact` of its case (1 or 0) is above 0. If the case has
  * no such frame, the pressure decides. In tools contact_frame chooses between the two frames. */

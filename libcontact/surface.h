@@ -281,7 +281,7 @@ RC_API void rc_extremes(size_t n, const double *v, size_t *least, size_t *larges
 /* ---- contact patches ---- */
 
 struct rc_patch_options {
-    enum rc_boundary boundary;    /* periodic: patches continue across the edges of the map */
+    struct rc_boundary boundary;  /* periodic: patches continue across the edges of the map */
     bool each;                    /* fill the list of patches */
     size_t threads;               /* 0: all */
     const struct rc_ranks *ranks; /* processes that share the map; NULL: none */
@@ -313,8 +313,8 @@ RC_API void rc_patches_free(struct rc_patches *patches);
 /* ---- surface parameters: areal, features, profiles, spectra ---- */
 
 struct rc_surface_options {
-    enum rc_boundary boundary; /* periodic: waves and correlations continue across the edges */
-    size_t threads;            /* 0: all */
+    struct rc_boundary boundary; /* periodic: waves and correlations continue across the edges */
+    size_t threads;              /* 0: all */
 };
 
 /* Parameters of ISO 25178-2 (for a profile of ISO 21920-2 over its whole length), about the mean of the
@@ -404,7 +404,7 @@ RC_API void rc_profile_along(const struct rc_shape *shape, const double *h, stru
                              struct rc_place to, size_t n, double *z);
 
 struct rc_psd_options {
-    enum rc_boundary boundary;
+    struct rc_boundary boundary;
     /* a name of rc_window_name; NULL: none for a periodic map, else hann */
     const char *window;
     /* m: range of the fit of the Hurst exponent; both 0: where the spectrum follows a power law */

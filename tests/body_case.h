@@ -29,7 +29,7 @@ surface_case(struct body_case *c, struct rc_pair pair)
 
 /* A stress at a depth of a body. */
 static inline void
-stress_case(struct body_case *c, struct rc_body body, double depth, enum rc_boundary boundary,
+stress_case(struct body_case *c, struct rc_body body, double depth, struct rc_boundary boundary,
             int kernel)
 {
     const struct rc_body_type *type = rc_body_type(&body);

@@ -32,7 +32,7 @@ static const double twentieth = 0.05;
 struct work {
     const char *name;
     const struct rc_shape *shape;
-    enum rc_boundary boundary;
+    struct rc_boundary boundary;
     const char *engine;
     size_t code; /* bytes of code and plans, which the allocator does not count */
     /* Does the work on these heights and pressures; false: it failed. */
@@ -221,8 +221,12 @@ static bool
 slabs_in(const struct work *w, enum rc_precision precision, const double *h, const double *p)
 {
     static const double thickness[] = {1e-6, 1e-6, 2e-6, 2e-6, 4e-6, 4e-6, 8e-6, 8e-6, 8e-6};
-    const struct rc_slabs_options options = {
-        .slabs = 9, .thickness = thickness, .shear = 1e9, .nu = 0.3, .precision = precision};
+    const struct rc_slabs_options options = {.boundary = RC_PERIODIC,
+                                             .slabs = 9,
+                                             .thickness = thickness,
+                                             .shear = 1e9,
+                                             .nu = 0.3,
+                                             .precision = precision};
     const double *heights = h;
     const struct rc_slab_strain strain = {NULL, slab_strain, &heights};
     const struct rc_slab_stress stress = {NULL, slab_stress, NULL};

@@ -250,7 +250,7 @@ do_case(struct costs *run, struct rc_grid *g, const struct rc_grid *hardness)
                           .heights = g,
                           .shape = rc_grid_shape(g),
                           .about = COST_PRESSURE,
-                          .line.periodic = args.physics.periodic,
+                          .line.boundary = args.physics.boundary,
                           .line.leak = args.leak,
                           .line.depths = stresses ? args.depths : NULL,
                           .line.nu = number(args.nu, nu),

@@ -10,9 +10,10 @@ static struct args {
     double estar, tol;
     size_t order, correction;
     const char *kernel;
-    bool periodic, dry_run;
+    struct boundary_args repeats;
+    bool dry_run;
     const char *report;
-} args = {.estar = NAN, .tol = NAN, .kernel = "auto"};
+} args = {.repeats = BOUNDARY_NONE, .estar = NAN, .tol = NAN, .kernel = "auto"};
 
 #define AT(field) .at = offsetof(struct args, field)
 /* clang-format off */
@@ -20,8 +21,10 @@ static const struct opt opts[] = {
     {.name = "estar", .type = OPT_NUMBER, .unit = UNIT_PA, AT(estar), .min = 0, .max = INFINITY,
      .above = true, .result = true, .arg = "MODULUS",
      .help = "composite modulus E* (default: the stream's own)"},
-    {.name = "periodic", .type = OPT_FLAG, AT(periodic), .result = true,
-     .help = "the map repeats without end; the mean displacement is then undetermined"},
+    OPT_PERIODIC(offsetof(struct args, repeats),
+                 "the map repeats without end, along both axes or the given one; where both "
+                 "repeat, the mean displacement is undetermined"),
+    OPT_DATUM(offsetof(struct args, repeats)),
     {.name = "kernel", .alias = "engine", .type = OPT_CHOICE, AT(kernel),
      .words = words_engine_or_auto, .help = "engine that sums displacements (default auto)"},
     {.name = "tol", .type = OPT_NUMBER, AT(tol), .min = 0, .max = 1, .above = true,
@@ -114,7 +117,7 @@ memory_by(const void *ctx, const char *engine)
         if (strcmp(e->name, name) == 0) {
             if (e->mixed && !(options.tol >= RC_SINGLE_FLOOR))
                 e = rc_engine_info(k + 1); /* the same in double precision */
-            bytes += e->sum_bytes[options.boundary == RC_PERIODIC];
+            bytes += rc_by_padding(options.boundary, e->sum_bytes[0], e->sum_bytes[1]);
             break;
         }
     return (size_t)(bytes * (double)rc_grid_nodes(d->p));
@@ -126,7 +129,7 @@ demand_memory(struct tool *t, const struct rc_grid *p, const struct rc_conv_opti
 {
     const struct demand d = {p, options};
 
-    t->remedy = tool_leaner_engine(t, options->boundary == RC_PERIODIC, memory_by, &d);
+    t->remedy = tool_leaner_engine(t, rc_repeats(options->boundary) > 0, memory_by, &d);
     tool_demand_memory(t, p, memory_by(&d, options->engine));
     t->remedy = NULL;
 }
@@ -139,8 +142,7 @@ effects(const struct rc_conv_options *options, const struct layers *layers)
 
     list[0] =
         (struct effect_state){"layers", layers->text != NULL ? "on" : "left out: one material"};
-    list[1] = (struct effect_state){
-        "padding", options->boundary == RC_FREE ? "on" : "left out: the map is periodic"};
+    list[1] = (struct effect_state){"padding", boundary_padding(options->boundary)};
     return list;
 }
 
@@ -158,7 +160,7 @@ put_report(struct report *r, const struct rc_grid *p, const struct rc_conv *conv
     }
     report_begin(r);
     report_map(r, p, rc_grid_case(p));
-    report_text(r, "boundary", options->boundary == RC_PERIODIC ? "periodic" : "free");
+    boundary_report(r, p, options->boundary);
     report_text(r, "kernel", rc_conv_engine(conv));
     report_count(r, "threads", r->tool->threads, NULL);
     report_value(r, "min_displacement", -ranks_most(r->tool, lowest));
@@ -182,8 +184,8 @@ show_plan(struct tool *t, struct report *r, const struct rc_grid *p,
 {
     const struct demand d = {p, options};
     const char *reason;
-    const struct plan plan = plan_begin(t, r, p, rc_grid_case(p),
-                                        options->boundary == RC_PERIODIC ? "periodic" : "free", "");
+    const struct plan plan =
+        plan_begin(t, r, p, rc_grid_case(p), rc_boundary_word(options->boundary), "");
 
     plan_say(&plan, "kernel", "%s", rc_conv_choice(rc_shape_of(p), options, &reason));
     plan_effects(&plan, effects(options, layers));
@@ -195,7 +197,7 @@ static void
 do_case(struct tool *t, struct report *r, const struct rc_grid *p)
 {
     double began = tool_now(), seconds[2];
-    struct rc_conv_options options = {.boundary = contact_boundary(t, p, args.periodic),
+    struct rc_conv_options options = {.boundary = contact_boundary(t, p, &args.repeats),
                                       .engine = args.kernel,
                                       .tol = isnan(args.tol) ? 0 : args.tol,
                                       .order = args.order,
@@ -223,7 +225,7 @@ do_case(struct tool *t, struct report *r, const struct rc_grid *p)
     u = tool_frame_like(t, p, NULL, "displacement", "m");
     if (pair.estar > 0)
         tool_set_number(t, u, "estar", pair.estar);
-    tool_set(t, u, "boundary", options.boundary == RC_PERIODIC ? "periodic" : "free");
+    map_set_boundary(t, u, options.boundary);
     tool_sign(t, u);
     began = tool_now();
     rc_conv_apply(conv, p->v, u->v);

@@ -441,7 +441,7 @@ begin_row(struct run *run, struct report *out)
 
     report_begin(out);
     report_map(out, first, rc_grid_case(first));
-    report_text(out, "boundary", run->options.boundary == RC_PERIODIC ? "periodic" : "free");
+    report_text(out, "boundary", rc_boundary_word(run->options.boundary));
     report_count(out, "threads", run->t.threads, NULL);
     report_text(out, "pass", pass[0] == '\0' ? NULL : pass);
     report_count(out, "positions", run->positions, NULL);
@@ -513,7 +513,7 @@ judge(struct run *run, const struct rc_fatigue *f)
                 shown_in_unit(run->step, "m"), at[c].sampling_error);
             break;
         }
-    if (run->options.boundary == RC_PERIODIC && needs_endurance())
+    if (!rc_has_mean(run->options.boundary) && needs_endurance())
         tool_warn(t, "on a periodic map the points never unload: the amplitudes and the indices of "
                      "Crossland, Papadopoulos and Findley are smaller than in a single contact");
     if (wanted(RC_DANG_VAN) && run->problem.full && r->dangvan_hydrostatic < 0)
@@ -586,9 +586,8 @@ show_plan(struct run *run, const struct rc_shape *shape)
     const size_t memory = tool_memory_with(run->needs);
     const double seconds = expect(run, &r);
     const struct numbers *d = &run->depths;
-    const struct plan plan =
-        plan_begin(&run->t, &run->report, first, rc_grid_case(first),
-                   run->options.boundary == RC_PERIODIC ? "periodic" : "free", "");
+    const struct plan plan = plan_begin(&run->t, &run->report, first, rc_grid_case(first),
+                                        rc_boundary_word(run->options.boundary), "");
 
     if (args.pass == NULL)
         plan_say(&plan, "positions", "%zu", run->positions);

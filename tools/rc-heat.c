@@ -368,7 +368,7 @@ write_frame(struct run *run, const struct rc_grid *like, struct rc_heat *h, size
 static const char *
 boundary(const struct run *run)
 {
-    return run->problem.boundary == RC_PERIODIC ? "periodic" : "free";
+    return rc_boundary_word(run->problem.boundary);
 }
 
 /* The effects of this case: computed, or why not. */

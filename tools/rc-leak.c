@@ -92,7 +92,7 @@ static bool
 sides_meet(struct run *run, const struct rc_grid *g)
 {
     const char *boundary = rc_grid_get(g, "boundary");
-    bool meet = map_boundary(g) == RC_PERIODIC;
+    bool meet = !rc_has_mean(map_boundary(g));
 
     if (args.sides == NULL)
         return meet;

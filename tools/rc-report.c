@@ -271,7 +271,10 @@ show_bodies(struct run *run, FILE *in, const char *a, const char *b)
     else
         fputs(", the bodies are elastic", out);
     fprintf(out, ", and the map %s.%s</p>\n",
-            p->periodic ? "repeats without end" : "ends at its edges",
+            rc_repeats(p->boundary) == 2 ? "repeats without end"
+            : p->boundary.x              ? "repeats along x"
+            : p->boundary.y              ? "repeats along y"
+                                         : "ends at its edges",
             run->assumed ? " No elasticity was given: these are values of steel on steel." : "");
 }
 
@@ -539,8 +542,8 @@ check_contact(struct run *run)
         if (!tool_given(t, "hardness"))
             assume(t, "hardness", "6GPa");
     }
-    if (args.mirror && !args.physics.periodic) {
-        args.physics.periodic = true;
+    if (args.mirror && args.physics.repeats.periodic == NULL) {
+        args.physics.repeats.periodic = "";
         run->contact[run->contacts++] = "--periodic";
     }
     t->quiet = true; /* rc-solve gives these warnings */

@@ -81,8 +81,9 @@ static const struct opt opts[] = {
      .against = RULES({.with = "E2 rigid", .because = "a rigid body does not deform",
                        .remedy = "leave out --nu2"}),
      .help = "Poisson's ratio of body 2"},
-    {.name = "periodic", .type = OPT_FLAG, AT(periodic), .result = true,
-     .help = "the map repeats without end (default: the stream's boundary, else free)"},
+    OPT_PERIODIC(offsetof(struct slip_args, repeats),
+                 "the map repeats without end, along both axes or the given one (default: the "
+                 "stream's boundary, else free)"),
     {.name = "tol", .type = OPT_NUMBER, AT(tol), .min = 0, .max = 1, .above = true,
      .result = true, .arg = "ERROR",
      .help = "relative L1 error of the tractions (default 1e-4 of the iteration, 0.1 in all)"},

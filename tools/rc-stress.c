@@ -180,7 +180,7 @@ set_keys(struct run *run, const struct rc_grid *p, struct rc_grid *g)
 
     tool_set(t, g, "nu", NULL);
     tool_set_number(t, g, "nu", run->input.layers.text == NULL ? o->body.nu : NAN);
-    tool_set(t, g, "boundary", o->boundary == RC_PERIODIC ? "periodic" : "free");
+    map_set_boundary(t, g, o->boundary);
     tool_set(t, g, "mu", NULL);
     tool_set_number(t, g, "mu", args.asked.mu != 0 ? args.asked.mu : NAN);
     tool_set_number(t, g, "frames", (double)(channels() * (plane ? 1 : run->depths.n)));

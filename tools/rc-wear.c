@@ -439,12 +439,12 @@ suspect_track(struct run *run, const struct rc_grid *g)
             "--motion track: the track, %s, is shorter than the map, %s: cut the contact out "
             "with rc-pick --crop, or give a longer track",
             shown_in_unit(track, "m"), shown_in_unit(period, "m"));
-    if (track > 0 && run->law.k[1] > 0 && fabs(track - period) > 1e-6 * period &&
-        map_says(g, "boundary", "periodic"))
-        tool_warn(&run->d.t,
-                  "%s: the map is periodic, so that each point of the track is passed every %s and "
-                  "not every %s: give the period as the length of the track, or solve a free map",
-                  where, shown_in_unit(period, "m"), shown_in_unit(track, "m"));
+    if (track > 0 && run->law.k[1] > 0 && fabs(track - period) > 1e-6 * period && map_boundary(g).x)
+        tool_warn(
+            &run->d.t,
+            "%s: the map repeats along x, so that each point of the track is passed every %s and "
+            "not every %s: give the period as the length of the track, or solve a free map",
+            where, shown_in_unit(period, "m"), shown_in_unit(track, "m"));
 }
 
 /* Two rough bodies that slide: adds body 2, and refuses the options that this model does not have. */
@@ -454,15 +454,16 @@ add_counter(struct run *run, const struct rc_grid *g)
     struct tool *t = &run->d.t;
     struct rc_statistics other;
 
-    if (!map_says(g, "boundary", "periodic"))
+    if (!map_boundary(g).x)
         tool_refuse(t, g,
-                    "--motion sliding needs a periodic map, on which body 2 can pass for ever: run "
+                    "--motion sliding needs a map that repeats along x, on which body 2 can pass "
+                    "for ever: run "
                     "rc-solve --periodic");
     if (run->law.part != NULL)
         tool_refuse(t, g, "--motion sliding with a map of the wear coefficient is not implemented");
     if (rc_grid_get(g, "hardness") != NULL || rc_grid_get(g, "hardness_map") != NULL)
         tool_refuse(t, g, "--motion sliding with a hardness is not implemented");
-    physics_counter_beside(t, args.counter, run->counter, g, true);
+    physics_counter_beside(t, args.counter, run->counter, g, map_boundary(g));
     run->law.h2 = run->counter->v;
     rc_measure(rc_shape_of(g), run->counter->v, &other);
     run->relief += other.maximum - other.minimum;
@@ -698,7 +699,7 @@ do_case(struct run *run, const struct rc_grid *g)
     if (rc_grid_get(g, "boundary") == NULL)
         tool_refuse(&d->t, g, "it has no key boundary, which rc-solve writes: solve the contact");
     problem.boundary = map_boundary(g);
-    d->advice = problem.boundary == RC_PERIODIC ? periodic : free_map;
+    d->advice = !rc_has_mean(problem.boundary) ? periodic : free_map;
     tool_must(&d->t, g, layers_read(g, &layers, &d->t.err));
     tool_must(&d->t, g, bodies_read(g, &layers, &problem.pair, &d->t.err));
     if (rc_grid_get(g, "hardness") != NULL)

@@ -550,7 +550,7 @@ rc_adhesion_solver_set_load(struct rc_adhesion_solver *a, double load, struct rc
 static void
 set_shift(struct rc_adhesion_solver *a, double c)
 {
-    if (a->whole->boundary == RC_FREE)
+    if (rc_has_mean(a->whole->boundary))
         set(a, RC_GAP_SHIFT, c);
     else
         set(a, RC_GAP_MEAN, -c - a->mean_h);
@@ -563,7 +563,7 @@ rc_adhesion_solver_set_approach(struct rc_adhesion_solver *a, double approach, s
 
     if (!isfinite(approach))
         return rc_err_set(err, "approach %g m: it must be finite", approach);
-    if (a->whole->boundary == RC_PERIODIC && !(-c - a->mean_h > 0))
+    if (!rc_has_mean(a->whole->boundary) && !(-c - a->mean_h > 0))
         return rc_err_set(err,
                           "approach %g m: on a periodic map it must be below %g m, where the mean "
                           "gap would be 0",
@@ -1102,14 +1102,15 @@ const struct rc_figure rc_figures_adhesion[] = {
 static double
 at_edge(const struct rc_gap *g)
 {
+    const struct rc_boundary boundary = g->problem.whole->boundary;
     double nearest = INFINITY, v, s, d;
 
-    if (g->problem.whole->boundary == RC_PERIODIC)
+    if (!rc_has_mean(boundary))
         return 0;
     for (size_t j = 0; j < g->problem.ny; j++)
         for (size_t i = 0; i < g->problem.nx; i++)
-            if ((g->problem.ny > 1 && (j == 0 || j + 1 == g->problem.ny)) ||
-                (g->problem.nx > 1 && (i == 0 || i + 1 == g->problem.nx)))
+            if ((!boundary.y && g->problem.ny > 1 && (j == 0 || j + 1 == g->problem.ny)) ||
+                (!boundary.x && g->problem.nx > 1 && (i == 0 || i + 1 == g->problem.nx)))
                 nearest = fmin(nearest, g->maps.x[j * g->problem.px + i]);
     if (isinf(nearest))
         return 0;
@@ -1432,13 +1433,14 @@ rc_adhesion_expect(const struct rc_shape *shape, const struct rc_adhesion_proble
     const double bytes[] = {458, 129}; /* bytes a node, measured on 1024 x 1024 nodes: free,
                                           periodic */
     const double mapped = problem->contact.hardness_map != NULL ? sizeof(double) : 0;
-    const int periodic = problem->contact.boundary == RC_PERIODIC;
     double nodes = (double)shape->nx * (double)shape->ny;
 
     if (rc_adhesion_check(shape, problem, &scales, err) != RC_OK)
         return RC_FAIL;
-    *expected = (struct rc_expected){.convolutions = RC_ADHESION_WORK * pow(nodes / 16384, 0.25),
-                                     .memory = (size_t)((bytes[periodic] + mapped) * nodes)};
+    *expected = (struct rc_expected){
+        .convolutions = RC_ADHESION_WORK * pow(nodes / 16384, 0.25),
+        .memory = (size_t)((rc_by_padding(problem->contact.boundary, bytes[0], bytes[1]) + mapped) *
+                           nodes)};
     expected->seconds =
         RC_ADHESION_PASSES * expected->convolutions *
         rc_conv_seconds(shape, &(struct rc_conv_options){.boundary = problem->contact.boundary,

@@ -1017,7 +1017,7 @@ rc_gap_apart(struct rc_gap *g, double clearance)
             g->maps.x[j * g->problem.px + i] =
                 clearance - (map ? g->problem.h[j * g->problem.nx + i] : 0);
         }
-    g->set.control = g->problem.whole->boundary == RC_FREE ? RC_GAP_SHIFT : RC_GAP_MEAN;
+    g->set.control = rc_has_mean(g->problem.whole->boundary) ? RC_GAP_SHIFT : RC_GAP_MEAN;
     g->set.given = -clearance;
     g->mode.known = false;
 }

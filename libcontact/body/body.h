@@ -62,7 +62,7 @@ struct rc_inside_type {
     size_t (*numbers)(bool shear);
     /* NULL when memory is short or the body is rigid there. */
     struct rc_inside *(*new)(const struct rc_solid *solid, double depth, bool shear,
-                             enum rc_boundary boundary, struct rc_err *err);
+                             struct rc_boundary boundary, struct rc_err *err);
     void (*free)(struct rc_inside *inside);
     /* The numbers of n waves of wave numbers q > 0, rad/m. */
     void (*waves)(const struct rc_inside *inside, size_t n, const double *q, double *numbers);

@@ -432,7 +432,7 @@ inside_free(struct rc_inside *inside)
 }
 
 static struct rc_inside *
-inside_new(const struct rc_solid *solid, double depth, bool shear, enum rc_boundary boundary,
+inside_new(const struct rc_solid *solid, double depth, bool shear, struct rc_boundary boundary,
            struct rc_err *err)
 {
     const struct rc_stack *s = rc_layered_stack(solid);
@@ -452,7 +452,7 @@ inside_new(const struct rc_solid *solid, double depth, bool shear, enum rc_bound
     in->depth = medium == 0 ? fmin(depth, s->material[0].thickness) : depth;
     in->shear = shear;
     in->scale = medium == 0 ? 2 * s->material[0].thickness - in->depth : depth;
-    if (boundary == RC_FREE) {
+    if (rc_repeats(boundary) == 0) {
         struct rc_radial_source source = {.n = in->shear ? FUNCTIONS : PRESSURE,
                                           .order = order,
                                           .scale = in->scale,

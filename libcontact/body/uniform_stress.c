@@ -27,7 +27,7 @@ numbers(bool shear)
 }
 
 static struct rc_inside *
-inside_new(const struct rc_solid *solid, double depth, bool shear, enum rc_boundary boundary,
+inside_new(const struct rc_solid *solid, double depth, bool shear, struct rc_boundary boundary,
            struct rc_err *err)
 {
     struct inside *s = malloc(sizeof *s);

@@ -61,10 +61,11 @@ struct rc_fatigue {
 
 /* ---- shapes ---- */
 
+/* Before and after it passes along a free axis, a contact does not load the body. */
 static size_t
 unloaded_states(const struct rc_fatigue_problem *p)
 {
-    return p->stress.boundary == RC_FREE;
+    return !rc_wraps(p->stress.boundary, p->pass == 'y' ? RC_Y : RC_X);
 }
 
 static size_t
@@ -86,7 +87,7 @@ rc_fatigue_shape(const struct rc_shape *s, const struct rc_fatigue_problem *p)
         return (struct rc_shape){s->ny, 1, s->dy, s->dy};
     if (p->pass == 'y')
         return (struct rc_shape){s->nx, 1, s->dx, s->dx};
-    if (p->stress.boundary == RC_FREE)
+    if (!p->stress.boundary.x)
         result.nx += most_column(p);
     return result;
 }
@@ -325,9 +326,9 @@ take_node(const struct rc_fatigue *f, struct rc_history *w, size_t row, size_t c
 
     for (size_t t = first; t < p->cases; t += step, n++) {
         const size_t shift = p->column == NULL ? 0 : p->column[t];
-        const size_t i = p->stress.boundary == RC_PERIODIC ? (column + nx - shift % nx) % nx
-                         : column >= shift                 ? column - shift
-                                                           : nx;
+        const size_t i = p->stress.boundary.x ? (column + nx - shift % nx) % nx
+                         : column >= shift    ? column - shift
+                                              : nx;
         const float *from =
             f->store + (t * RC_COMPONENTS * f->band + row - f->here.first) * nx + (i < nx ? i : 0);
         for (size_t c = 0; c < RC_COMPONENTS; c++)

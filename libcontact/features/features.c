@@ -141,7 +141,7 @@ enum rc_status
 rc_features(const struct rc_shape *shape, const double *h, const struct rc_surface_options *options,
             struct rc_features *a, struct rc_err *err)
 {
-    struct rc_field f = {.h = h, .wraps = options->boundary == RC_PERIODIC};
+    struct rc_field f = {.h = h, .boundary = options->boundary};
     RC_ENDS(rc_store_free) struct rc_store own = {0};
     struct figures hills = {0, NAN, NAN, NAN}, dales = {0, NAN, NAN, NAN};
     double mean;

@@ -18,7 +18,7 @@ struct rc_field {
     struct rc_shape shape;
     const double *h;
     double sign; /* -1: upside down */
-    bool wraps;
+    struct rc_boundary boundary;
     double highest, range; /* m, of the measured heights */
     double least;          /* m: hills with a smaller height above their saddle are pruned */
     size_t n;              /* measured nodes */
@@ -73,8 +73,8 @@ static inline size_t
 rc_field_neighbour(const struct rc_field *f, size_t k, int d)
 {
     size_t nx = f->shape.nx, ny = f->shape.ny;
-    size_t i = rc_field_step(k % nx, rc_across[d], nx, f->wraps),
-           j = rc_field_step(k / nx, rc_down[d], ny, f->wraps);
+    size_t i = rc_field_step(k % nx, rc_across[d], nx, f->boundary.x),
+           j = rc_field_step(k / nx, rc_down[d], ny, f->boundary.y);
 
     if (i == nx || j == ny || !rc_there(f->h[j * nx + i]))
         return SIZE_MAX;

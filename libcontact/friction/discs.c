@@ -405,13 +405,13 @@ beside(size_t i, int step, size_t n, bool round)
 static bool
 is_pushed_out(const struct rc_discs *d, size_t i, size_t j)
 {
-    bool round = d->t->boundary == RC_PERIODIC;
+    const struct rc_boundary round = d->t->boundary;
     size_t k = j * d->nx + i;
     double sum = 0, own[2] = {-slip_of(d, 0, k), -slip_of(d, 1, k)};
 
     for (int b = -1; b <= 1; b++)
         for (int a = -1; a <= 1; a++) {
-            size_t x = beside(i, a, d->nx, round), y = beside(j, b, d->ny, round), at;
+            size_t x = beside(i, a, d->nx, round.x), y = beside(j, b, d->ny, round.y), at;
             double r = hypot(a * d->t->shape.dx, b * d->t->shape.dy);
             if ((a == 0 && b == 0) || x == d->nx || y == d->ny)
                 continue;

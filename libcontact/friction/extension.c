@@ -24,7 +24,7 @@ power(const void *of, double q)
 
 /* The grid of the fields: the map with its padding. */
 static struct rc_shape
-framed(const struct rc_shape *s, enum rc_boundary boundary)
+framed(const struct rc_shape *s, struct rc_boundary boundary)
 {
     struct rc_frame f = rc_tangential_frame(s, boundary);
 
@@ -32,14 +32,14 @@ framed(const struct rc_shape *s, enum rc_boundary boundary)
 }
 
 static struct rc_pyramid_base
-base_of(const struct rc_shape *s, enum rc_boundary boundary, int threads)
+base_of(const struct rc_shape *s, struct rc_boundary boundary, int threads)
 {
     struct rc_shape grid = framed(s, boundary);
 
     return (struct rc_pyramid_base){.shape = grid,
                                     .n = grid.ny,
                                     .count = 1,
-                                    .round = boundary == RC_PERIODIC,
+                                    .boundary = boundary,
                                     .pairs = true,
                                     .threads = threads};
 }
@@ -324,7 +324,7 @@ rc_extension_set(struct rc_extension *e, const unsigned char *face, double *cons
     rc_pyramid_set(e->pyramid, weight_row, e);
     if (!given)
         share(e);
-    e->level = given && e->t->boundary == RC_PERIODIC;
+    e->level = given && !rc_has_mean(e->t->boundary);
     if (!e->level)
         return true;
     return e->level = invert_means(e);

@@ -32,7 +32,7 @@ set_spectra(struct rc_tangential *t, struct rc_err *err)
 {
     RC_OWN(rc_spectrum, passing) = NULL;
 
-    if (t->boundary == RC_FREE && (passing = rc_spectrum_new(t->fft, err)) == NULL)
+    if (rc_has_mean(t->boundary) && (passing = rc_spectrum_new(t->fft, err)) == NULL)
         return RC_FAIL;
     for (int k = 0; k < RC_SHEAR_KERNELS; k++) {
         const struct rc_shear_field field = {&t->shear, (enum rc_shear_which)k};
@@ -42,27 +42,32 @@ set_spectra(struct rc_tangential *t, struct rc_err *err)
             continue;
         if (passing == NULL)
             sample(t, &kernel, t->quarter[k]);
-        else if (rc_spectrum_set_by(passing, t->fft, &kernel, rc_keep_column, t->quarter[k], err) !=
-                 RC_OK)
+        else if (rc_spectrum_set_by(passing, t->fft, &kernel, t->boundary, rc_keep_column,
+                                    t->quarter[k], err) != RC_OK)
             return RC_FAIL;
     }
     return RC_OK;
 }
 
 /* The displacement due to a long wave. For a free boundary it is the displacement of the middle of the map
- * under a uniform traction. For a periodic map it is the displacement of the longest wave. */
+ * under a uniform traction. For a periodic map it is the displacement of the longest wave. If one axis
+ * repeats, it is the larger of that wave and of the middle of a strip. */
 static double
 norm_of(const struct rc_tangential *t)
 {
     double a = t->shape.dx * (double)t->shape.nx, b = t->shape.dy * (double)t->shape.ny;
     double most = (1 + fmax(t->shear.kap, 0)) / (RC_PI * t->shear.estar);
 
-    if (t->boundary == RC_PERIODIC)
+    if (!rc_has_mean(t->boundary))
         return fmax(a, b) * most;
+    if (rc_repeats(t->boundary) == 1) {
+        double w = t->boundary.x ? b : a, period = t->boundary.x ? a : b;
+        return most * fmax(period, 2 * w * (fabs(log(2 * t->boundary.datum / w)) + 1));
+    }
     return 2 * (a * asinh(b / a) + b * asinh(a / b)) * most;
 }
 
-/* The factor along x or y of a free map, interpolated between two waves. NAN: the grid has no wave that long
+/* The factor along a free axis, x or y, interpolated between two waves. NAN: the grid has no wave that long
  * or that short. */
 static double
 along(const struct rc_tangential *t, bool x, double q)
@@ -73,7 +78,7 @@ along(const struct rc_tangential *t, bool x, double q)
     rc_fft_period(&t->shape, t->boundary, &nodes[0], &nodes[1]);
     n = nodes[x ? 0 : 1];
     at = q * (x ? t->shape.dx : t->shape.dy) * (double)n / (2 * RC_PI);
-    if (at < 1 || at > (double)(n / 2))
+    if (rc_wraps(t->boundary, x ? RC_X : RC_Y) || at < 1 || at > (double)(n / 2))
         return NAN;
     wave[0] = (size_t)at;
     wave[1] = (size_t)ceil(at);
@@ -94,7 +99,7 @@ mean_of(double x, double y)
 double
 rc_tangential_wave(const struct rc_tangential *t, double q)
 {
-    double mean = t->boundary == RC_FREE ? mean_of(along(t, true, q), along(t, false, q)) : NAN;
+    double mean = mean_of(along(t, true, q), along(t, false, q));
 
     return isnan(mean) ? (2 + t->shear.kap) / (q * t->shear.estar) : mean;
 }
@@ -104,7 +109,7 @@ rc_tangential_power(const struct rc_tangential *t, double q)
 {
     double last = RC_PI / fmin(t->shape.dx, t->shape.dy), power = NAN;
 
-    for (; t->boundary == RC_FREE && q <= last && isnan(power); q *= 2)
+    for (; rc_has_mean(t->boundary) && q <= last && isnan(power); q *= 2)
         power = mean_of(log2(along(t, true, q) / along(t, true, 2 * q)),
                         log2(along(t, false, q) / along(t, false, 2 * q)));
     return isnan(power) ? 1 : power;
@@ -154,7 +159,7 @@ allocate(struct rc_tangential *t)
 }
 
 struct rc_frame
-rc_tangential_frame(const struct rc_shape *shape, enum rc_boundary boundary)
+rc_tangential_frame(const struct rc_shape *shape, struct rc_boundary boundary)
 {
     const struct rc_pair pair = {.estar = 1};
 
@@ -163,7 +168,7 @@ rc_tangential_frame(const struct rc_shape *shape, enum rc_boundary boundary)
 }
 
 struct rc_tangential *
-rc_tangential_new(const struct rc_shape *shape, enum rc_boundary boundary,
+rc_tangential_new(const struct rc_shape *shape, struct rc_boundary boundary,
                   const struct rc_shear *shear, size_t threads, struct rc_err *err)
 {
     RC_OWN(rc_tangential, t) = calloc(1, sizeof *t);
@@ -171,15 +176,16 @@ rc_tangential_new(const struct rc_shape *shape, enum rc_boundary boundary,
     if (t == NULL)
         return rc_err_null(err, "out of memory for a plan");
     t->shape = *shape;
-    t->boundary = boundary;
+    t->boundary = rc_boundary_on(shape, boundary);
     t->shear = *shear;
     t->threads = rc_useful_threads(shape, threads);
-    t->fft = rc_fft_new(NULL, NULL, shape, boundary, RC_DOUBLE, threads, err);
+    t->fft = rc_fft_new(NULL, NULL, shape, t->boundary, RC_DOUBLE, threads, err);
     if (t->fft == NULL)
         return NULL;
     t->frame = rc_tangential_frame(shape, boundary);
-    t->framed = boundary == RC_FREE
-                    ? rc_fft_new_framed(NULL, t->fft, shape, &t->frame, RC_SINGLE, threads, err)
+    t->framed = rc_has_mean(boundary)
+                    ? rc_fft_new_framed(NULL, t->fft, shape, t->boundary, &t->frame, RC_SINGLE,
+                                        threads, err)
                     : rc_fft_new(NULL, t->fft, shape, boundary, RC_SINGLE, threads, err);
     if (t->framed == NULL)
         return NULL;

@@ -16,7 +16,7 @@
 
 struct rc_tangential {
     struct rc_shape shape;
-    enum rc_boundary boundary;
+    struct rc_boundary boundary;
     struct rc_shear shear;
     int threads;
     double norm;           /* m/Pa: an upper bound of the largest eigenvalue of T */
@@ -34,13 +34,13 @@ struct rc_tangential {
     struct rc_store own;
 };
 
-struct rc_tangential *rc_tangential_new(const struct rc_shape *shape, enum rc_boundary boundary,
+struct rc_tangential *rc_tangential_new(const struct rc_shape *shape, struct rc_boundary boundary,
                                         const struct rc_shear *shear, size_t threads,
                                         struct rc_err *err);
 void rc_tangential_free(struct rc_tangential *t); /* NULL is allowed */
 RC_OWNER(rc_tangential)
 
-struct rc_frame rc_tangential_frame(const struct rc_shape *shape, enum rc_boundary boundary);
+struct rc_frame rc_tangential_frame(const struct rc_shape *shape, struct rc_boundary boundary);
 /* m/Pa: the factor of T for waves of wave number q, averaged over their directions. */
 double rc_tangential_wave(const struct rc_tangential *t, double q);
 /* The power a of the decrease, T ~ q^-a. It is 1, but near 0 along a strip with a free boundary. If the grid

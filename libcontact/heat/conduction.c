@@ -25,7 +25,7 @@ rc_conduction_free(struct rc_conduction *c)
 }
 
 struct rc_conduction *
-rc_conduction_new(const struct rc_shape *shape, enum rc_boundary boundary, size_t threads,
+rc_conduction_new(const struct rc_shape *shape, struct rc_boundary boundary, size_t threads,
                   struct rc_err *err)
 {
     const struct rc_pair pair = {.estar = 1};
@@ -35,14 +35,15 @@ rc_conduction_new(const struct rc_shape *shape, enum rc_boundary boundary, size_
     if (c == NULL)
         return rc_err_null(err, "out of memory for a plan");
     c->shape = *shape;
-    c->boundary = boundary;
+    c->boundary = rc_boundary_on(shape, boundary);
     c->threads = rc_useful_threads(shape, threads);
     if ((c->fft = rc_fft_new(NULL, NULL, shape, boundary, RC_DOUBLE, threads, err)) == NULL)
         return NULL;
     c->framed = c->fft;
-    if (boundary == RC_FREE) {
+    if (rc_has_mean(boundary)) {
         c->frame = rc_operator_frame(shape, &options);
-        c->framed = rc_fft_new_framed(NULL, c->fft, shape, &c->frame, RC_DOUBLE, threads, err);
+        c->framed =
+            rc_fft_new_framed(NULL, c->fft, shape, c->boundary, &c->frame, RC_DOUBLE, threads, err);
         if (c->framed == NULL)
             return NULL;
     }
@@ -101,8 +102,8 @@ transform(struct rc_warming *w, const struct rc_conduction *c, const struct rc_h
     for (unsigned k = 0; k < RC_HEAT_PARTS; k++) {
         const struct rc_heat_part part = {cells, k};
         const struct rc_kernel kernel = rc_heat_kernel(&part);
-        if (w->part[k] != NULL &&
-            rc_spectrum_set_by(passing, c->fft, &kernel, rc_keep_column, w->part[k], err) != RC_OK)
+        if (w->part[k] != NULL && rc_spectrum_set_by(passing, c->fft, &kernel, c->boundary,
+                                                     rc_keep_column, w->part[k], err) != RC_OK)
             return RC_FAIL;
     }
     return RC_OK;
@@ -120,7 +121,7 @@ rc_warming_set(struct rc_warming *w, struct rc_store *own, struct rc_conduction 
             return rc_err_set(err, "out of memory for the heat of %zu x %zu nodes", c->shape.nx,
                               c->shape.ny);
     }
-    if (c->boundary == RC_FREE)
+    if (rc_has_mean(c->boundary))
         return transform(w, c, body, err);
     sample(w, c, body);
     return RC_OK;

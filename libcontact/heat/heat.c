@@ -126,7 +126,7 @@ check(const struct rc_shape *shape, const struct rc_heat_problem *p, struct rc_e
                               "velocity of body %d, %g and %g m/s: the Peclet number of a cell is "
                               "above %g: check the units of velocity, diffusivity and spacing",
                               b + 1, body->velocity[0], body->velocity[1], most_peclet);
-        if (p->boundary == RC_FREE && !(p->time > 0) && !is_cooled(shape, body->velocity))
+        if (rc_has_mean(p->boundary) && !(p->time > 0) && !is_cooled(shape, body->velocity))
             return rc_err_set(err,
                               "body %d does not move along the profile, which has no end across: "
                               "it becomes warmer without end: give a time",
@@ -134,7 +134,7 @@ check(const struct rc_shape *shape, const struct rc_heat_problem *p, struct rc_e
     }
     if (!(p->time >= 0) || isinf(p->time))
         return rc_err_set(err, "time %g s: it must be above 0, or 0 for the steady state", p->time);
-    if (p->boundary == RC_PERIODIC && p->time == 0)
+    if (!rc_has_mean(p->boundary) && p->time == 0)
         return rc_err_set(err, "a periodic map becomes warmer without end, and has no steady "
                                "temperature: give a time");
     if (p->partition == RC_HEAT_SHARE && !(p->share >= 0 && p->share <= 1))
@@ -261,8 +261,9 @@ rc_heat_expect(const struct rc_shape *shape, const struct rc_heat_problem *p, si
         return RC_FAIL;
     *expected = (struct rc_expected){
         .convolutions = RC_HEAT_WORK + (matched ? RC_HEAT_STEP * times : 0) + times * (times + 1),
-        .memory = (size_t)(nodes * (bytes[p->boundary == RC_PERIODIC][!matched] +
-                                    RC_HEAT_TIME_BYTES * (times - 1)))};
+        .memory =
+            (size_t)(nodes * (rc_by_padding(p->boundary, bytes[0][!matched], bytes[1][!matched]) +
+                              RC_HEAT_TIME_BYTES * (times - 1)))};
     expected->seconds = one * expected->convolutions +
                         (RC_HEAT_NODE + RC_HEAT_DEPTH * (double)depths) * nodes * 2 / cores;
     return RC_OK;

@@ -68,7 +68,7 @@ struct rc_warming {
 
 struct rc_conduction {
     struct rc_shape shape;
-    enum rc_boundary boundary;
+    struct rc_boundary boundary;
     int threads;
     struct rc_frame frame;       /* of padding around a free map */
     struct rc_fft *fft, *framed; /* framed: of the map with its frame; the same if periodic */
@@ -79,7 +79,7 @@ struct rc_conduction {
     struct rc_store own;
     double count; /* of convolutions */
 };
-struct rc_conduction *rc_conduction_new(const struct rc_shape *shape, enum rc_boundary boundary,
+struct rc_conduction *rc_conduction_new(const struct rc_shape *shape, struct rc_boundary boundary,
                                         size_t threads, struct rc_err *err);
 void rc_conduction_free(struct rc_conduction *c); /* NULL is allowed */
 RC_OWNER(rc_conduction)

@@ -87,7 +87,7 @@ rc_heat_inverse_new(struct rc_conduction *c, const struct rc_heated bodies[2], s
         .row = c->shape.ny == 1,
         .column = c->shape.nx == 1 && c->shape.ny > 1};
     struct rc_pyramid_base base = {
-        .shape = c->shape, .count = 1, .round = c->boundary == RC_PERIODIC, .threads = c->threads};
+        .shape = c->shape, .count = 1, .boundary = c->boundary, .threads = c->threads};
 
     if (e == NULL)
         return rc_err_null(err, "out of memory for %zu nodes in contact", n);

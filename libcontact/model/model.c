@@ -443,16 +443,15 @@ rc_model_make_outer(const struct rc_model_row *row, size_t size, struct rc_model
 }
 
 enum rc_status
-rc_model_same_boundary(const struct rc_model *m, enum rc_boundary boundary, struct rc_err *err)
+rc_model_same_boundary(const struct rc_model *m, struct rc_boundary boundary, struct rc_err *err)
 {
-    static const char *const words[] = {[RC_FREE] = "free", [RC_PERIODIC] = "periodic"};
-
-    return m->boundary == boundary
+    return rc_same_boundary(m->boundary, boundary)
                ? RC_OK
                : rc_err_set(err,
                             "the boundary of the %s model is %s, and that of its %s model %s: "
                             "give both the same",
-                            m->row->name, words[boundary], m->inner->row->name, words[m->boundary]);
+                            m->row->name, rc_boundary_word(boundary), m->inner->row->name,
+                            rc_boundary_word(m->boundary));
 }
 
 void

@@ -135,15 +135,15 @@ struct rc_model_row {
 struct rc_model {
     const struct rc_model_row *row;
     struct rc_shape shape;
-    enum rc_boundary boundary; /* of the contact; an outer model has that of its inner one */
-    struct rc_model *inner;    /* owned; NULL: none                      */
-    bool inside;               /* true: the inner model of another one   */
-    struct rc_point from, to;  /* last point kept, with its found axes; next one */
-    enum rc_status status;     /* RC_MORE: the point is not reached yet */
-    bool moved;                /* true: steps were made since the last keep */
-    bool looked;               /* the figures belong to the present step */
-    struct rc_state_copy kept; /* state at the last keep                */
-    struct rc_store own;       /* memory that is freed with the model   */
+    struct rc_boundary boundary; /* of the contact; an outer model has that of its inner one */
+    struct rc_model *inner;      /* owned; NULL: none                      */
+    bool inside;                 /* true: the inner model of another one   */
+    struct rc_point from, to;    /* last point kept, with its found axes; next one */
+    enum rc_status status;       /* RC_MORE: the point is not reached yet */
+    bool moved;                  /* true: steps were made since the last keep */
+    bool looked;                 /* the figures belong to the present step */
+    struct rc_state_copy kept;   /* state at the last keep                */
+    struct rc_store own;         /* memory that is freed with the model   */
 };
 
 /* For makers: a zeroed model of `size` bytes; NULL if memory is short. It owns its inner model from now on,
@@ -153,7 +153,7 @@ struct rc_model *rc_model_make(const struct rc_model_row *row, size_t size,
 struct rc_model *rc_model_make_outer(const struct rc_model_row *row, size_t size,
                                      struct rc_model *inner, struct rc_err *err);
 /* RC_FAIL if this, the boundary of an outer model's own problem, is not that of its inner model. */
-enum rc_status rc_model_same_boundary(const struct rc_model *m, enum rc_boundary boundary,
+enum rc_status rc_model_same_boundary(const struct rc_model *m, struct rc_boundary boundary,
                                       struct rc_err *err);
 /* RC_FAIL, with a sentence, if memory was short for a block of m->own. */
 enum rc_status rc_model_room(const struct rc_model *m, struct rc_err *err);

@@ -41,7 +41,7 @@ sum_of(const struct rc_shape *shape, const struct rc_surface *surface,
        const struct rc_conv_options *o)
 {
     return (struct rc_sum){.shape = *shape,
-                           .boundary = o->boundary,
+                           .boundary = rc_boundary_on(shape, o->boundary),
                            .kernel =
                                surface == NULL ? rc_kernel_of_one : rc_surface_kernel(surface),
                            .tol = o->tol,
@@ -105,7 +105,7 @@ rc_engine_of_transforms(void)
 }
 
 enum rc_status
-rc_engine_serves(const struct rc_engine *engine, const char *name, enum rc_boundary boundary,
+rc_engine_serves(const struct rc_engine *engine, const char *name, struct rc_boundary boundary,
                  const struct rc_ranks *ranks, struct rc_err *err)
 {
     const char *other = rc_engine_of_transforms()->info.name;
@@ -115,7 +115,7 @@ rc_engine_serves(const struct rc_engine *engine, const char *name, enum rc_bound
                           "the engine '%s' needs the map in one process: with several processes "
                           "take auto or '%s'",
                           name, other);
-    if (boundary == RC_PERIODIC && !engine->info.periodic)
+    if (rc_repeats(boundary) > 0 && !engine->info.periodic)
         return rc_err_set(err,
                           "the sums of the engine '%s' have no end on a periodic boundary: leave "
                           "the choice to auto, or take '%s'",
@@ -131,14 +131,15 @@ bytes(const struct rc_engine *engine, const struct rc_sum *sum)
     const struct rc_engine_info *info =
         single || engine->precise.name == NULL ? &engine->info : &engine->precise;
 
-    return (double)(sum->shape.nx * sum->shape.ny) * info->sum_bytes[sum->boundary == RC_PERIODIC];
+    return (double)(sum->shape.nx * sum->shape.ny) *
+           rc_by_padding(sum->boundary, info->sum_bytes[0], info->sum_bytes[1]);
 }
 
 /* Chooses an engine; *reason says why. */
 static const struct rc_engine *
 choose(const struct rc_sum *sum, const struct rc_conv_options *o, const char **reason)
 {
-    if (sum->boundary == RC_PERIODIC) {
+    if (rc_repeats(sum->boundary) > 0) {
         *reason = "the boundary is periodic";
         return &rc_engine_fft;
     }

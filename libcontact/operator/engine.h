@@ -12,7 +12,7 @@ struct rc_fft;
 /* The sum: a kernel on a grid. */
 struct rc_sum {
     struct rc_shape shape;
-    enum rc_boundary boundary;
+    struct rc_boundary boundary;
     struct rc_kernel kernel;
     double tol;                   /* asked error relative to the sum of |K| |p|; 0: rounding     */
     bool precise;                 /* in double precision throughout, even where tol permits less */
@@ -59,7 +59,7 @@ const struct rc_engine *rc_engine_of_transforms(void);
 /* RC_FAIL, and *err says why, when this engine, requested by that name, does not support this boundary or
  * these ranks. */
 enum rc_status rc_engine_serves(const struct rc_engine *engine, const char *name,
-                                enum rc_boundary boundary, const struct rc_ranks *ranks,
+                                struct rc_boundary boundary, const struct rc_ranks *ranks,
                                 struct rc_err *err);
 
 /* RC_FAIL, and *err says why, when rc_conv_new would find no engine. */

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
- * Convolution by fast Fourier transforms: exact to rounding on both boundaries, N log N.
+ * Convolution by fast Fourier transforms: exact to rounding on all boundaries, N log N.
  */
 #include <math.h>
 #include <stdlib.h>
@@ -79,10 +79,10 @@ seconds(const struct rc_sum *sum)
     const double n = (double)(sum->shape.nx * sum->shape.ny);
     const bool profile = sum->shape.nx == 1 || sum->shape.ny == 1;
 
-    return RC_SUM_START + (profile ? RC_SUM_PROFILE * n
-                           : sum->boundary == RC_FREE
-                               ? RC_SUM_FREE * n
-                               : RC_SUM_PERIODIC * n + RC_SUM_PAST * fmax(n - 1e6, 0));
+    return RC_SUM_START +
+           (profile ? RC_SUM_PROFILE * n
+                    : rc_by_padding(sum->boundary, RC_SUM_FREE * n,
+                                    RC_SUM_PERIODIC * n + RC_SUM_PAST * fmax(n - 1e6, 0)));
 }
 
 const struct rc_engine rc_engine_fft = {

@@ -3,10 +3,11 @@
  * Layout of the transforms and spectra of kernels. A kernel that is even or odd in x and in y has a spectrum
  * that is real up to a power of -i. A quarter of its values determines it.
  *
- * Free boundary: zero padding to px >= 2 nx, py >= 2 ny is exact; a profile needs no padding across it. The
- * spectrum is the real even or odd transform of a quarter of the kernel's values. At the offset of half a
- * period the kernel has its own value. With 0 there the spectrum of narrow grids gets negative and has no
- * useful inverse. Periodic boundary: no padding; the spectrum is the kernel's symbol.
+ * Free axis: zero padding to px >= 2 nx or py >= 2 ny is exact; a profile needs no padding across it. The
+ * spectrum is the real even or odd transform of half of the kernel's values along the axis. At the offset of
+ * half a period the kernel has its own value. With 0 there the spectrum of narrow grids gets negative and has
+ * no useful inverse. Axis that repeats: no padding; the values along the other axis are those of a wave.
+ * Where both repeat, the spectrum is the kernel's symbol.
  */
 #include "fft.h"
 
@@ -16,6 +17,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "libcontact/body/line.h"
 #include "libcontact/memory.h"
 #include "libcontact/transform/transform.h"
 
@@ -30,7 +32,7 @@ struct half {
 
 struct rc_fft {
     struct rc_shape shape;
-    enum rc_boundary boundary;
+    struct rc_boundary boundary;
     struct rc_layout layout;
     const struct rc_fft_ops *ops;
     void *plan;
@@ -74,16 +76,14 @@ real_size(enum rc_precision precision)
 }
 
 void
-rc_fft_period(const struct rc_shape *s, enum rc_boundary boundary, size_t *px, size_t *py)
+rc_fft_period(const struct rc_shape *s, struct rc_boundary boundary, size_t *px, size_t *py)
 {
-    bool padded = boundary == RC_FREE;
-
-    *px = padded && s->nx > 1 ? rc_fourier_length(s->nx, 2) : s->nx;
-    *py = padded && s->ny > 1 ? rc_fourier_length(s->ny, 4) : s->ny;
+    *px = !boundary.x && s->nx > 1 ? rc_fourier_length(s->nx, 2) : s->nx;
+    *py = !boundary.y && s->ny > 1 ? rc_fourier_length(s->ny, 4) : s->ny;
 }
 
 static struct rc_layout
-layout_of(const struct rc_shape *s, enum rc_boundary boundary, enum rc_precision precision)
+layout_of(const struct rc_shape *s, struct rc_boundary boundary, enum rc_precision precision)
 {
     const size_t line = line_of(precision);
     struct rc_layout l = {.nx = s->nx, .ny = s->ny};
@@ -92,7 +92,7 @@ layout_of(const struct rc_shape *s, enum rc_boundary boundary, enum rc_precision
     l.cx = l.px / 2 + 1;
     l.stride = (l.cx + line - 1) / line * line;
     l.radix = l.py % 4 == 0 && l.py >= 64 ? 4 : 1;
-    if (boundary == RC_FREE && l.py > 1)
+    if (!boundary.y && l.py > 1)
         l.radix = 4;
     l.m = l.py / l.radix;
     l.cy = l.py / 2 + 1;
@@ -194,7 +194,7 @@ share(struct rc_fft *f, const struct rc_ranks *ranks, enum rc_precision precisio
 /* With a frame the plan makes no spectra itself. */
 static struct rc_fft *
 fft_new(const struct rc_ranks *ranks, struct rc_fft *lender, const struct rc_shape *s,
-        enum rc_boundary boundary, const struct rc_frame *frame, enum rc_precision precision,
+        struct rc_boundary boundary, const struct rc_frame *frame, enum rc_precision precision,
         size_t threads, struct rc_err *err)
 {
     RC_OWN(rc_fft, f) = calloc(1, sizeof *f);
@@ -243,7 +243,7 @@ agree(const struct rc_ranks *ranks, struct rc_fft *f, struct rc_err *err)
 
 struct rc_fft *
 rc_fft_new(const struct rc_ranks *ranks, struct rc_fft *lender, const struct rc_shape *s,
-           enum rc_boundary boundary, enum rc_precision precision, size_t threads,
+           struct rc_boundary boundary, enum rc_precision precision, size_t threads,
            struct rc_err *err)
 {
     if (rc_shape_check(s, err) != RC_OK)
@@ -256,10 +256,10 @@ rc_fft_new(const struct rc_ranks *ranks, struct rc_fft *lender, const struct rc_
 
 struct rc_fft *
 rc_fft_new_framed(const struct rc_ranks *ranks, struct rc_fft *lender, const struct rc_shape *s,
-                  const struct rc_frame *frame, enum rc_precision precision, size_t threads,
-                  struct rc_err *err)
+                  struct rc_boundary boundary, const struct rc_frame *frame,
+                  enum rc_precision precision, size_t threads, struct rc_err *err)
 {
-    return agree(ranks, fft_new(ranks, lender, s, RC_FREE, frame, precision, threads, err), err);
+    return agree(ranks, fft_new(ranks, lender, s, boundary, frame, precision, threads, err), err);
 }
 
 static const struct rc_ranks *
@@ -378,7 +378,8 @@ rc_fft_quarter_size(const struct rc_fft *f)
 void
 rc_fft_quarter_row(const struct rc_fft *f, size_t count, unsigned odd, double *const *lines)
 {
-    half_run(&f->along_x, count, odd, lines);
+    if (!f->boundary.x)
+        half_run(&f->along_x, count, odd, lines);
 }
 
 /* Copies the n columns from `first` on; rows are `wide` numbers long. */
@@ -396,10 +397,11 @@ gather_columns(const double *rows, size_t cy, size_t wide, size_t first, size_t 
     }
 }
 
-/* From all rows of the columns held here; rows are `wide` numbers apart. */
+/* From all rows of the columns held here; rows are `wide` numbers apart. `waves`: the rows stand for waves
+ * along y already. */
 static void
-set_quarter(struct rc_spectrum *k, const struct rc_fft *f, unsigned parity, const double *rows,
-            size_t wide, rc_column *each, void *ctx)
+set_quarter(struct rc_spectrum *k, const struct rc_fft *f, unsigned parity, bool waves,
+            const double *rows, size_t wide, rc_column *each, void *ctx)
 {
     size_t cx = f->layout.columns, cy = f->layout.cy;
 
@@ -412,7 +414,8 @@ set_quarter(struct rc_spectrum *k, const struct rc_fft *f, unsigned parity, cons
         gather_columns(rows, cy, wide, first, n, columns);
         for (size_t b = 0; b < n; b++) {
             double *column = columns + b * cy;
-            half_run(&f->along_y, 1, (parity & RC_ODD_Y) != 0, &column);
+            if (!waves)
+                half_run(&f->along_y, 1, (parity & RC_ODD_Y) != 0, &column);
             if (each != NULL)
                 each(ctx, f->layout.first + first + b, cy, columns + b * cy);
             store_column(k, f, first + b, columns + b * cy);
@@ -444,16 +447,73 @@ rc_fft_quarter_turn(const struct rc_fft *f, double *quarter, struct rc_err *err)
     return RC_OK;
 }
 
-enum rc_status
-rc_spectrum_set_by(struct rc_spectrum *k, const struct rc_fft *f, const struct rc_kernel *kernel,
-                   rc_column *each, void *ctx, struct rc_err *err)
+/* The values of a kernel in rows first .. last - 1 of a quarter, or those of a wave along y for each
+ * row where y repeats, transformed along x. */
+static enum rc_status
+quarter_rows(const struct rc_fft *f, const struct rc_kernel *kernel, struct rc_boundary boundary,
+             size_t first, size_t last, double *values)
 {
     const struct rc_lattice nodes = {f->shape.dx, f->shape.dy, 1, 1};
+    struct rc_line_at line = {f->shape.dx, 1, f->layout.cx, 0, boundary.datum};
+    const size_t cx = f->layout.cx;
+    enum rc_status status = RC_OK;
+
+    if (!boundary.y)
+        kernel->rows(kernel->of, &nodes, cx, first, last, values);
+    for (size_t j = first; j < last; j++) {
+        double *row = values + (j - first) * cx;
+        line.wave = rc_fft_qy(f, j);
+        if (boundary.y && 2 * j == f->layout.ny && kernel->parity & RC_ODD_Y)
+            memset(row, 0, cx * sizeof *row);
+        else if (boundary.y && rc_kernel_line(kernel, true, &line, row, NULL) != RC_OK)
+            status = RC_FAIL;
+        half_run(&f->along_x, 1, (kernel->parity & RC_ODD_X) != 0, &row);
+    }
+    return status;
+}
+
+/* The spectrum of a kernel on a map that repeats along x only: column by column, from a line along y. */
+static enum rc_status
+set_columns(struct rc_spectrum *k, const struct rc_fft *f, const struct rc_kernel *kernel,
+            double datum, rc_column *each, void *ctx, struct rc_err *err)
+{
+    const struct rc_layout *l = &f->layout;
+    enum rc_status status = RC_OK;
+
+    k->parity = kernel->parity;
+#pragma omp parallel for num_threads(l->threads) schedule(dynamic)
+    for (size_t c = 0; c < l->columns; c++) {
+        double *column = columns_of(f);
+        const size_t i = l->first + c;
+        const struct rc_line_at line = {f->shape.dy, 1, l->cy, rc_fft_qx(f, i), datum};
+        if (2 * i == l->nx && kernel->parity & RC_ODD_X)
+            memset(column, 0, l->cy * sizeof *column);
+        else if (rc_kernel_line(kernel, false, &line, column, NULL) != RC_OK)
+#pragma omp atomic write
+            status = RC_FAIL;
+        half_run(&f->along_y, 1, (kernel->parity & RC_ODD_Y) != 0, &column);
+        if (each != NULL)
+            each(ctx, i, l->cy, column);
+        store_column(k, f, c, column);
+    }
+    share_total(k, f);
+    return rc_ranks_need(ranks_of(f), status == RC_OK, err,
+                         "out of memory for a kernel of %zu x %zu values", l->cx, l->cy);
+}
+
+enum rc_status
+rc_spectrum_set_by(struct rc_spectrum *k, const struct rc_fft *f, const struct rc_kernel *kernel,
+                   struct rc_boundary boundary, rc_column *each, void *ctx, struct rc_err *err)
+{
     size_t cx = f->layout.cx, from, rows;
+    enum rc_status status = RC_OK;
     const size_t size = rc_fft_quarter_size(f);
     RC_OWNED double *own = NULL;
-    double *values = f->ops->workspace(f->plan, size * sizeof *values);
+    double *values;
 
+    if (boundary.x)
+        return set_columns(k, f, kernel, boundary.datum, each, ctx, err);
+    values = f->ops->workspace(f->plan, size * sizeof *values);
     rc_fft_quarter_rows(f, &from, &rows);
     if (values == NULL)
         values = own = rc_alloc(size, sizeof *own);
@@ -464,16 +524,16 @@ rc_spectrum_set_by(struct rc_spectrum *k, const struct rc_fft *f, const struct r
     for (size_t first = from; first < from + rows; first += ROWS) {
         size_t last = first + ROWS < from + rows ? first + ROWS : from + rows;
 
-        kernel->rows(kernel->of, &nodes, cx, first, last, values + (first - from) * cx);
-        for (size_t j = first; j < last; j++) {
-            double *row = values + (j - from) * cx;
-            rc_fft_quarter_row(f, 1, (kernel->parity & RC_ODD_X) != 0, &row);
-        }
+        if (quarter_rows(f, kernel, boundary, first, last, values + (first - from) * cx) != RC_OK)
+#pragma omp atomic write
+            status = RC_FAIL;
     }
-    if (rc_fft_quarter_turn(f, values, err) != RC_OK)
+    if (rc_ranks_need(ranks_of(f), status == RC_OK, err,
+                      "out of memory for a kernel of %zu x %zu values", cx, rows) != RC_OK ||
+        rc_fft_quarter_turn(f, values, err) != RC_OK)
         return RC_FAIL;
-    set_quarter(k, f, kernel->parity, values, f->layout.turn == NULL ? cx : f->layout.wide, each,
-                ctx);
+    set_quarter(k, f, kernel->parity, boundary.y, values,
+                f->layout.turn == NULL ? cx : f->layout.wide, each, ctx);
     return RC_OK;
 }
 
@@ -574,8 +634,8 @@ enum rc_status
 rc_spectrum_set(struct rc_spectrum *k, const struct rc_fft *f, const struct rc_kernel *kernel,
                 struct rc_err *err)
 {
-    if (f->boundary == RC_FREE)
-        return rc_spectrum_set_by(k, f, kernel, NULL, NULL, err);
+    if (rc_has_mean(f->boundary))
+        return rc_spectrum_set_by(k, f, kernel, f->boundary, NULL, NULL, err);
     if (kernel->symbol == NULL)
         return rc_err_set(err, "this kernel has no periodic form");
     sample(k, f, kernel->parity, symbol_of, kernel);
@@ -684,18 +744,18 @@ line_spectra(void *ctx, size_t c, size_t n)
     char *spectra = lines->spectra + thread * lines->count * size * f->ops->real_size;
 
     set_waves(f, qy);
-    for (size_t k = 0; k < lines->count && f->boundary == RC_FREE; k++)
+    for (size_t k = 0; k < lines->count && rc_has_mean(f->boundary); k++)
         gather_columns(lines->kernel[k].quarter, l->cy, l->turn == NULL ? l->cx : l->wide, c, n,
                        columns + k * size);
     for (size_t b = 0; b < n; b++) {
         for (size_t k = 0; k < lines->count; k++) {
             const struct rc_fft_kernel *kernel = &lines->kernel[k];
             column[k] = columns + k * size + b * l->cy;
-            if (f->boundary == RC_PERIODIC)
+            if (!rc_has_mean(f->boundary))
                 sample_column(f, kernel->parity, kernel->symbol, kernel->of, l->first + c + b, qy,
                               column[k]);
         }
-        if (f->boundary == RC_FREE)
+        if (!f->boundary.y)
             half_run(&f->along_y, lines->count, lines->odd, column);
         for (size_t k = 0; k < lines->count; k++)
             f->ops->store(l, k * line + b, factor, lines->odd >> k & 1 ? -1 : 1, column[k],

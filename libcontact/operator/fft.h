@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
  * The parts of the transform engine. One transform of the source serves several kernels on one grid, in
- * double or single precision, on the free or the periodic boundary. Internal: never installed.
+ * double or single precision, on any boundary. Internal: never installed.
  *
  * Only fft_body.h, compiled once for each precision, uses FFTW.
  */
@@ -27,12 +27,13 @@ struct rc_spectrum; /* transform of a kernel: a quarter of its values, real */
  * memory of `lender`, another plan that outlives it; the two never run at the same time. If `lender` is NULL
  * or its memory too small, the plan allocates its own. */
 struct rc_fft *rc_fft_new(const struct rc_ranks *ranks, struct rc_fft *lender,
-                          const struct rc_shape *shape, enum rc_boundary boundary,
+                          const struct rc_shape *shape, struct rc_boundary boundary,
                           enum rc_precision precision, size_t threads, struct rc_err *err);
-/* The same transforms, with the spectra of rc_fft_new, of a free map in a frame. The frame is x columns and y
- * rows of the padding on either side of the map, at most half of the padding. Row and column 0 are the first
- * of the frame. Its rows belong to the ranks with the first and the last row of the map. Within the map a
- * kernel acts as before; over distances that exceed the padding it acts around the period. Chains only. */
+/* The same transforms, with the spectra of rc_fft_new, of a map in a frame. The frame is x columns and
+ * y rows of the padding on either side of the map, at most half of the padding; 0 along an axis that
+ * repeats. Row and column 0 are the first of the frame. Its rows belong to the ranks with the first and
+ * the last row of the map. Within the map a kernel acts as before; over distances that exceed the
+ * padding it acts around the period. Chains only. */
 struct rc_frame {
     size_t x, y;
 };
@@ -46,12 +47,14 @@ rc_frame_fade(size_t at, size_t first, size_t n, size_t frame)
     return 1 - (float)off / (float)(frame + 1);
 }
 struct rc_fft *rc_fft_new_framed(const struct rc_ranks *ranks, struct rc_fft *lender,
-                                 const struct rc_shape *shape, const struct rc_frame *frame,
-                                 enum rc_precision precision, size_t threads, struct rc_err *err);
+                                 const struct rc_shape *shape, struct rc_boundary boundary,
+                                 const struct rc_frame *frame, enum rc_precision precision,
+                                 size_t threads, struct rc_err *err);
 void rc_fft_free(struct rc_fft *fft);
 RC_OWNER(rc_fft)
-/* Sides of the transformed grid: with padding for a free map; a profile has none across it. */
-void rc_fft_period(const struct rc_shape *shape, enum rc_boundary boundary, size_t *px, size_t *py);
+/* Sides of the transformed grid: with padding along free axes; a profile has none across it. */
+void rc_fft_period(const struct rc_shape *shape, struct rc_boundary boundary, size_t *px,
+                   size_t *py);
 
 /* NULL when memory is short. */
 struct rc_spectrum *rc_spectrum_new(const struct rc_fft *fft, struct rc_err *err);
@@ -59,16 +62,18 @@ void rc_spectrum_free(struct rc_spectrum *spectrum);
 RC_OWNER(rc_spectrum)
 /* Its value at wave number 0: for a kernel given by values, their sum over a period. */
 double rc_spectrum_total(const struct rc_spectrum *spectrum);
-/* Sets it to the spectrum of a kernel: on the free boundary the transform of its values, on the periodic one
- * its symbol. RC_FAIL when memory is short or the kernel has no symbol. */
+/* Sets it to the spectrum of a kernel: along free axes the transform of its values, along axes that
+ * repeat its symbol. RC_FAIL when memory is short or the kernel has no symbol. */
 enum rc_status rc_spectrum_set(struct rc_spectrum *spectrum, const struct rc_fft *fft,
                                const struct rc_kernel *kernel, struct rc_err *err);
-/* The same for a free map. Several threads call `each` with the n wave numbers along y of column i along x.
- * It may change them before they are stored. Columns are those held here: rc_fft_columns. */
+/* The same with a boundary of the kernel, at least one axis of which is free, and which may differ from
+ * that of the transforms (see operator.h, rc_whole). Several threads call `each` with the n wave
+ * numbers along y of column i along x. It may change them before they are stored. Columns are those
+ * held here: rc_fft_columns. */
 typedef void rc_column(void *ctx, size_t i, size_t n, double *column);
 enum rc_status rc_spectrum_set_by(struct rc_spectrum *spectrum, const struct rc_fft *fft,
-                                  const struct rc_kernel *kernel, rc_column *each, void *ctx,
-                                  struct rc_err *err);
+                                  const struct rc_kernel *kernel, struct rc_boundary boundary,
+                                  rc_column *each, void *ctx, struct rc_err *err);
 /* An rc_column that stores the n numbers of column i at ctx + i n; ctx is an array of double. */
 rc_column rc_keep_column;
 /* Wave numbers of a column, and of its entries, in the padded map, rad/m. */
@@ -89,18 +94,19 @@ struct rc_spectrum *rc_spectrum_new_reciprocal(const struct rc_fft *fft,
 void rc_spectrum_add(struct rc_spectrum *spectrum, const struct rc_fft *fft, bool inverse,
                      double plus, double row);
 
-/* Kernels of rc_fft_fields. On the free boundary a kernel is given by a quarter of its period, its values at
- * the offsets i < *nx, j < *ny. Ranks compute rows *first .. *first + *n - 1 each. rc_fft_quarter_row
- * transforms a row of each of `count` kernels; lines[k] is odd in x where bit k of `odd` is set, or NULL. Any
- * thread of one OpenMP team calls it. When all rows are transformed, rc_fft_quarter_turn exchanges the rows
- * held here for columns, within rc_fft_quarter_size numbers. It fails when memory is short, which cannot
- * happen without ranks. */
+/* Kernels of rc_fft_fields. Unless both axes repeat, a kernel is given by a quarter of its period, its
+ * values at the offsets i < *nx, j < *ny; along an axis that repeats, waves take the place of offsets.
+ * Ranks compute rows *first .. *first + *n - 1 each. rc_fft_quarter_row transforms a row of each of
+ * `count` kernels, unless x repeats; lines[k] is odd in x where bit k of `odd` is set, or NULL. Any
+ * thread of one OpenMP team calls it. When all rows are transformed, rc_fft_quarter_turn exchanges the
+ * rows held here for columns, within rc_fft_quarter_size numbers. It fails when memory is short, which
+ * cannot happen without ranks. */
 void rc_fft_quarter(const struct rc_fft *fft, size_t *nx, size_t *ny);
 void rc_fft_quarter_rows(const struct rc_fft *fft, size_t *first, size_t *n);
 size_t rc_fft_quarter_size(const struct rc_fft *fft);
 void rc_fft_quarter_row(const struct rc_fft *fft, size_t count, unsigned odd, double *const *lines);
 enum rc_status rc_fft_quarter_turn(const struct rc_fft *fft, double *quarter, struct rc_err *err);
-/* On the periodic boundary a kernel is given by its transform, over (-i)^(number of odd directions). Wave
+/* Where both axes repeat a kernel is given by its transform, over (-i)^(number of odd directions). Wave
  * numbers are qx, qy >= 0 in rad/m. Several threads call it for a column i of equal qx: out[j] at qy[j], j <
  * n. Waves of two nodes are left out in a direction in which the kernel is odd: they are zero at all
  * nodes. */
@@ -139,8 +145,8 @@ enum {
 };
 struct rc_fft_kernel {
     unsigned parity;
-    const double *quarter; /* free: after rc_fft_quarter_turn */
-    rc_symbol *symbol;     /* periodic */
+    const double *quarter; /* after rc_fft_quarter_turn */
+    rc_symbol *symbol;     /* both axes repeat */
     const void *of;
 };
 struct rc_fft_sum {

@@ -59,7 +59,9 @@ conv_options(const struct rc_operator_options *o)
 /* The norm of K without its diagonal term. On the free boundary the largest row sum of K is the displacement
  * in the middle of a rectangle a x b under uniform pressure. This is 2 (a asinh(b/a) + b asinh(a/b)) / (pi
  * E*) (Love 1929; Johnson 1985, eq. 3.25). On a periodic map the eigenvalues are known, and the longest wave
- * has the largest, 2 / (E* q), q = 2 pi / L. E* is the least E*(q) of the bodies. */
+ * has the largest, 2 / (E* q), q = 2 pi / L. If only one axis repeats, it is the largest of such a wave along
+ * this axis and of the row sum of a strip of width w, 2 w (ln(2 datum / w) + 1) / (pi E*). E* is the least
+ * E*(q) of the bodies. */
 static double
 norm(const struct own *s)
 {
@@ -67,8 +69,12 @@ norm(const struct own *s)
     double a = shape->dx * (double)shape->nx, b = shape->dy * (double)shape->ny;
     double most = 1 / rc_solids_softest(s->bodies);
 
-    if (s->op.boundary == RC_PERIODIC)
+    if (!rc_has_mean(s->op.boundary))
         return most * fmax(a, b) / RC_PI;
+    if (rc_repeats(s->op.boundary) == 1) {
+        double w = s->op.boundary.x ? b : a, period = s->op.boundary.x ? a : b;
+        return most * fmax(period, 2 * w * (fabs(log(2 * s->op.boundary.datum / w)) + 1)) / RC_PI;
+    }
     return most * 2 * (a * asinh(b / a) + b * asinh(a / b)) / RC_PI;
 }
 
@@ -90,6 +96,13 @@ unit_of(const struct rc_shape *s)
     double unit = sqrt(s->dx) * sqrt(s->dy);
 
     return (struct rc_shape){s->nx, s->ny, s->dx / unit, s->dy / unit};
+}
+
+static struct rc_boundary
+unit_boundary(struct rc_boundary boundary, double unit)
+{
+    boundary.datum /= unit;
+    return boundary;
 }
 
 /* The mean of A / (1 + D A) cos(i qx dx) cos(j qy dy) over the wave numbers of the grid, |qx| <= pi/dx and
@@ -181,14 +194,13 @@ frame_of(size_t side, size_t other, double bends)
     return n / unit * unit;
 }
 
-/* `bends` is in m. */
+/* `bends` is in m. A map that repeats across an axis is no strip along it. */
 static struct rc_frame
-frame_around(const struct rc_shape *s, enum rc_boundary boundary, double bends)
+frame_around(const struct rc_shape *s, struct rc_boundary boundary, double bends)
 {
-    if (boundary == RC_PERIODIC)
-        return (struct rc_frame){0, 0};
-    return (struct rc_frame){frame_of(s->nx, s->ny, bends / s->dx),
-                             frame_of(s->ny, s->nx, bends / s->dy)};
+    return (struct rc_frame){
+        boundary.x ? 0 : frame_of(s->nx, boundary.y ? s->nx : s->ny, bends / s->dx),
+        boundary.y ? 0 : frame_of(s->ny, boundary.x ? s->ny : s->nx, bends / s->dy)};
 }
 
 static double
@@ -205,9 +217,9 @@ rc_operator_frame(const struct rc_shape *s, const struct rc_operator_options *o)
 
 /* ---- strips ---- */
 
-/* A line load acts on the width b of a strip of a free map. For waves along the strip that are much longer
- * than b, the displacement is the integral of 2 / (pi E*(k)) dk/k from q to 5.03 / b. Here 5.03 = 2 exp(3/2 -
- * 0.577). On uniform bodies this is a logarithm, which hardly depends on q. */
+/* A line load acts on the width b of a strip, a map that is free across. For waves along the strip that
+ * are much longer than b, the displacement is the integral of 2 / (pi E*(k)) dk/k from q to 5.03 / b.
+ * Here 5.03 = 2 exp(3/2 - 0.577). On uniform bodies this is a logarithm, which hardly depends on q. */
 static void
 set_strip(struct own *s)
 {
@@ -216,7 +228,7 @@ set_strip(struct own *s)
     double end = 5.03 / fmin(a, b), longest = RC_PI / (4 * fmax(a, b));
     double step = log(end / longest) / STRIP_STEPS, sum = 0;
 
-    if (s->op.boundary == RC_PERIODIC || fmax(a, b) < (double)strip * fmin(a, b))
+    if (rc_wraps(s->op.boundary, a < b ? RC_X : RC_Y) || fmax(a, b) < (double)strip * fmin(a, b))
         return;
     s->strip.end = end;
     s->strip.step = step;
@@ -339,6 +351,7 @@ static enum rc_status
 set_bounded(struct own *s, const struct rc_shape *unit, const struct rc_kernel *kernel,
             double length, struct rc_err *err)
 {
+    const struct rc_boundary boundary = unit_boundary(s->op.boundary, length);
     struct bounded b = {
         .s = s,
         .length = length,
@@ -351,11 +364,12 @@ set_bounded(struct own *s, const struct rc_shape *unit, const struct rc_kernel *
     b.kernel = values = rc_alloc(columns * b.n, sizeof *values);
     if (rc_ranks_need(s->op.rows.ranks, values != NULL, err,
                       "out of memory for the inverse of a layered body") != RC_OK ||
-        rc_spectrum_set_by(s->kernel, s->fft, kernel, keep_column, &b, err) != RC_OK)
+        rc_spectrum_set_by(s->kernel, s->fft, kernel, boundary, keep_column, &b, err) != RC_OK)
         return RC_FAIL;
     b.positive = all_positive(&b, columns) && stiffening(s->bodies, &s->op.whole) <= 1;
     return (s->inverse = rc_spectrum_new(s->fft, err)) != NULL
-               ? rc_spectrum_set_by(s->inverse, s->fft, &rc_kernel_of_one, invert_column, &b, err)
+               ? rc_spectrum_set_by(s->inverse, s->fft, &rc_kernel_of_one, boundary, invert_column,
+                                    &b, err)
                : RC_FAIL;
 }
 
@@ -367,7 +381,7 @@ set_spectra(struct own *s, const struct rc_shape *unit, double length, struct rc
 
     if ((s->kernel = rc_spectrum_new(s->fft, err)) == NULL)
         return RC_FAIL;
-    if (!s->positive && s->op.boundary == RC_FREE)
+    if (!s->positive && rc_has_mean(s->op.boundary))
         return set_bounded(s, unit, &kernel, length, err);
     if (rc_spectrum_set(s->kernel, s->fft, &kernel, err) != RC_OK)
         return RC_FAIL;
@@ -391,35 +405,37 @@ plan(struct own *s, const struct rc_shape *shape, const struct rc_operator_optio
 {
     const struct rc_shape unit = unit_of(shape);
     double length = sqrt(shape->dx) * sqrt(shape->dy);
+    struct rc_boundary boundary;
     struct rc_fft *lender = s->conv == NULL ? NULL : rc_conv_fft(s->conv);
 
     s->estar = rc_solids_modulus(s->bodies, RC_PI / length);
     s->op = (struct rc_operator){.whole = *shape,
                                  .rows = rc_rows_of(o->ranks, shape),
-                                 .boundary = o->boundary,
+                                 .boundary = rc_boundary_on(shape, o->boundary),
                                  .threads = o->threads,
                                  .unit = length / s->estar,
                                  .row_error = 2e-7, /* 1e-5 for |u| of 50, at 1024 x 1024 */
                                  .row_cost = 0.5,
                                  .factor_cost = 0.5,
                                  .bends = stiffening(s->bodies, shape) > 1.1,
-                                 .edges = !s->positive && o->boundary == RC_FREE,
-                                 .mean_free = o->boundary == RC_PERIODIC};
+                                 .edges = !s->positive && rc_has_mean(o->boundary),
+                                 .mean_free = !rc_has_mean(o->boundary)};
     s->op.shape = rc_rows_shape(&s->op.rows, shape);
     s->op.norm = s->bare.norm = norm(s);
     s->op.diagonal = s->bare.diagonal = diagonal(s);
+    boundary = unit_boundary(s->op.boundary, length);
     set_strip(s);
     set_inverse_near(s);
     set_neighbours(&s->op, &unit);
     s->op.frame = frame_around(shape, o->boundary, s->bends);
     if (s->op.frame.x + s->op.frame.y > 0) {
-        s->framed =
-            rc_fft_new_framed(o->ranks, lender, &unit, &s->op.frame, RC_SINGLE, o->threads, err);
+        s->framed = rc_fft_new_framed(o->ranks, lender, &unit, boundary, &s->op.frame, RC_SINGLE,
+                                      o->threads, err);
         if (s->framed == NULL)
             return RC_FAIL;
     }
-    s->fft = rc_fft_new(o->ranks, lender == NULL ? s->framed : lender, &unit, o->boundary,
-                        RC_SINGLE, o->threads, err);
+    s->fft = rc_fft_new(o->ranks, lender == NULL ? s->framed : lender, &unit, boundary, RC_SINGLE,
+                        o->threads, err);
     if (s->fft == NULL || set_spectra(s, &unit, length, err) != RC_OK)
         return RC_FAIL;
     s->op.kernel = s->kernel;
@@ -566,8 +582,8 @@ rc_operator_set_diagonal(struct rc_operator *op, double plus, const double *part
             sqrt(fmax(lowest, RC_LEAST_OWN * op->unit) * fmax(highest, RC_LEAST_OWN * op->unit));
     op->norm = s->bare.norm + highest + row * op->shape.dx * (double)op->shape.nx;
     op->diagonal = s->bare.diagonal + op->soft.plus + row * op->shape.dx;
-    op->mean_free = op->boundary == RC_PERIODIC && plus == 0 && row == 0;
-    op->edges = plus > 0 || row > 0 || (op->boundary == RC_FREE && !s->positive);
+    op->mean_free = !rc_has_mean(op->boundary) && plus == 0 && row == 0;
+    op->edges = plus > 0 || row > 0 || (rc_has_mean(op->boundary) && !s->positive);
     rc_spectrum_add(s->kernel, s->fft, false, op->soft.part == NULL ? plus / op->unit : 0,
                     row * op->shape.dx / op->unit);
     rc_operator_set_inverse(op, op->soft.plus);

@@ -43,7 +43,7 @@ struct rc_operator_near {
 struct rc_operator {
     struct rc_shape whole, shape; /* shape of the whole map, and of the rows held here */
     struct rc_rows rows;          /* rows held here */
-    enum rc_boundary boundary;
+    struct rc_boundary boundary;  /* with its datum, m */
     size_t threads;
     double unit;  /* m/Pa                                                             */
     double estar; /* Pa, if it is the same for all waves; NAN: it is not              */
@@ -67,7 +67,7 @@ struct rc_operator {
 };
 
 struct rc_operator_options {
-    enum rc_boundary boundary;
+    struct rc_boundary boundary;
     const struct rc_pair *pair;   /* the bodies: the caller's                                    */
     const struct rc_along *along; /* NULL: the factor is 1; else the caller's                    */
     const char *engine;           /* NULL: auto                                    */
@@ -143,17 +143,18 @@ void rc_operator_chain_framed(struct rc_operator *op, size_t n,
 
 /* ---- K and its inverse on the whole transformed grid: whole.c ---- */
 
-/* The map itself if it is periodic, else a padded grid with the map in its upper left corner. On this grid K
+/* A grid that is padded along the free axes, with the map in its upper left corner: the map itself where both
+ * axes repeat. On this grid K
  * is a circulant and its inverse A exact: a displacement of the whole grid belongs to one pressure. All
  * fields are in units of their own: displacements of `length`, pressures of `modulus`. */
 struct rc_whole {
     struct rc_shape map, grid; /* in m                                                       */
-    enum rc_boundary boundary;
+    struct rc_boundary boundary;
     int threads;
     double length;   /* m: sqrt(dx dy)                                                    */
     double modulus;  /* Pa: E* as the roughness feels it                                  */
     double diagonal; /* displacement of a node under unit pressure on its own cell        */
-    double mean;     /* K times a uniform pressure on the whole grid; 0 on a periodic map */
+    double mean;     /* K times a uniform pressure on the whole grid; 0 where both axes repeat */
     double most;     /* largest eigenvalue of K                                           */
 };
 

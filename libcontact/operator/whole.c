@@ -25,14 +25,14 @@ struct own {
 };
 
 static struct rc_shape
-grid_of(const struct rc_shape *s, enum rc_boundary boundary, size_t half)
+grid_of(const struct rc_shape *s, struct rc_boundary boundary, size_t half)
 {
     struct rc_shape grid = *s;
 
-    if (boundary == RC_FREE) {
+    if (!boundary.x)
         grid.nx = rc_fourier_length((s->nx * half + 3) / 4, 2);
+    if (!boundary.y)
         grid.ny = rc_fourier_length((s->ny * half + 3) / 4, 4);
-    }
     return grid;
 }
 
@@ -99,10 +99,13 @@ spectrum_of(const struct own *w, const struct rc_fft *fft, struct extremes *seen
 
     if (k == NULL)
         return NULL;
-    if (w->whole.boundary == RC_PERIODIC)
-        status = rc_spectrum_set(k, fft, &kernel, err);
+    struct rc_boundary boundary = w->whole.boundary;
+
+    boundary.datum /= w->whole.length;
+    if (rc_has_mean(boundary))
+        status = rc_spectrum_set_by(k, fft, &kernel, boundary, see_column, seen, err);
     else
-        status = rc_spectrum_set_by(k, fft, &kernel, see_column, seen, err);
+        status = rc_spectrum_set(k, fft, &kernel, err);
     return status == RC_OK ? rc_give(&k) : NULL;
 }
 
@@ -179,7 +182,7 @@ rc_whole_new(const struct rc_shape *shape, const struct rc_operator_options *o, 
     if (rc_solids_new(&w->bodies, o->pair, NULL, NULL, err) != RC_OK)
         return NULL;
     w->whole = (struct rc_whole){.map = *shape,
-                                 .boundary = o->boundary,
+                                 .boundary = rc_boundary_on(shape, o->boundary),
                                  .length = length,
                                  .modulus = rc_solids_modulus(&w->bodies, RC_PI / length)};
     w->whole.diagonal = diagonal_of(&w->bodies, shape, length, w->whole.modulus);
@@ -189,7 +192,7 @@ rc_whole_new(const struct rc_shape *shape, const struct rc_operator_options *o, 
         w->whole.threads = rc_useful_threads(&w->whole.grid, o->threads);
         if (plan(w, o->threads, &seen, err) != RC_OK)
             return NULL;
-        w->whole.most = o->boundary == RC_PERIODIC ? most_of(w) : seen.most;
+        w->whole.most = rc_has_mean(o->boundary) ? seen.most : most_of(w);
         if (seen.least > 0)
             return rc_give(&whole);
         clear(w);

@@ -186,8 +186,8 @@ coarser(const struct rc_pyramid_base *b, struct grid *g, struct level *l)
 
     if (!x && !y)
         return false;
-    *l = (struct level){.x = {g->nx, x ? (g->nx + 1) / 2 : g->nx, x, b->round},
-                        .y = {g->ny, y ? (g->ny + 1) / 2 : g->ny, y, b->round},
+    *l = (struct level){.x = {g->nx, x ? (g->nx + 1) / 2 : g->nx, x, b->boundary.x},
+                        .y = {g->ny, y ? (g->ny + 1) / 2 : g->ny, y, b->boundary.y},
                         .whole = x && y ? 4 : 2,
                         .parts = g->shared};
     g->nx = l->x.coarse;
@@ -355,7 +355,7 @@ fetch_beside(const struct source *s)
         s->add(s->of, s->c, 0, 1, v);
         s->add(s->of, s->c, s->n - 1, 1, v + nx);
     }
-    rc_ranks_beside(&rows, b->round, nx * sizeof *v, v, v + nx, v + 2 * nx, v + 3 * nx, has);
+    rc_ranks_beside(&rows, b->boundary.y, nx * sizeof *v, v, v + nx, v + 2 * nx, v + 3 * nx, has);
 }
 
 /* Sets `to`, on level m, to `factor` P' of component c of the rows of level m - 1. */
@@ -588,7 +588,7 @@ share_beside(const struct rc_pyramid *p, const struct level *l)
     size_t n = l->x.coarse;
     bool has[2];
 
-    rc_ranks_beside(&rows, p->base.round, n * sizeof(float), l->value[0],
+    rc_ranks_beside(&rows, p->base.boundary.y, n * sizeof(float), l->value[0],
                     l->value[0] + (some(l->n) - 1) * n, l->beside, l->beside + n, has);
 }
 

@@ -38,8 +38,8 @@ struct rc_pyramid_base {
     size_t first, n;
     size_t unit;  /* the first row of each rank is a multiple of this even number */
     size_t count; /* number of ranks that share it */
-    bool round;   /* the map is periodic */
-    bool pairs;   /* pairs of numbers, with matrices as weights; one rank only */
+    struct rc_boundary boundary;
+    bool pairs; /* pairs of numbers, with matrices as weights; one rank only */
     int threads;
     const struct rc_ranks *ranks; /* NULL: none                                              */
 };

@@ -243,10 +243,8 @@ make_level(struct rolling *f, size_t l, struct rc_err *err)
         at->y += (double)first_of(shape.ny) * shape.dy;
         shape = rc_shape_coarser(&shape);
     }
-    if (o->boundary == RC_PERIODIC) {
-        at->period[0] = (double)shape.nx * shape.dx;
-        at->period[1] = (double)shape.ny * shape.dy;
-    }
+    at->period[0] = o->boundary.x ? (double)shape.nx * shape.dx : 0;
+    at->period[1] = o->boundary.y ? (double)shape.ny * shape.dy : 0;
     at->unit = sqrt(shape.dx) * sqrt(shape.dy) / f->shear.estar;
     at->length = f->problem.path ? f->length : shape.dx;
     if (at->d != NULL)
@@ -393,7 +391,7 @@ static enum rc_status
 pose(struct rolling *f, struct rc_err *err)
 {
     const struct rc_shape *s = &f->base.shape;
-    const bool path = f->problem.path, free_map = f->problem.law.boundary == RC_FREE;
+    const bool path = f->problem.path, free_map = !f->problem.law.boundary.x;
     const double *p = f->p, moved = f->rolls ? round((middle_of(f) - f->x) / s->dx) : 0;
     const size_t come = path ? (size_t)fmax(moved, 0) : 1;
     size_t end;
@@ -951,11 +949,11 @@ make(struct rolling *f, struct rc_err *err)
     if (rc_friction_solver_check(&f->base.shape, o, &f->shear, err) != RC_OK ||
         rc_model_same_boundary(&f->base, o->boundary, err) != RC_OK)
         return RC_FAIL;
-    if (o->boundary != RC_FREE && !f->problem.path)
+    if (o->boundary.x && !f->problem.path)
         return rc_err_set(
             err,
-            "steady rolling on a periodic map has no leading edge, where free surface comes in: "
-            "take the free boundary");
+            "steady rolling on a map that repeats along x has no leading edge, where free surface "
+            "comes in: take a boundary that is free along x");
     f->n = f->base.shape.nx * f->base.shape.ny;
     o->tol = o->tol > 0 ? o->tol : usual_tol[f->problem.path];
     f->p = rc_store_zeros(&f->base.own, f->n, sizeof *f->p);

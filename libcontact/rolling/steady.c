@@ -385,7 +385,7 @@ held(const struct rc_tangential *t, const double *rigid, const double *before, s
      size_t k)
 {
     const size_t nx = t->shape.nx, i = k % nx + columns;
-    const bool round = t->boundary == RC_PERIODIC;
+    const bool round = t->boundary.x;
 
     return (i < nx || round ? before[k - k % nx + i % nx] : 0) - rigid[k];
 }
@@ -513,7 +513,7 @@ before_step(const struct rc_steady *d, int c, size_t k)
 
     if (!d->asked.path)
         return d->q[c][k + 1];
-    return i < nx || d->t->boundary == RC_PERIODIC ? d->path.last[c][k - k % nx + i % nx] : 0;
+    return i < nx || d->t->boundary.x ? d->path.last[c][k - k % nx + i % nx] : 0;
 }
 
 /* The mean traction of the step times its slip. */
@@ -708,8 +708,9 @@ allocate(struct rc_steady *d)
 }
 
 struct rc_steady *
-rc_steady_new(const struct rc_shape *shape, enum rc_boundary boundary, const struct rc_shear *shear,
-              bool force, bool path, size_t threads, struct rc_err *err)
+rc_steady_new(const struct rc_shape *shape, struct rc_boundary boundary,
+              const struct rc_shear *shear, bool force, bool path, size_t threads,
+              struct rc_err *err)
 {
     RC_OWN(rc_steady, d) = calloc(1, sizeof *d);
 

@@ -79,7 +79,7 @@ struct rc_steady {
 
 /* T in units of the cell over E*. path: for rc_steady_set_out, else for rc_steady_step. NULL when memory is
  * short. */
-struct rc_steady *rc_steady_new(const struct rc_shape *shape, enum rc_boundary boundary,
+struct rc_steady *rc_steady_new(const struct rc_shape *shape, struct rc_boundary boundary,
                                 const struct rc_shear *shear, bool force, bool path, size_t threads,
                                 struct rc_err *err);
 void rc_steady_free(struct rc_steady *d); /* NULL is allowed */

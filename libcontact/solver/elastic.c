@@ -744,7 +744,7 @@ rc_elastic_new_along(const struct rc_shape *shape, const double *h,
     struct rc_problem own = *problem;
     struct rc_model *m;
 
-    if (problem->boundary == RC_FREE) /* only the transforms take a factor of the displacement */
+    if (rc_has_mean(problem->boundary)) /* only the transforms take a factor of the displacement */
         own.engine = rc_engine_of_transforms()->info.name;
     m = rc_elastic_new(shape, h, &own, NULL, err);
     if (m != NULL)

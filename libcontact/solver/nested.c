@@ -239,7 +239,7 @@ struct known {
     const double *before, *after; /* rows of u before and after them; NULL: none */
     struct rc_store room; /* for p, u and the rows beside them, if ranks share the coarse grid */
     double stiffness;     /* Pa/m: stiffness of a fine node whose neighbours are fixed */
-    bool round;           /* the map is periodic */
+    struct rc_boundary boundary;
 };
 
 /* Fetches the coarse solution; u replaces c->it.v. False when memory is short on any rank. */
@@ -254,7 +254,7 @@ known_under(const struct rc_solver *s, struct rc_solver *c, struct known *k)
     *k = (struct known){.nx = nx,
                         .rows = rows,
                         .stiffness = rc_iterate_stiffness(s),
-                        .round = s->posed.boundary == RC_PERIODIC};
+                        .boundary = s->posed.boundary};
 #pragma omp parallel for num_threads(c->posed.threads) schedule(static)
     for (size_t i = 0; i < c->posed.n; i++)
         u[i] += c->posed.h[i];
@@ -262,14 +262,14 @@ known_under(const struct rc_solver *s, struct rc_solver *c, struct known *k)
         (k->u = map_under(s, c, u, &k->room)) == NULL)
         return false;
     if (!shared) {
-        k->before = first > 0 ? u + (first - 1) * nx : k->round ? u + (ny - 1) * nx : NULL;
-        k->after = last < ny ? u + last * nx : k->round ? u : NULL;
+        k->before = first > 0 ? u + (first - 1) * nx : k->boundary.y ? u + (ny - 1) * nx : NULL;
+        k->after = last < ny ? u + last * nx : k->boundary.y ? u : NULL;
         return true;
     }
     ends = rc_store_take(&k->room, 2 * nx, sizeof *ends);
     if (rc_ranks_agree(s->posed.rows.ranks, ends != NULL ? RC_OK : RC_FAIL, NULL) != RC_OK)
         return false;
-    rc_ranks_beside(&s->posed.rows, k->round, nx * sizeof *ends, k->u,
+    rc_ranks_beside(&s->posed.rows, k->boundary.y, nx * sizeof *ends, k->u,
                     k->u + (rows > 0 ? rows - 1 : 0) * nx, ends, ends + nx, beside);
     k->before = beside[0] ? ends : NULL;
     k->after = beside[1] ? ends + nx : NULL;
@@ -344,9 +344,9 @@ beside(size_t i, bool after, size_t n, bool round)
 static void
 take(const struct known *c, const double *row, size_t first, size_t n, double *to)
 {
-    to[0] = row[beside(first, false, c->nx, c->round)];
+    to[0] = row[beside(first, false, c->nx, c->boundary.x)];
     memcpy(to + 1, row + first, n * sizeof *to);
-    to[n + 1] = row[beside(first + n - 1, true, c->nx, c->round)];
+    to[n + 1] = row[beside(first + n - 1, true, c->nx, c->boundary.x)];
 }
 
 /* Fine nodes, of every other column of a row. They lie a quarter of the coarse spacing from their coarse

@@ -186,7 +186,7 @@ make_room(struct rc_preconditioner *e, struct rc_err *err)
 /* The pyramid's finest grid, on a map shared by `count` ranks: this rank holds `rows`, with its part of the
  * frame. */
 static struct rc_pyramid_base
-base_of(const struct rc_shape *whole, enum rc_boundary boundary, struct rc_frame frame,
+base_of(const struct rc_shape *whole, struct rc_boundary boundary, struct rc_frame frame,
         size_t count, const struct rc_rows *rows)
 {
     double unit = sqrt(whole->dx) * sqrt(whole->dy);
@@ -201,7 +201,7 @@ base_of(const struct rc_shape *whole, enum rc_boundary boundary, struct rc_frame
                                     .n = above + rows->n + below,
                                     .unit = both & (~both + 1), /* the largest power of 2 in both */
                                     .count = count,
-                                    .round = boundary == RC_PERIODIC};
+                                    .boundary = boundary};
 }
 
 static bool

@@ -46,12 +46,15 @@ const struct rc_figure rc_figures_contact[] = {
     {0},
 };
 
-/* Load on the outer 2 % of the map, at least one line of nodes on each side. */
+/* Load on the outer 2 % of the map, at least one line of nodes on each side. If only one axis repeats,
+ * its ends are no edges. */
 static double
 edge_load(const struct rc_solver *s)
 {
     size_t nx = s->posed.whole.nx, ny = s->posed.whole.ny;
-    size_t mx = nx < 3 ? 0 : (nx + 49) / 50, my = ny < 3 ? 0 : (ny + 49) / 50;
+    const bool one = rc_repeats(s->posed.boundary) == 1;
+    size_t mx = nx < 3 || (one && s->posed.boundary.x) ? 0 : (nx + 49) / 50;
+    size_t my = ny < 3 || (one && s->posed.boundary.y) ? 0 : (ny + 49) / 50;
     double total[RC_SUMS];
 
     rc_reduce_rows_begin(s);

@@ -274,14 +274,14 @@ static size_t
 memory(const struct rc_shape *shape, const struct rc_problem *problem, const char *engine,
        const struct rc_method *method)
 {
-    const int periodic = problem->boundary == RC_PERIODIC;
     const struct rc_engine_info *info;
     double each = problem->tilt_free ? RC_STIFFNESS_BYTES : 0;
 
     for (size_t k = 0; (info = rc_engine_info(k)) != NULL; k++)
         if (strcmp(info->name, engine) == 0)
-            each += info->contact_bytes[periodic];
-    if (problem->pair.one.layers + problem->pair.two.layers > 0 && !periodic)
+            each +=
+                rc_by_padding(problem->boundary, info->contact_bytes[0], info->contact_bytes[1]);
+    if (problem->pair.one.layers + problem->pair.two.layers > 0 && rc_has_mean(problem->boundary))
         each += 4; /* for the upper bound of layers that bend */
     if (problem->hardness_map != NULL)
         each += sizeof(double);

@@ -63,7 +63,7 @@ struct rc_posed {
     /* All ranks of the solver, each with its rows or, on a small coarse grid, with all rows. If one fails,
      * all fail. */
     const struct rc_ranks *all;
-    enum rc_boundary boundary;
+    struct rc_boundary boundary;
     size_t n, nodes; /* nodes held here, and of the whole map                                  */
     double cell;     /* dx dy                                                                  */
     double *h;       /* heights less their maximum, because a large constant would cost digits */

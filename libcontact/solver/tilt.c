@@ -115,8 +115,8 @@ check(const struct rc_shape *shape, const struct rc_problem *problem, struct rc_
     const double half[2] = {(double)(shape->nx - 1) / 2 * shape->dx,
                             (double)(shape->ny - 1) / 2 * shape->dy};
 
-    if (problem->boundary == RC_PERIODIC)
-        return rc_err_set(err, "a periodic surface cannot tilt, because it has no centre");
+    if (rc_repeats(problem->boundary) > 0)
+        return rc_err_set(err, "a surface that repeats cannot tilt, because it has no centre");
     for (size_t a = 0; a < 2; a++)
         if (!(fabs(problem->force_at[a]) < half[a]) && problem->force_at[a] != 0)
             return rc_err_set(err,

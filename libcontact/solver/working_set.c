@@ -89,7 +89,7 @@ rows_about(const struct sift *c, size_t j)
 {
     const struct rc_solver *s = c->s;
     size_t nx = s->posed.shape.nx, ny = s->posed.shape.ny;
-    bool shared = s->posed.rows.ranks != NULL, round = s->posed.boundary == RC_PERIODIC;
+    bool shared = s->posed.rows.ranks != NULL, round = s->posed.boundary.y;
     struct three t = {{NULL}, {NULL}};
 
     for (size_t b = 0; b < 3; b++) {
@@ -113,7 +113,7 @@ static float
 pull(const struct sift *c, const struct three *t, size_t i, float sign)
 {
     size_t nx = c->s->posed.shape.nx;
-    bool round = c->s->posed.boundary == RC_PERIODIC;
+    bool round = c->s->posed.boundary.x;
     float own = t->r[1][i], sum = 0;
 
     for (size_t b = 0; b < 3; b++) {
@@ -136,7 +136,7 @@ look_beside(struct sift *c)
 {
     struct rc_solver *s = c->s;
     size_t nx = s->posed.shape.nx, last = s->posed.n > 0 ? s->posed.n - nx : 0;
-    bool round = s->posed.boundary == RC_PERIODIC;
+    bool round = s->posed.boundary.y;
 
     if (s->posed.rows.ranks == NULL)
         return;

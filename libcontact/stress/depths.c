@@ -310,9 +310,10 @@ go_down(struct descent *d, double step)
 
 enum rc_status
 rc_stress_depths(const struct rc_ranks *ranks, const struct rc_shape *shape, const double *p,
-                 enum rc_boundary boundary, const struct rc_body *body, double **depths, size_t *n,
-                 struct rc_err *err)
+                 struct rc_boundary boundary, const struct rc_body *body, double **depths,
+                 size_t *n, struct rc_err *err)
 {
+    const bool open = rc_has_mean(boundary);
     struct descent d = {.body = body};
     RC_OWNED struct bins *b = malloc(sizeof *b);
     RC_OWNED double *found = malloc(MOST * sizeof *found);
@@ -334,9 +335,9 @@ rc_stress_depths(const struct rc_ranks *ranks, const struct rc_shape *shape, con
     wave_number(b, 0, &all);
     while (d.n + 2 <= MOST && all > 0) {
         double q = wave_number(b, d.z, &left);
-        if (boundary == RC_FREE)
+        if (open)
             q = fmax(q, 1 / radius); /* the longest waves are longer than the map */
-        if (boundary == RC_FREE ? d.z >= radii * radius : left <= died * died * all)
+        if (open ? d.z >= radii * radius : left <= died * died * all)
             break;
         if (!go_down(&d, fmax(fmin(part * pow(all / left, 0.25), most_part) / q,
                               fmin(shape->dx, shape->dy) / 2)))

@@ -91,12 +91,12 @@ sizes(const struct rc_stress_task *t)
     plan.m = plan.transposed ? s->nx : s->ny;
     plan.d_along = plan.transposed ? s->dy : s->dx;
     plan.d_across = plan.transposed ? s->dx : s->dy;
-    plan.length = t->options.boundary == RC_FREE ? rc_fourier_length(plan.n, 2) : plan.n;
+    plan.length = rc_has_mean(t->options.boundary) ? rc_fourier_length(plan.n, 2) : plan.n;
     plan.waves = plan.length / 2 + 1;
     plan.lines = plan.m;
     plan.threads = rc_useful_threads(s, t->options.threads);
     plan.kernels = (size_t)RC_COMPONENTS * (rc_stress_has(t, RC_TURNED) ? RC_LOADS : RC_TURNED);
-    plan.scratch_size = t->options.boundary == RC_FREE
+    plan.scratch_size = rc_has_mean(t->options.boundary)
                             ? (2 + plan.kernels) * plan.waves
                             : (5 + plan.kernels + RC_WAVE_NUMBERS) * plan.m + plan.n;
     return plan;
@@ -219,7 +219,7 @@ transform_sources(struct plan *plan, double *v, struct rc_err *err)
 {
     const struct rc_stress_task *t = &plan->task;
     const struct rc_shape shape = {plan->n, plan->m, plan->d_along, plan->d_across};
-    const bool periodic = t->options.boundary == RC_PERIODIC;
+    const bool periodic = !rc_has_mean(t->options.boundary);
     enum rc_status status = RC_OK;
 
     for (size_t k = 0; status == RC_OK && k < t->sources; k++) {
@@ -240,7 +240,7 @@ static void *
 plan_new(const struct rc_stress_task *task, struct rc_err *err)
 {
     RC_OWN(plan, plan) = malloc(sizeof *plan);
-    const bool periodic = task->options.boundary == RC_PERIODIC;
+    const bool periodic = !rc_has_mean(task->options.boundary);
     RC_OWNED double *p = NULL;
     size_t threads;
 
@@ -442,7 +442,7 @@ static enum rc_status
 slice(void *at, double depth, double *const s[RC_COMPONENTS], struct rc_err *err)
 {
     struct plan *plan = at;
-    bool periodic = plan->task.options.boundary == RC_PERIODIC;
+    bool periodic = !rc_has_mean(plan->task.options.boundary);
     double scale = 1 / ((double)plan->length * (periodic ? (double)plan->m : 1));
 
     if ((plan->inside = rc_stress_inside(&plan->task, depth, err)) == NULL)

@@ -75,7 +75,7 @@ static enum rc_status
 make_tables(struct grid *g, struct rc_err *err)
 {
     const struct rc_stress_task *task = g->task;
-    const bool periodic = task->options.boundary == RC_PERIODIC;
+    const bool periodic = !rc_has_mean(task->options.boundary);
 
     rc_fft_quarter(g->fft, &g->cx, &g->cy);
     rc_fft_quarter_rows(g->fft, &g->first_row, &g->rows);
@@ -223,7 +223,7 @@ go_to_depth(struct grid *g, double depth, struct rc_err *err)
         return RC_FAIL;
     g->depth = depth;
     g->reached = g->cx;
-    if (g->task->options.boundary == RC_FREE)
+    if (rc_has_mean(g->task->options.boundary))
         return tabulate(g, err);
     while (g->reached > 1 &&
            rc_fourier_q(g->reached - 1, g->shape.nx, g->shape.dx) * depth >= deepest)
@@ -270,7 +270,7 @@ make_fields(struct grid *g, size_t n, const int *c, double *const *s, struct rc_
     if (rc_fft_fields(g->fft, g->reached, kernels, kernel, n, sum, err) != RC_OK)
         return RC_FAIL;
     for (size_t k = 0; k < kernels; k++)
-        if (t->options.boundary == RC_FREE)
+        if (rc_has_mean(t->options.boundary))
             t->counts->kernel_transforms++;
         else
             rc_stress_count(t, of[k].kernel, g->cx * g->cy);
@@ -290,7 +290,7 @@ may_be_coarse(const struct rc_stress_task *t, double depth, size_t *sx, size_t *
     double derived = t->options.wanted >> RC_COMPONENTS != 0 ? 4.5 : 1;
     double tol = t->options.tol / (derived * (1 + rc_stress_shear(t)));
 
-    return t->options.boundary == RC_FREE && t->type->coarsens &&
+    return rc_has_mean(t->options.boundary) && t->type->coarsens &&
            rc_coarse_steps(&t->shape, rc_coarse_spacing(depth, tol), sx, sy);
 }
 

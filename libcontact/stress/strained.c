@@ -46,7 +46,7 @@ slabs_options(const struct rc_stress_options *o)
                                      .thickness = o->strain->thickness,
                                      .shear = o->body.e / (2 * (1 + o->body.nu)),
                                      .nu = o->body.nu,
-                                     .padded = o->boundary == RC_FREE,
+                                     .boundary = o->boundary,
                                      .slices = true,
                                      .threads = o->threads,
                                      .ranks = o->ranks};

@@ -184,15 +184,15 @@ add_segment(double from, double to_next, double per, double *sums)
 static void
 add_curvatures(const struct rc_relief *r, size_t j, double *sums)
 {
-    size_t nx = r->shape.nx, ny = r->shape.ny, edge = r->boundary == RC_PERIODIC ? 0 : 1;
+    size_t nx = r->shape.nx, ny = r->shape.ny, across = !r->boundary.x, down = !r->boundary.y;
     double part = nx > 1 && ny > 1 ? 0.5 : 1;
     double xx = part / (r->shape.dx * r->shape.dx), yy = part / (r->shape.dy * r->shape.dy);
     const double *v = r->h + j * nx, *above = r->h + (j > 0 ? j - 1 : ny - 1) * nx,
                  *below = r->h + (j + 1 < ny ? j + 1 : 0) * nx;
 
-    if (ny > 1 && (j < edge || j + edge >= ny))
+    if (ny > 1 && (j < down || j + down >= ny))
         return;
-    for (size_t i = nx > 1 ? edge : 0; i + (nx > 1 ? edge : 0) < nx; i++) {
+    for (size_t i = nx > 1 ? across : 0; i + (nx > 1 ? across : 0) < nx; i++) {
         double c =
             nx > 1 ? xx * (v[i > 0 ? i - 1 : nx - 1] - 2 * v[i] + v[i + 1 < nx ? i + 1 : 0]) : 0;
 

@@ -11,7 +11,7 @@
 struct rc_relief {
     struct rc_shape shape;
     const double *h;
-    enum rc_boundary boundary;
+    struct rc_boundary boundary;
     int threads;
     size_t there; /* measured: finite */
     double mean, minimum, maximum;

@@ -150,7 +150,7 @@ find_runs(const struct field *f, bool wraps, int threads, struct runs *r)
 }
 
 static void
-join_all(const struct field *f, bool wraps, bool whole, int threads, struct runs *r)
+join_all(const struct field *f, struct rc_boundary wraps, bool whole, int threads, struct runs *r)
 {
     size_t nx = f->nx, ny = f->rows, bands = (size_t)threads < ny ? (size_t)threads : ny;
 
@@ -161,11 +161,9 @@ join_all(const struct field *f, bool wraps, bool whole, int threads, struct runs
             join_rows(r, j - 1, j);
     for (size_t band = 1; band < bands; band++)
         join_rows(r, ny * band / bands - 1, ny * band / bands);
-    if (!wraps)
-        return;
-    if (whole)
+    if (wraps.y && whole)
         join_rows(r, ny - 1, 0); /* a map of one row: the row with itself */
-    for (size_t j = 0; j < ny; j++)
+    for (size_t j = 0; j < ny && wraps.x; j++)
         if (r->first[j] < r->first[j + 1]) {
             size_t left = r->first[j], right = r->first[j + 1] - 1;
             if (r->run[left].from == 0 && r->run[right].to == nx)
@@ -448,10 +446,10 @@ field_of(const struct rc_rows *rows, size_t nx, bool wraps, const double *p, dou
 
 /* The parts of all ranks, merged: each is a whole patch. */
 static enum rc_status
-find_parts(const struct rc_rows *rows, const struct field *f, bool wraps, int threads,
+find_parts(const struct rc_rows *rows, const struct field *f, struct rc_boundary wraps, int threads,
            struct runs *r, struct all *all)
 {
-    enum rc_status status = find_runs(f, wraps, threads, r);
+    enum rc_status status = find_runs(f, wraps.x, threads, r);
     RC_OWNED struct part *part = NULL;
     size_t before, n;
 
@@ -464,7 +462,7 @@ find_parts(const struct rc_rows *rows, const struct field *f, bool wraps, int th
                  ? 0
                  : (size_t)rc_ranks_sum_before(rows->ranks, (double)r->first[f->rows]);
     n = make_parts(f, r, before, part);
-    status = gather_all(rows, wraps, f, r, rc_give(&part), n, before, all);
+    status = gather_all(rows, wraps.y, f, r, rc_give(&part), n, before, all);
     if (status == RC_OK && rows->ranks != NULL) {
         status = join_parts(all);
         merge_parts(all);
@@ -489,7 +487,7 @@ rc_patches_find(const struct rc_shape *shape, const double *p,
 {
     const struct rc_rows rows = rc_rows_of(options->ranks, shape);
     const struct rc_shape own = rc_rows_shape(&rows, shape);
-    bool wraps = options->boundary == RC_PERIODIC;
+    const struct rc_boundary wraps = options->boundary;
     RC_OWNED double *room = NULL;
     enum rc_status status;
     struct runs r = {0};
@@ -502,7 +500,7 @@ rc_patches_find(const struct rc_shape *shape, const double *p,
     room = rc_alloc(2 * shape->nx, sizeof *room);
     status = rc_ranks_agree(rows.ranks, room == NULL ? RC_FAIL : RC_OK, NULL);
     if (status == RC_OK) {
-        f = field_of(&rows, shape->nx, wraps, p, room);
+        f = field_of(&rows, shape->nx, wraps.y, p, room);
         status = find_parts(&rows, &f, wraps, rc_useful_threads(&own, options->threads), &r, &all);
     }
     rc_store_free(&r.own);

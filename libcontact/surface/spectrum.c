@@ -71,7 +71,7 @@ rc_window_name(size_t k)
 static const struct rc_window *
 window_of(const struct rc_psd_options *o)
 {
-    const char *name = o->window != NULL ? o->window : o->boundary == RC_FREE ? "hann" : "none";
+    const char *name = o->window != NULL ? o->window : rc_has_mean(o->boundary) ? "hann" : "none";
 
     for (size_t k = 0; k < WINDOWS; k++)
         if (strcmp(windows[k].name, name) == 0)

@@ -54,14 +54,14 @@ there_row(const void *of, size_t j, double *row)
 /* ---- autocorrelation ---- */
 
 static struct rc_offsets
-offsets_of(const struct rc_shape *s, enum rc_boundary boundary)
+offsets_of(const struct rc_shape *s, struct rc_boundary boundary)
 {
     struct rc_offsets at = {.px = s->nx, .py = s->ny, .mx = s->nx / 2, .my = s->ny / 2};
 
-    if (boundary == RC_FREE) {
+    if (!boundary.x)
         at.px = rc_fourier_length((at.px + at.mx + 1) / 2, 1);
+    if (!boundary.y)
         at.py = rc_fourier_length((at.py + at.my + 1) / 2, 1);
-    }
     return at;
 }
 
@@ -77,9 +77,8 @@ all_pairs(const struct rc_relief *r, const struct rc_offsets *at, size_t i, size
 {
     size_t x = i > at->mx ? i - at->mx : at->mx - i;
 
-    if (r->boundary == RC_PERIODIC)
-        return (double)(r->shape.nx * r->shape.ny);
-    return (double)((r->shape.nx - x) * (r->shape.ny - j));
+    return (double)((r->shape.nx - (r->boundary.x ? 0 : x)) *
+                    (r->shape.ny - (r->boundary.y ? 0 : j)));
 }
 
 /* Correlations, 1 at offset 0 and NAN where there is no pair; (2 mx + 1) (my + 1) of them. NULL on failure:
@@ -324,7 +323,7 @@ find_direction(const struct rc_relief *r, struct rc_areal *a, struct rc_err *err
     if (power == NULL || wx == NULL || sums == NULL)
         return rc_err_set(err, "out of memory for the waves of %zu x %zu nodes", r->shape.nx,
                           r->shape.ny);
-    if (r->boundary == RC_PERIODIC) {
+    if (!rc_has_mean(r->boundary)) {
         status = rc_power(&r->shape, height_row, r, (size_t)r->threads, power, err);
     } else {
         (void)rc_windowed_lay(&w, r->mean);

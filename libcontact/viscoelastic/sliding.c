@@ -174,7 +174,7 @@ set_waves(struct slide *s, double speed)
         s->along.most = fmax(s->along.most, s->wave[k].factor);
     }
     s->problem.pair = (struct rc_pair){.estar = 1 / typical};
-    s->compliant = s->problem.boundary == RC_PERIODIC ? &s->along : NULL;
+    s->compliant = !rc_has_mean(s->problem.boundary) ? &s->along : NULL;
 }
 
 /* On a free map: the waves of the padded map. A body at rest has none. */
@@ -187,7 +187,7 @@ set_wake(struct slide *s, double speed, struct rc_err *err)
     rc_wake_free(s->wake);
     s->wake = NULL;
     s->loaded = false;
-    if (s->problem.boundary == RC_PERIODIC || speed == 0)
+    if (!rc_has_mean(s->problem.boundary) || speed == 0)
         return RC_OK;
     if ((s->wake = rc_wake_new(&s->turned, &medium, s->problem.threads, err)) == NULL)
         return RC_FAIL;
@@ -248,7 +248,7 @@ differentiate(const struct rc_shape *shape, double *map)
 static void
 filter(struct slide *s, enum filter which, double *map)
 {
-    if (s->problem.boundary == RC_FREE && which == SLOPE) {
+    if (rc_has_mean(s->problem.boundary) && which == SLOPE) {
         differentiate(&s->turned, map);
         return;
     }
@@ -264,7 +264,7 @@ filter(struct slide *s, enum filter which, double *map)
                       map);
         return;
     }
-    if (s->problem.boundary == RC_FREE) {
+    if (rc_has_mean(s->problem.boundary)) {
         memset(map, 0, s->n * sizeof *map);
         return;
     }
@@ -429,7 +429,7 @@ static void
 find_friction(struct slide *s, double force[2], double *steep)
 {
     const double *p = rc_elastic_pressure(s->base.inner);
-    const bool open = s->problem.boundary == RC_FREE;
+    const bool open = rc_has_mean(s->problem.boundary);
     struct rc_total sum[2] = {{0}};
 
     *steep = 0;
@@ -488,7 +488,7 @@ look(struct rc_model *m, struct rc_point *at, struct rc_err *err)
     find_friction(s, force, &steep);
     s->course.convolutions = spent;
     f->dissipated_power = force[0] * fabs(s->base.to.at[RC_SPEED]);
-    if (s->problem.boundary == RC_PERIODIC && find_power(s, &f->dissipated_power, err) != RC_OK)
+    if (!rc_has_mean(s->problem.boundary) && find_power(s, &f->dissipated_power, err) != RC_OK)
         return RC_FAIL;
     f->speed = m->to.at[RC_SPEED];
     f->friction_force = force[0];
@@ -620,7 +620,7 @@ plan(const struct rc_model *m, const struct rc_point *most, struct rc_expected *
         RC_SLIDE_PASSES * (1 + contacts * RC_SLIDE_CONTACT / expected->convolutions);
     expected->convolutions += contacts * RC_SLIDE_CONTACT;
     /* measured; the plan of the inner model has some of the maps */
-    expected->memory += (s->problem.boundary == RC_PERIODIC ? 1 : 23) * s->n * sizeof(double);
+    expected->memory += (rc_has_mean(s->problem.boundary) ? 23 : 1) * s->n * sizeof(double);
     return RC_OK;
 }
 
@@ -657,7 +657,10 @@ check(const struct rc_shape *shape, const struct rc_problem *problem,
 
     if (rc_shape_check(shape, err) != RC_OK)
         return RC_FAIL;
-    if (problem->boundary != RC_PERIODIC && law->repeats)
+    if (rc_repeats(problem->boundary) == 1)
+        return rc_err_set(err, "sliding over a viscoelastic body is not implemented for maps that "
+                               "repeat along one axis only: take a free or a periodic map");
+    if (rc_has_mean(problem->boundary) && law->repeats)
         return rc_err_set(err, "only a periodic map has a repeated track");
     if (problem->ranks != NULL)
         return rc_err_set(err, "sliding over a viscoelastic body needs the map in one process");

@@ -334,7 +334,7 @@ find_spectra(struct own *w, double sign, int threads, struct rc_err *err)
     for (int k = 0; k < 3 && status == RC_OK; k++) {
         const struct rc_kernel kernel = {w, k == 1 ? RC_ODD_X : 0, part_rows, NULL};
         w->part = part[k];
-        status = rc_spectrum_set_by(passing, w->fft, &kernel, rc_keep_column, to[k], err);
+        status = rc_spectrum_set_by(passing, w->fft, &kernel, RC_FREE, rc_keep_column, to[k], err);
     }
     if (status == RC_OK)
         split(w, sign);

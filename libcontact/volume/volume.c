@@ -42,7 +42,8 @@ struct rc_slabs {
     struct layout layout;
     double *thickness;
     double modulus, nu; /* 2 mu */
-    bool whole, padded;
+    bool whole;
+    struct rc_boundary boundary;
     const struct rc_ranks *ranks;
     struct rc_fft *fft;
     const struct rc_sweep_ops *ops;
@@ -69,18 +70,12 @@ real_size(enum rc_precision precision)
     return precision == RC_SINGLE ? rc_sweep_single.real_size : rc_sweep_double.real_size;
 }
 
-static enum rc_boundary
-boundary(const struct rc_slabs_options *o)
-{
-    return o->padded ? RC_FREE : RC_PERIODIC;
-}
-
 static enum rc_status
 check(const struct rc_shape *shape, const struct rc_slabs_options *o, struct rc_err *err)
 {
     if (rc_shape_check(shape, err) != RC_OK)
         return RC_FAIL;
-    if (o->padded && (shape->nx == 1 || shape->ny == 1))
+    if ((!o->boundary.x && shape->nx == 1) || (!o->boundary.y && shape->ny == 1))
         return rc_err_set(err,
                           "a profile on a free map is not supported: take the periodic boundary");
     if (o->slabs == 0)
@@ -109,7 +104,7 @@ map_size(const struct rc_shape *shape, size_t length, size_t columns, size_t row
 static void
 set_waves(struct rc_slabs *v)
 {
-    rc_fft_period(&v->shape, v->padded ? RC_FREE : RC_PERIODIC, &v->layout.px, &v->layout.py);
+    rc_fft_period(&v->shape, v->boundary, &v->layout.px, &v->layout.py);
     v->layout.length = rc_fft_length(v->fft);
     rc_fft_columns(v->fft, &v->layout.first, &v->layout.columns);
     v->layout.map = map_size(&v->shape, v->layout.length, v->layout.columns, v->here.ny);
@@ -173,10 +168,10 @@ rc_slabs_new(const struct rc_shape *shape, const struct rc_slabs_options *o, str
                            .modulus = 2 * o->shear,
                            .nu = o->nu,
                            .whole = o->whole,
-                           .padded = o->padded,
+                           .boundary = o->boundary,
                            .ranks = o->ranks,
                            .ops = o->precision == RC_SINGLE ? &rc_sweep_single : &rc_sweep_double};
-    v->fft = rc_fft_new(o->ranks, NULL, shape, boundary(o), o->precision, o->threads, err);
+    v->fft = rc_fft_new(o->ranks, NULL, shape, o->boundary, o->precision, o->threads, err);
     if (v->fft == NULL || rc_ranks_agree(o->ranks, allocate(v, o, err), err) != RC_OK)
         return NULL;
     return rc_give(&v);

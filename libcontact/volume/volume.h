@@ -43,7 +43,7 @@ struct rc_slabs_options {
     size_t slabs;                 /* number of slabs from the surface down, at least one */
     const double *thickness;      /* m, thickness of each slab; only rc_slabs_new needs it */
     double shear, nu;             /* mu, Pa; Poisson's ratio, above -1 and at most 0.5  */
-    bool padded;                  /* the map is free: padded                            */
+    struct rc_boundary boundary;  /* the map is padded along its free axes              */
     bool whole;                   /* all six stresses; otherwise deviators, without szz */
     bool slices;                  /* rc_slabs_slice will be called                      */
     enum rc_precision precision;  /* precision of the computation; rows and maps are double */

@@ -369,14 +369,15 @@ volume_bytes(const struct rc_yield_problem *problem, size_t n, size_t slabs, dou
 {
     /* bytes a node, measured on 1024 x 1024 nodes: free, periodic */
     static const double body[] = {122, 96}, slab[] = {92.2, 23.1};
-    const int periodic = problem->contact.boundary == RC_PERIODIC;
+    const struct rc_boundary boundary = problem->contact.boundary;
     const double voxels = part * sizeof(struct rc_voxel);
     const bool tries = problem->increments == 0 || problem->companion;
 
     /* a state takes at most the memory of the voxels and of a pressure */
     return (size_t)((double)n *
-                    (body[periodic] + (1 + tries) * sizeof(double) +
-                     (double)slabs * (slab[periodic] + (2 + problem->companion) * voxels)));
+                    (rc_by_padding(boundary, body[0], body[1]) + (1 + tries) * sizeof(double) +
+                     (double)slabs * (rc_by_padding(boundary, slab[0], slab[1]) +
+                                      (2 + problem->companion) * voxels)));
 }
 
 /* The cost of the elastic contact. */
@@ -407,8 +408,9 @@ plan(const struct rc_model *m, const struct rc_point *most, struct rc_expected *
 
     if (expect_elastic(&y->base.shape, &y->problem, most->at[RC_LOAD], expected, err) != RC_OK)
         return RC_FAIL;
-    expected->seconds *=
-        1 + applied * sums[y->problem.contact.boundary == RC_PERIODIC] / expected->convolutions;
+    expected->seconds *= 1 + applied *
+                                 rc_by_padding(y->problem.contact.boundary, sums[0], sums[1]) /
+                                 expected->convolutions;
     expected->convolutions += RC_YIELD_SLAB * applied;
     expected->memory = volume > expected->memory ? volume : expected->memory;
     return RC_OK;

@@ -684,15 +684,15 @@ advance(struct rc_yield_solver *p, struct rc_err *err)
 }
 
 static double
-largest_mean(const double *v, const struct rc_shape *shape, bool round)
+largest_mean(const double *v, const struct rc_shape *shape, struct rc_boundary boundary)
 {
     size_t nx = shape->nx, ny = shape->ny;
     double most = 0;
 
     for (size_t j = 0; j < ny && v != NULL; j++)
         for (size_t i = 0; i < nx; i++) {
-            size_t right = i + 1 < nx ? i + 1 : round ? 0 : i;
-            size_t below = j + 1 < ny ? j + 1 : round ? 0 : j;
+            size_t right = i + 1 < nx ? i + 1 : boundary.x ? 0 : i;
+            size_t below = j + 1 < ny ? j + 1 : boundary.y ? 0 : j;
             most = fmax(most, (v[j * nx + i] + v[j * nx + right] + v[below * nx + i] +
                                v[below * nx + right]) /
                                   4);
@@ -725,7 +725,7 @@ find_figures(struct rc_yield_solver *p)
             }
         }
     }
-    f->max_pressure_mean4 = largest_mean(pressure(p), &p->shape, p->round);
+    f->max_pressure_mean4 = largest_mean(pressure(p), &p->shape, p->boundary);
 }
 
 /* Accepts the state, and compares its pressure with the pressure of the last application. */
@@ -803,7 +803,7 @@ image_error(const struct rc_yield_solver *p)
     double area = (double)p->n * p->shape.dx * p->shape.dy, side = sqrt(area), sum = 0;
     double touching = 0, each;
 
-    if (p->round || v == NULL || rc_voxels_count(&p->voxels) == 0)
+    if (!rc_has_mean(p->boundary) || v == NULL || rc_voxels_count(&p->voxels) == 0)
         return 0;
     for (size_t k = 0; k < p->n; k++) {
         sum += v[k];
@@ -1032,7 +1032,7 @@ rc_yield_solver_new(const struct rc_shape *shape, const double *h,
                                        .thickness = problem->thickness,
                                        .shear = one->e / (2 * (1 + one->nu)),
                                        .nu = one->nu,
-                                       .padded = contact.boundary == RC_FREE,
+                                       .boundary = contact.boundary,
                                        .precision = problem->precise ? RC_DOUBLE : RC_SINGLE,
                                        .threads = contact.threads};
 
@@ -1052,10 +1052,10 @@ rc_yield_solver_new(const struct rc_shape *shape, const double *h,
     rc_yield_solver_set_increments(p, problem->increments);
     /* the mean pressure causes a Mises stress of (1 - 2 nu)/2 times itself at every depth; on a profile
      * more */
-    p->bearable = contact.boundary == RC_FREE ? INFINITY
-                                              : 0.9 * 2 * p->body.yield / (1 - 2 * one->nu) *
-                                                    (double)p->n * shape->dx * shape->dy;
-    p->round = contact.boundary == RC_PERIODIC;
+    p->bearable = rc_has_mean(contact.boundary) ? INFINITY
+                                                : 0.9 * 2 * p->body.yield / (1 - 2 * one->nu) *
+                                                      (double)p->n * shape->dx * shape->dy;
+    p->boundary = contact.boundary;
     contact.approach = 0;
     if (contact.load == 0)
         contact.load = 1; /* placeholder; rc_yield_solver_set_load replaces it */

@@ -83,7 +83,7 @@ struct rc_yield_solver {
     struct rc_shape shape;
     size_t n;
     int threads;
-    bool round;      /* the map repeats */
+    struct rc_boundary boundary;
     double bearable; /* N: above it all depths yield under the mean pressure */
     struct rc_yield_body body;
     struct rc_yield_maps maps;

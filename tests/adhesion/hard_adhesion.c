@@ -337,7 +337,7 @@ pull_off_has_spread(void **state)
         struct rc_selfaffine rough;
         const char *law;
         double work, range, from; /* from: part of the highest node above the mean */
-        enum rc_boundary boundary;
+        struct rc_boundary boundary;
     } cases[] = {
         {63,
          {.hurst = 0.8, .rms_slope = 0.0792876, .short_cut = 2, .rolloff = 15.75, .seed = 627803},
@@ -345,35 +345,35 @@ pull_off_has_spread(void **state)
          0.0146205,
          0.3255228,
          0.98,
-         RC_PERIODIC},
+         {.x = true, .y = true}},
         {39,
          {.hurst = 0.8, .rms_slope = 0.0814774, .short_cut = 4, .rolloff = 9.75, .seed = 604370},
          "exponential",
          9.59238e-4,
          0.0361906,
          0.82,
-         RC_PERIODIC},
+         {.x = true, .y = true}},
         {42,
          {.hurst = 0.8, .rms_slope = 0.0338718, .short_cut = 4, .rolloff = 10.5, .seed = 184910},
          "compact",
          5.7623e-4,
          0.0869521,
          0.97,
-         RC_FREE},
+         {.x = false}},
         {48,
          {.hurst = 0.8, .rms_slope = 0.0143839, .short_cut = 8, .rolloff = 12, .seed = 853695},
          "dugdale",
          2.211047e-4,
          0.01918840,
          0.947,
-         RC_PERIODIC},
+         {.x = true, .y = true}},
         {54,
          {.hurst = 0.8, .rms_slope = 0.0682327, .short_cut = 4, .rolloff = 13.5, .seed = 758324},
          "dugdale",
          1.737158e-3,
          0.1108541,
          0.809204,
-         RC_PERIODIC}};
+         {.x = true, .y = true}}};
 
     (void)state;
     for (size_t k = 0; k < sizeof cases / sizeof *cases; k++) {

@@ -413,10 +413,10 @@ newton(const double *h, bool compact, double work, double range, double c, doubl
 
 /* Approach from far away and retraction: the state after each approach starts from the last one. */
 static void
-same_as_newton(enum rc_boundary boundary, bool compact, double ell)
+same_as_newton(struct rc_boundary boundary, bool compact, double ell)
 {
     const struct rc_shape shape = {NX, NY, 1.1e-6, 1e-6};
-    const double side = boundary == RC_FREE ? 0.3 : 0.5;
+    const double side = rc_repeats(boundary) == 0 ? 0.3 : 0.5;
     double h[NODES], p[NODES], is[NODES], sum = 0, top = -INFINITY, worst = 0, work, range, unit,
                                           last, most = 0, least = 0;
     struct rc_adhesion_problem problem = {
@@ -439,7 +439,7 @@ same_as_newton(enum rc_boundary boundary, bool compact, double ell)
         }
     for (size_t j = 0; j < NODES; j++)
         sum += dense.K[0][j] / NODES;
-    for (size_t i = 0; i < NODES && boundary == RC_PERIODIC; i++)
+    for (size_t i = 0; i < NODES && !rc_has_mean(boundary); i++)
         for (size_t j = 0; j < NODES; j++)
             dense.K[i][j] -= sum; /* a mean pressure causes no displacement */
     work = 0.15;                  /* J/m2 */
@@ -465,7 +465,7 @@ same_as_newton(enum rc_boundary boundary, bool compact, double ell)
         least = fmin(least, f->load);
     }
     print_message("%s, %s: within %.1e of Newton's, to %.2f in contact\n",
-                  boundary == RC_FREE ? "free" : "periodic", problem.law, worst, most);
+                  rc_boundary_word(boundary), problem.law, worst, most);
     assert_true(most > 0.05 && least < 0);
     assert_true(worst <= 1e-7);
     rc_adhesion_solver_free(path);

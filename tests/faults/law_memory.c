@@ -250,11 +250,11 @@ convolved(const struct rc_pair *pair, const struct rc_conv_options *o, double *o
 
 CONVOLUTION(free_fft, bare, .engine = "fft")
 CONVOLUTION(single_fft, bare, .engine = "fft", .tol = 1e-3)
-CONVOLUTION(periodic_fft, bare, .engine = "fft", .boundary = RC_PERIODIC)
+CONVOLUTION(periodic_fft, bare, .engine = "fft", .boundary = {.x = true, .y = true})
 CONVOLUTION(mlms, bare, .engine = "mlms", .tol = 1e-4)
 CONVOLUTION(direct, bare, .engine = "direct")
 CONVOLUTION(coated, layered, .tol = 0)
-CONVOLUTION(coated_periodic, layered, .boundary = RC_PERIODIC)
+CONVOLUTION(coated_periodic, layered, .boundary = {.x = true, .y = true})
 
 /* ---- contact ---- */
 
@@ -409,7 +409,7 @@ other_heights(struct rc_model *m, double *out, struct rc_err *err)
 }
 
 static const struct rc_problem *
-pressed(enum rc_boundary boundary)
+pressed(struct rc_boundary boundary)
 {
     static struct rc_problem contact;
 
@@ -830,7 +830,8 @@ static enum rc_status
 strained(enum rc_precision precision, bool whole, double *out, struct rc_err *err)
 {
     static const double thickness[] = {1e-6, 2e-6, 3e-6, 4e-6, 5e-6};
-    const struct rc_slabs_options o = {.slabs = 5,
+    const struct rc_slabs_options o = {.boundary = RC_PERIODIC,
+                                       .slabs = 5,
                                        .thickness = thickness,
                                        .shear = 1e9,
                                        .nu = 0.3,

@@ -25,7 +25,7 @@ near_at(const char *name, double got, double expected, double tolerance)
 #define assert_near(a, name, expected, tolerance) near_at(#name, (a).name, expected, tolerance)
 
 static struct rc_features
-measured(const struct rc_shape *shape, const double *h, enum rc_boundary boundary)
+measured(const struct rc_shape *shape, const double *h, struct rc_boundary boundary)
 {
     const struct rc_surface_options options = {.boundary = boundary, .threads = 2};
     struct rc_features a;

@@ -28,9 +28,11 @@ static const char *const zero[] = {"0", "-0", "0e5", NULL};
 static const struct kind {
     const char *const *keys, *const *good, *const *bad, *const *also_bad, *const *not_zero;
 } kinds[] = {
-    {LIST("periodic", "converged"), LIST("yes", "no"),
+    {LIST("periodic"), LIST("yes", "no", "x", "y"),
+     LIST("", "Yes", "true", "1", "xy", "yes ", "yes,no", "perodic"), NULL, NULL},
+    {LIST("converged"), LIST("yes", "no"),
      LIST("", "Yes", "true", "1", "x", "yes ", "yes,no", "perodic"), NULL, NULL},
-    {LIST("boundary"), LIST("free", "periodic"),
+    {LIST("boundary"), LIST("free", "periodic", "periodic-x", "periodic-y"),
      LIST("", "perodic", "periodic-z", "Free", "yes", "free periodic"), NULL, NULL},
     {LIST("hardness_map"), LIST("yes"), LIST("", "no", "1"), NULL, NULL},
     {LIST("section", "direction"), LIST("x", "y"), LIST("", "z", "X", "xy", "x,y", "0"), NULL,
@@ -42,8 +44,8 @@ static const struct kind {
     {LIST("depth", "hardening", "time", "distance", "cycles", "wear_1", "wear_2", "taper", "filled",
           "outliers", "height.error", "friction", "flow_conductance"),
      LIST("0", "1", "1e-6", "2.5"), malformed, negative, NULL},
-    {LIST("estar", "e1", "e2", "hardness", "yield", "tau_max", "thickness", "bending_limit",
-          "torsion_limit", "viscosity"),
+    {LIST("datum", "estar", "e1", "e2", "hardness", "yield", "tau_max", "thickness",
+          "bending_limit", "torsion_limit", "viscosity"),
      LIST("1", "1e-6", "2e11"), malformed, negative, zero},
     {LIST("nu", "nu2"), LIST("0", "0.5", "-0.9", "0.3"), malformed, LIST("-1", "0.6", "1"), NULL},
     {LIST("case", "frames", "material", "slabs"), LIST("1", "7", "123456789012345"), malformed,

@@ -14,7 +14,7 @@
  * accuracy come from the library. */
 struct problem {
     struct rc_shape shape;
-    enum rc_boundary boundary;
+    struct rc_boundary boundary;
     double nu, mu, tau_max, part, angle;
     double *p;
 };
@@ -84,7 +84,7 @@ violation(const struct problem *w, struct rc_friction_solver *slip,
 }
 
 static double *
-pressure_of(const struct rc_shape *shape, enum rc_boundary boundary, double *h, double mean)
+pressure_of(const struct rc_shape *shape, struct rc_boundary boundary, double *h, double mean)
 {
     struct pressed c =
         pressed_new(shape, boundary, h, 1,
@@ -199,7 +199,7 @@ test_estimate_bounds_the_error(void **state)
     for (int k = 0; k < 50; k++) {
         size_t nodes = k % 5 == 4 ? 64 : k % 2 == 0 ? 48 : 32, n = nodes * nodes, steps = 0;
         const struct rc_shape shape = {nodes, nodes, 1, 1};
-        enum rc_boundary boundary = k % 7 == 3 ? RC_FREE : RC_PERIODIC;
+        struct rc_boundary boundary = k % 7 == 3 ? RC_FREE : RC_PERIODIC;
         double *h = slip_rough(&shape, 0.1, 4, 100 + (uint64_t)k), *p, limit = 0;
         double *q[STEPS][2], estimate[STEPS], angle = k, part = parts[(k / 3) % 5];
         struct rc_friction_law what = {
@@ -208,12 +208,12 @@ test_estimate_bounds_the_error(void **state)
         enum rc_status status;
 
         assert_non_null(slip);
-        if (boundary == RC_FREE)
+        if (rc_repeats(boundary) == 0)
             for (size_t i = 0; i < n; i++)
                 h[i] -= (pow((double)(i % nodes) - (double)nodes / 2, 2) +
                          pow((double)(i / nodes) - (double)nodes / 2, 2)) /
                         (3 * (double)nodes);
-        p = pressure_of(&shape, boundary, h, means[k % 5] / (boundary == RC_FREE ? 3 : 1));
+        p = pressure_of(&shape, boundary, h, means[k % 5] / (rc_repeats(boundary) == 0 ? 3 : 1));
         for (size_t i = 0; i < n; i++)
             limit += 0.3 * p[i] * part;
         rc_friction_solver_set_pressure(slip, p, NULL, NULL);
@@ -316,20 +316,20 @@ test_work_does_not_grow(void **state)
 {
     static const struct {
         struct rc_shape shape;
-        enum rc_boundary boundary;
+        struct rc_boundary boundary;
         double mean, most[3];
     } cases[] = {
-        {{64, 64, 1, 1}, RC_PERIODIC, 0.004, {14, 20, 23}},
-        {{64, 64, 1, 1}, RC_PERIODIC, 0.016, {14, 20, 23}},
-        {{128, 128, 1, 1}, RC_PERIODIC, 0.016, {14, 20, 26}},
-        {{128, 128, 1, 1}, RC_PERIODIC, 0.055, {14, 20, 26}},
-        {{256, 256, 1, 1}, RC_PERIODIC, 0.016, {14, 20, 26}},
-        {{64, 64, 1, 1}, RC_FREE, 0.01, {14, 20, 23}},
-        {{128, 128, 1, 1}, RC_FREE, 0.01, {14, 20, 23}},
-        {{64, 64, 1, 100}, RC_PERIODIC, 0.016, {14, 20, 23}},
-        {{64, 64, 1, 100}, RC_FREE, 0.004, {20, 32, 41}},
-        {{4096, 1, 1, 1}, RC_PERIODIC, 0.016, {17, 23, 26}},
-        {{4096, 1, 1, 1}, RC_FREE, 0.004, {11, 20, 23}},
+        {{64, 64, 1, 1}, {.x = true, .y = true}, 0.004, {14, 20, 23}},
+        {{64, 64, 1, 1}, {.x = true, .y = true}, 0.016, {14, 20, 23}},
+        {{128, 128, 1, 1}, {.x = true, .y = true}, 0.016, {14, 20, 26}},
+        {{128, 128, 1, 1}, {.x = true, .y = true}, 0.055, {14, 20, 26}},
+        {{256, 256, 1, 1}, {.x = true, .y = true}, 0.016, {14, 20, 26}},
+        {{64, 64, 1, 1}, {.x = false}, 0.01, {14, 20, 23}},
+        {{128, 128, 1, 1}, {.x = false}, 0.01, {14, 20, 23}},
+        {{64, 64, 1, 100}, {.x = true, .y = true}, 0.016, {14, 20, 23}},
+        {{64, 64, 1, 100}, {.x = false}, 0.004, {20, 32, 41}},
+        {{4096, 1, 1, 1}, {.x = true, .y = true}, 0.016, {17, 23, 26}},
+        {{4096, 1, 1, 1}, {.x = false}, 0.004, {11, 20, 23}},
     };
     static const double levels[3] = {1e-2, 1e-4, 1e-6};
 
@@ -366,8 +366,8 @@ test_work_does_not_grow(void **state)
                 counts[level++] = f.convolutions - begun;
         } while (status == RC_MORE);
         print_message("%zu x %zu nodes of 1:%g, %s, mean %.3f: %.1f %.1f %.1f convolutions\n",
-                      shape.nx, shape.ny, shape.dy, w.boundary == RC_FREE ? "free" : "periodic",
-                      cases[k].mean, counts[0], counts[1], counts[2]);
+                      shape.nx, shape.ny, shape.dy, rc_boundary_word(w.boundary), cases[k].mean,
+                      counts[0], counts[1], counts[2]);
         assert_int_equal(level, 3);
         for (int c = 0; c < 3; c++)
             assert_true(counts[c] <= cases[k].most[c]);
@@ -521,12 +521,12 @@ test_errors_of_a_path_add_up(void **state)
 
     (void)state;
     for (int k = 0; k < 12; k++) {
-        enum rc_boundary boundary = k % 3 == 0 ? RC_FREE : RC_PERIODIC;
+        struct rc_boundary boundary = k % 3 == 0 ? RC_FREE : RC_PERIODIC;
         double *h = slip_rough(&shape, 0.1, 4, 60 + (uint64_t)k), *p, load = 0;
         struct rc_model *model[2];
         uint64_t seed = 40 + (uint64_t)k;
         double force[2] = {0, 0}, *q[2][2];
-        for (size_t i = 0; i < n && boundary == RC_FREE; i++)
+        for (size_t i = 0; i < n && rc_repeats(boundary) == 0; i++)
             h[i] -= (pow((double)(i % 32) - 16, 2) + pow((double)(i / 32) - 16, 2)) / 90;
         p = pressure_of(&shape, boundary, h, 0.004 * (1 + k % 4));
         for (size_t i = 0; i < n; i++)

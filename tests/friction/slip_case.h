@@ -26,7 +26,7 @@ struct pressed {
 
 /* The contact of these heights, taken over, under each load in turn; the last one is left. */
 static inline struct pressed
-pressed_new(const struct rc_shape *shape, enum rc_boundary boundary, double *h, double estar,
+pressed_new(const struct rc_shape *shape, struct rc_boundary boundary, double *h, double estar,
             double load, double tol)
 {
     struct pressed c = {.n = shape->nx * shape->ny, .h = h};

@@ -37,7 +37,7 @@ ball_new(size_t nodes, double tol)
 }
 
 static struct rc_friction_solver *
-slip_on(const struct rc_shape *shape, enum rc_boundary boundary, double nu, double tol)
+slip_on(const struct rc_shape *shape, struct rc_boundary boundary, double nu, double tol)
 {
     struct rc_friction_law problem = {
         .boundary = boundary, .pair.estar = 1, .nu = nu, .mu = mu, .tol = tol};

@@ -450,10 +450,10 @@ test_loads_and_displacements_are_reciprocal(void **state)
     (void)state;
     assert_int_equal(rc_pair_shear(&pairs[0], NAN, &shear, NULL), RC_OK);
     for (size_t s = 0; s < SHAPES; s++)
-        for (int boundary = RC_FREE; boundary <= RC_PERIODIC; boundary++) {
+        for (int boundary = 0; boundary < 2; boundary++) {
             size_t n = shapes[s].nx * shapes[s].ny;
-            struct rc_tangential *t =
-                rc_tangential_new(&shapes[s], (enum rc_boundary)boundary, &shear, 2, NULL);
+            struct rc_tangential *t = rc_tangential_new(
+                &shapes[s], (boundary == 0 ? RC_FREE : RC_PERIODIC), &shear, 2, NULL);
             struct maps a = maps_new(n, 11), b = maps_new(n, 12);
             double size = 0, there, back;
 

@@ -141,10 +141,10 @@ periodic(void **state)
     for (int k = 0; k < N * N; k++) /* smooth: for it cells and waves agree */
         q[k] = 1e9 * exp(-(pow(k % N - 20, 2) + pow(k / N - 24, 2)) / 50);
     for (int depth = 0; depth < 2; depth++) {
-        for (int boundary = RC_FREE; boundary <= RC_PERIODIC; boundary++) {
+        for (int boundary = 0; boundary < 2; boundary++) {
             struct rc_heat_problem problem = steel(10);
             struct rc_heat *h;
-            problem.boundary = (enum rc_boundary)boundary;
+            problem.boundary = boundary == 0 ? RC_FREE : RC_PERIODIC;
             problem.body[1].velocity[1] = -6;
             problem.time = 5e-7;
             problem.partition = RC_HEAT_SHARE;
@@ -290,12 +290,12 @@ no_change(void **state)
     (void)state;
 
     set_heat();
-    for (int boundary = RC_FREE; boundary <= RC_PERIODIC; boundary++)
+    for (int boundary = 0; boundary < 2; boundary++)
         for (int depth = 0; depth < 2; depth++) {
             for (int k = 0; k < 2; k++) {
                 struct rc_heat_problem problem = steel(0);
                 struct rc_heat *h;
-                problem.boundary = (enum rc_boundary)boundary;
+                problem.boundary = boundary == 0 ? RC_FREE : RC_PERIODIC;
                 problem.time = 4e-6;
                 problem.time_steps = 1 + 6 * (size_t)k;
                 problem.tol = 1e-9;
@@ -395,7 +395,7 @@ estimates(void **state)
         double error;
         seed += c;
         set_spots(n, spot);
-        if (problem.boundary == RC_PERIODIC || c % 8 == 1)
+        if (!rc_has_mean(problem.boundary) || c % 8 == 1)
             problem.time = 1e-5 * pow(100, number());
         if (c % 8 == 3)
             problem.time_steps = 3;

@@ -32,7 +32,7 @@ fill(struct dense *d, const struct rc_shape *s, const struct rc_problem *problem
     assert_non_null(conv);
     p[0] = 1;
     rc_conv_apply(conv, p, u);
-    if (problem->boundary == RC_PERIODIC) /* their mean is 0: any other mean makes K definite */
+    if (!rc_has_mean(problem->boundary)) /* their mean is 0: any other mean makes K definite */
         for (size_t k = 0; k < s->nx * s->ny; k++)
             u[k] += p[0] * cell / base;
     dense_of(d, s, u);
@@ -94,9 +94,8 @@ estimates_are_not_below(void **state)
             if (ratio < 1 || ratio > 3)
                 print_message("%s, %.3g cells, E %.2g of the base, nu %g, contact %.2f: error "
                               "%.2e, estimate %.3f of it\n",
-                              problem.boundary == RC_FREE ? "free" : "periodic",
-                              coat.thickness / cell, coat.e / base, coat.nu, a.c.contact_fraction,
-                              error, ratio);
+                              rc_boundary_word(problem.boundary), coat.thickness / cell,
+                              coat.e / base, coat.nu, a.c.contact_fraction, error, ratio);
         }
         solved_free(&a);
         free(h);

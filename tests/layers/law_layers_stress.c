@@ -186,7 +186,7 @@ static const unsigned six = (1 << RC_COMPONENTS) - 1;
 static const double mu = 0.35;
 
 static void
-slice(struct rc_shape shape, enum rc_boundary boundary, const double *p, double z, double *s)
+slice(struct rc_shape shape, struct rc_boundary boundary, const double *p, double z, double *s)
 {
     size_t n = shape.nx * shape.ny;
     double *to[RC_STRESSES] = {NULL};
@@ -301,7 +301,8 @@ maps_in_equilibrium(void **state)
         for (int m = 0; m < MEDIA; m++) {
             double off = 0, most = 0, harmonic = 0, bent = 0;
             for (int i = 0; i < 7; i++)
-                slice(shape, (enum rc_boundary)b, p, depths[m] + (i - 3) * step, s + i * 6 * N);
+                slice(shape, (b == 0 ? RC_FREE : RC_PERIODIC), p, depths[m] + (i - 3) * step,
+                      s + i * 6 * N);
             for (size_t k = 3 * NX; k < N - 3 * NX; k++) {
                 double lap[3] = {0}, v[3][7];
                 if (k % NX < 3 || k % NX > NX - 4)

@@ -138,7 +138,7 @@ sections_are_lines(void **state)
     for (int boundary = 0; boundary < 2; boundary++)
         for (int i = 0; i < BODIES; i++)
             for (int d = 0; d < DEPTHS; d++) {
-                struct rc_stress_options o = {.boundary = (enum rc_boundary)boundary,
+                struct rc_stress_options o = {.boundary = boundary == 0 ? RC_FREE : RC_PERIODIC,
                                               .mu = 0.35,
                                               .wanted = SIX,
                                               .body = bodies[i].coating,
@@ -179,7 +179,7 @@ sections_across(void **state)
     for (size_t k = 0; k < NX * NX; k++)
         q[k] = p[k % NX * NX + k / NX];
     for (int boundary = 0; boundary < 2; boundary++) {
-        struct rc_stress_options o = {.boundary = (enum rc_boundary)boundary,
+        struct rc_stress_options o = {.boundary = boundary == 0 ? RC_FREE : RC_PERIODIC,
                                       .wanted = 1 << RC_SXX,
                                       .section = 'y',
                                       .at = 0.3e-6,
@@ -211,7 +211,7 @@ threads_agree(void **state)
     (void)state;
     for (int boundary = 0; boundary < 2; boundary++)
         for (int section = 0; section < 2; section++) {
-            struct rc_stress_options o = {.boundary = (enum rc_boundary)boundary,
+            struct rc_stress_options o = {.boundary = boundary == 0 ? RC_FREE : RC_PERIODIC,
                                           .mu = 0.2,
                                           .wanted = SIX,
                                           .section = section ? 'y' : 0,

@@ -220,14 +220,14 @@ thin_and_thick(void **state)
 
     (void)state;
     assert_int_equal(rc_synth_selfaffine(&shape, &what, h, &err), RC_OK);
-    for (int boundary = RC_FREE; boundary <= RC_PERIODIC; boundary++)
+    for (int boundary = 0; boundary < 2; boundary++)
         for (double ratio = 1e-4; ratio < 2e4; ratio *= 100) {
             const double thickness[] = {1e-9, 1e3 * N * 1e-6};
             for (int k = 0; k < 2; k++) {
                 struct rc_layer layer = {thickness[k], ratio * 1e9, 0.3};
                 struct rc_body coating = {1e9, 0.3, 1, &layer};
                 double e = (k == 0 ? 1e9 : ratio * 1e9) / 0.91;
-                struct rc_problem on = {.boundary = (enum rc_boundary)boundary,
+                struct rc_problem on = {.boundary = boundary == 0 ? RC_FREE : RC_PERIODIC,
                                         .pair.one = coating,
                                         .load = 0.02 * e * N * N * 1e-12,
                                         .tol = 1e-5},

@@ -22,7 +22,7 @@ static const double tight = 1e-9, noise_of_truth = 1e-7;
 
 struct random {
     struct rc_shape shape;
-    enum rc_boundary boundary;
+    struct rc_boundary boundary;
     size_t n;
     double nu, contact; /* contact: part of the nodes */
     uint64_t seed;

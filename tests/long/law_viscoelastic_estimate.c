@@ -49,7 +49,7 @@ random_material(void)
 }
 
 struct path {
-    enum rc_boundary boundary;
+    struct rc_boundary boundary;
     enum rc_axis axis;
     double value[POINTS], time[POINTS];
 };
@@ -62,8 +62,8 @@ random_path(void)
                      .axis = draw(0, 1) < 0.3 ? RC_APPROACH : RC_LOAD};
     const double size = draw(0, 1); /* a periodic contact is complete from some 3e-7 m on */
     const double unit = a.axis == RC_LOAD ? pow(10, -2.5 + 1.5 * size) * 0.1 * glass * N * 1e-12
-                        : a.boundary == RC_FREE ? pow(10, -7 + size)
-                                                : pow(10, -7.5 + size / 2);
+                        : rc_repeats(a.boundary) == 0 ? pow(10, -7 + size)
+                                                      : pow(10, -7.5 + size / 2);
 
     a.value[0] = draw(0, 1) < 0.5 ? 0 : unit * draw(0.1, 1);
     for (int k = 1; k < POINTS; k++) {

@@ -27,7 +27,7 @@ static uint64_t first = 1, last = ALL;
 
 struct random_run {
     struct rc_shape s;
-    enum rc_boundary boundary;
+    struct rc_boundary boundary;
     double tol, load, k, at[OUTPUTS];
     double of_body[2], track;
     double *h;

@@ -157,7 +157,7 @@ static struct rc_model *
 two_bodies(struct rc_err *err)
 {
     static const struct rc_problem contact = {
-        .boundary = RC_PERIODIC, .pair.estar = 1e9, .tol = 1e-9, .threads = 1};
+        .boundary = {.x = true, .y = true}, .pair.estar = 1e9, .tol = 1e-9, .threads = 1};
     static const struct rc_wear_problem law = {
         .k = {1e-15, 0}, .estar = 1e9, .tol = 0.3, .two_bodies = true};
 

@@ -37,7 +37,7 @@ static const struct sample samples[] = {
      true,
      {3e-3, 1e-3, 4e-3}},
     {"a periodic history",
-     {.boundary = RC_PERIODIC, .pair.estar = 1e9, .hardness = 5e7},
+     {.boundary = {.x = true, .y = true}, .pair.estar = 1e9, .hardness = 5e7},
      false,
      true,
      {3e-3, 0, 4e-3}},

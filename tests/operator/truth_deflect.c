@@ -137,9 +137,9 @@ the_choice_and_its_reason(void **state)
         struct rc_conv_options options;
         const char *engine, *reason;
     } table[] = {
-        {false, {0}, "direct", "small"},
-        {false, {.boundary = RC_PERIODIC}, "fft", "periodic"},
-        {true, {0}, "fft", "rounding"},
+        {false, {.tol = 0}, "direct", "small"},
+        {false, {.boundary = {.x = true, .y = true}}, "fft", "periodic"},
+        {true, {.tol = 0}, "fft", "rounding"},
         {true, {.tol = 1e-3, .loaded = 0.5}, "fft", "fastest"},
         {true, {.tol = 1e-3, .loaded = 0.03}, "mlms", "few nodes"},
         {true, {.tol = 1e-12, .loaded = 0.03}, "fft", "fastest"},
@@ -172,9 +172,10 @@ threads_change_no_bit(void **state)
             for (size_t t = 0; t < 4; t++) {
                 uint64_t seed = 17;
                 struct rc_conv *c =
-                    conv(shape, (struct rc_conv_options){.boundary = (enum rc_boundary)boundary,
-                                                         .tol = 1e-4 * tol,
-                                                         .threads = threads[t]});
+                    conv(shape,
+                         (struct rc_conv_options){.boundary = boundary == 0 ? RC_FREE : RC_PERIODIC,
+                                                  .tol = 1e-4 * tol,
+                                                  .threads = threads[t]});
                 for (size_t k = 0; k < n; k++)
                     p[k] = random_number(&seed);
                 rc_conv_apply(c, p, t == 0 ? u : v);

@@ -572,7 +572,7 @@ struct path {
 static const struct rc_body soft = {.e = 2e9, .nu = 0.3}, hard = {.e = 6e9, .nu = 0.2};
 
 static void
-begin_path(struct path *a, bool stays, bool coupled, enum rc_boundary boundary, double tol)
+begin_path(struct path *a, bool stays, bool coupled, struct rc_boundary boundary, double tol)
 {
     const struct rc_pair pair = {.one = soft, .two = coupled ? hard : soft};
     const struct rc_problem contact = {.pair = pair, .boundary = boundary, .threads = 1};

@@ -26,12 +26,12 @@ static double dense_factor[DENSE_NODES][DENSE_NODES];
  * rectangle. On a periodic map it is the sum of the waves of the grid plus the mean of one cell. This mean
  * only changes the shift and makes K definite. */
 static inline double
-dense_influence(const struct rc_shape *s, enum rc_boundary boundary, double estar, size_t i,
+dense_influence(const struct rc_shape *s, struct rc_boundary boundary, double estar, size_t i,
                 size_t j)
 {
     double u = s->dx / estar, nodes = (double)(s->nx * s->ny);
 
-    if (boundary == RC_FREE)
+    if (rc_repeats(boundary) == 0)
         return love_displacement((double)i * s->dx, (double)j * s->dy, s->dx / 2, s->dy / 2, estar);
     for (size_t a = 0; a < s->nx; a++)
         for (size_t b = 0; b < s->ny; b++) {
@@ -66,7 +66,7 @@ dense_of(struct dense *d, const struct rc_shape *s, const double *at)
 
 /* The same for a half-space. */
 static inline void
-dense_fill(struct dense *d, const struct rc_shape *s, enum rc_boundary boundary, double estar)
+dense_fill(struct dense *d, const struct rc_shape *s, struct rc_boundary boundary, double estar)
 {
     static double at[DENSE_NODES];
 

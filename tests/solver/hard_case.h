@@ -70,7 +70,7 @@ hard_modulus(const struct hard_case *c, const struct rc_solids *bodies, double q
 }
 
 static inline struct rc_problem
-hard_problem(const struct hard_case *c, enum rc_boundary boundary)
+hard_problem(const struct hard_case *c, struct rc_boundary boundary)
 {
     struct rc_solids bodies;
     double estar, mean;
@@ -104,7 +104,7 @@ hard_displace(const struct hard_case *c, const struct rc_problem *problem, const
     struct rc_solids bodies;
     struct rc_err err;
 
-    if (problem->boundary == RC_FREE) {
+    if (rc_repeats(problem->boundary) == 0) {
         struct rc_conv_options options = {.engine = n <= 5000 ? "direct" : "fft"};
         struct rc_conv *conv = rc_conv_new(&s, &problem->pair, &options, &err);
         assert_non_null(conv);
@@ -141,8 +141,8 @@ hard_depth(const struct hard_case *c, const struct rc_problem *problem)
     hard_bodies(&bodies);
     estar = hard_modulus(c, &bodies, 2 * exact_pi / fmax(a, b));
     rc_solids_free(&bodies);
-    return problem->boundary == RC_FREE ? mean * love_displacement(0, 0, a / 2, b / 2, estar)
-                                        : mean * fmax(a, b) / (exact_pi * estar);
+    return rc_repeats(problem->boundary) == 0 ? mean * love_displacement(0, 0, a / 2, b / 2, estar)
+                                              : mean * fmax(a, b) / (exact_pi * estar);
 }
 
 /* The bound of the KKT residual. If the heights differ by less than 1e-7 of the displacement, the rounding
@@ -203,7 +203,7 @@ hard_violation(const struct hard_case *c, const struct rc_problem *problem, cons
 }
 
 static inline bool
-hard_holds(const struct hard_case *c, enum rc_boundary boundary)
+hard_holds(const struct hard_case *c, struct rc_boundary boundary)
 {
     struct rc_problem problem = hard_problem(c, boundary);
     double *h = hard_heights(c), off = 0, kkt = NAN, load = NAN, bound = NAN;
@@ -225,7 +225,7 @@ hard_holds(const struct hard_case *c, enum rc_boundary boundary)
     }
     print_message("%s %-28s %s %4zu its %6.0f conv, contact %.4f, plastic %zu: error %.1e, KKT "
                   "%.1e, load %.0e",
-                  holds ? "  " : "##", c->name, boundary == RC_FREE ? "free" : "per.",
+                  holds ? "  " : "##", c->name, rc_repeats(boundary) == 0 ? "free" : "per.",
                   s.c.iterations, s.c.convolutions, s.c.contact_fraction, s.c.plastic_nodes,
                   s.c.pressure_error, kkt, load);
     if (bound > 2 * hard_kkt)

@@ -90,7 +90,7 @@ about_the_elastic_maximum(void **state)
     for (size_t k = 0; k < sizeof yielding / sizeof *yielding; k++)
         for (int b = 0; b < 2; b++) {
             struct hard_case c = yielding[k];
-            enum rc_boundary boundary = b == 0 ? RC_FREE : RC_PERIODIC;
+            struct rc_boundary boundary = b == 0 ? RC_FREE : RC_PERIODIC;
             double *h = hard_heights(&c);
             struct rc_problem problem = hard_problem(&c, boundary);
             struct solved elastic = solve(c.shape, h, problem);

@@ -120,7 +120,7 @@ one_node(const struct hard_case *c, const struct rc_problem *problem, const doub
     for (size_t k = 0; k < c->shape.nx * c->shape.ny; k++)
         top = h[k] > h[top] ? k : top;
     off = s->c.contact_nodes == 1 ? relative(s->p[top], p, rounding) : INFINITY;
-    if (problem->boundary == RC_FREE)
+    if (rc_repeats(problem->boundary) == 0)
         off = larger(off, relative(s->c.approach,
                                    p * love_displacement(0, 0, c->shape.dx / 2, c->shape.dy / 2,
                                                          problem->pair.estar),
@@ -195,7 +195,7 @@ strips_answer(const struct hard_case *c, const struct rc_problem *problem, const
            nodes = (size_t)(one ? 2 * c->a : c->a);
 
     (void)h;
-    if (problem->boundary == RC_FREE)
+    if (rc_repeats(problem->boundary) == 0)
         return 0;
     if ((double)s->c.contact_nodes != part * (double)(c->shape.nx * c->shape.ny))
         return INFINITY;
@@ -209,7 +209,7 @@ even_answer(const struct hard_case *c, const struct rc_problem *problem, const d
 {
     double off = 0;
 
-    if (problem->boundary == RC_FREE)
+    if (rc_repeats(problem->boundary) == 0)
         return square_answer(c, problem, h, s);
     for (size_t k = 0; k < c->shape.nx * c->shape.ny; k++)
         off = larger(off, relative(s->p[k], c->mean * problem->pair.estar, summed));

@@ -25,7 +25,7 @@ static const char *const set_names[] = {"random", "disc", "rough", "almost all",
 
 /* Fills w and returns the number of nodes in the set. */
 static size_t
-choose(struct rc_shape s, enum rc_boundary boundary, enum set_name name, unsigned char *w)
+choose(struct rc_shape s, struct rc_boundary boundary, enum set_name name, unsigned char *w)
 {
     size_t n = s.nx * s.ny, count = 0;
     uint64_t seed = 29;
@@ -102,7 +102,7 @@ symmetric_and_positive(void **state)
     (void)state;
     for (size_t q = 0; q < SHAPES * SETS * 2; q++) {
         struct rc_shape s = shapes[q / SETS / 2];
-        enum rc_boundary boundary = q % 2 == 0 ? RC_FREE : RC_PERIODIC;
+        struct rc_boundary boundary = q % 2 == 0 ? RC_FREE : RC_PERIODIC;
         size_t n = s.nx * s.ny, count;
         unsigned char *w = malloc(n);
         float *v = malloc(4 * n * sizeof *v), *a = v, *b = v + n, *za = v + 2 * n, *zb = v + 3 * n;
@@ -297,8 +297,7 @@ spectrum(void **state)
         b = corrections(op, w, at, count);
         extremes(k, b, &least, &most);
         print_message("%-12s %-10s %s, %3zu nodes: eigenvalues %.5f to %.3f\n", bodies[body].name,
-                      set_names[set], options.boundary == RC_FREE ? "free" : "periodic", count,
-                      least, most);
+                      set_names[set], rc_boundary_word(options.boundary), count, least, most);
         assert_true(least >= 1 - 1e-4);
         assert_true(most <= bodies[body].above);
         gsl_matrix_free(k);

@@ -29,7 +29,7 @@ make_heights(void)
 static struct rc_problem
 problem_of(int boundary, bool plastic)
 {
-    return (struct rc_problem){.boundary = (enum rc_boundary)boundary,
+    return (struct rc_problem){.boundary = boundary == 0 ? RC_FREE : RC_PERIODIC,
                                .pair.estar = 3.7e9,
                                .load = 0.8,
                                .tol = 1e-7,
@@ -90,7 +90,7 @@ as_a_new_solver(void **state)
 static void
 grid_error_is_its_own(void **state)
 {
-    struct rc_problem problem = problem_of(RC_FREE, false);
+    struct rc_problem problem = problem_of(0, false);
     struct rc_solver *s, *t;
     struct rc_contact c, d;
 
@@ -115,7 +115,7 @@ grid_error_is_its_own(void **state)
 static void
 refused(void **state)
 {
-    struct rc_problem problem = problem_of(RC_PERIODIC, false);
+    struct rc_problem problem = problem_of(1, false);
     struct rc_solver *s = rc_solver_new(&shape, first, &problem, NULL);
     static double h[N], p[N];
     struct rc_err err;
@@ -144,7 +144,7 @@ history(void **state)
     static double h[N], g[N], gap[N];
 
     (void)state;
-    for (int boundary = RC_FREE; boundary <= RC_PERIODIC; boundary++) {
+    for (int boundary = 0; boundary < 2; boundary++) {
         struct rc_problem problem = problem_of(boundary, true);
         struct rc_solver *s;
         double height_error = 0;
@@ -206,7 +206,7 @@ reload_reaches_the_same_nodes(void **state)
     static double h[N];
 
     (void)state;
-    for (int boundary = RC_FREE; boundary <= RC_PERIODIC; boundary++)
+    for (int boundary = 0; boundary < 2; boundary++)
         for (int t = 0; t < 3; t++) {
             struct rc_problem problem = problem_of(boundary, true);
             struct rc_solver *s;

@@ -22,7 +22,7 @@ static const double estar = 10e9, tol = 1e-7;
 static volatile sig_atomic_t hurry;
 
 static struct rc_problem
-rough(enum rc_boundary boundary, double *h)
+rough(struct rc_boundary boundary, double *h)
 {
     struct rc_selfaffine what = {
         .hurst = 0.8, .rms_slope = 0.1, .rolloff = 30e-6, .short_cut = 4.4e-6, .seed = 11};
@@ -39,11 +39,13 @@ rough(enum rc_boundary boundary, double *h)
 /* True if u equals K p, summed directly or transformed in double precision, to this fraction of the largest
  * u. */
 static bool
-displaced(double within, enum rc_boundary boundary, const double *p, const double *u)
+displaced(double within, struct rc_boundary boundary, const double *p, const double *u)
 {
     const struct rc_pair pair = {.estar = estar};
-    const struct rc_conv_options options = {
-        .boundary = boundary, .engine = boundary == RC_FREE ? "direct" : "fft64", .threads = 1};
+    const struct rc_conv_options options = {.boundary = boundary,
+                                            .engine =
+                                                rc_repeats(boundary) == 0 ? "direct" : "fft64",
+                                            .threads = 1};
     struct rc_err err;
     struct rc_conv *conv = rc_conv_new(&shape, &pair, &options, &err);
     double *right = malloc(N * sizeof *right), most = 0, largest = 0;
@@ -63,7 +65,7 @@ displaced(double within, enum rc_boundary boundary, const double *p, const doubl
 /* Sets the flag after the given number of steps, and with `again` before one more; true if the solution had
  * been found before. */
 static bool
-stopped_after(size_t steps, bool again, enum rc_boundary boundary, const double *h,
+stopped_after(size_t steps, bool again, struct rc_boundary boundary, const double *h,
               struct rc_problem problem)
 {
     double *u = malloc(N * sizeof *u), *before = malloc(N * sizeof *before), convolutions, sum = 0;
@@ -108,11 +110,11 @@ stops(void **state)
     double *h = malloc(N * sizeof *h);
 
     (void)state;
-    for (int b = RC_FREE; b <= RC_PERIODIC; b++) {
-        struct rc_problem problem = rough((enum rc_boundary)b, h);
+    for (int b = 0; b < 2; b++) {
+        struct rc_problem problem = rough(b == 0 ? RC_FREE : RC_PERIODIC, h);
         size_t steps = 0;
-        while (!stopped_after(steps, true, (enum rc_boundary)b, h, problem) &&
-               !stopped_after(steps, false, (enum rc_boundary)b, h, problem))
+        while (!stopped_after(steps, true, (b == 0 ? RC_FREE : RC_PERIODIC), h, problem) &&
+               !stopped_after(steps, false, (b == 0 ? RC_FREE : RC_PERIODIC), h, problem))
             steps++;
         assert_true(steps > 5);
     }

@@ -14,12 +14,12 @@ static const double estar = 3.7e9;
 
 /* A rough ball, or a periodic rough surface. */
 static double *
-heights(enum rc_boundary boundary)
+heights(struct rc_boundary boundary)
 {
     size_t n = shape.nx * shape.ny;
     double *h = malloc(n * sizeof *h), *ball = malloc(n * sizeof *ball);
     struct rc_selfaffine rough = {.hurst = 0.7,
-                                  .rms_slope = boundary == RC_FREE ? 0.005 : 0.1,
+                                  .rms_slope = rc_repeats(boundary) == 0 ? 0.005 : 0.1,
                                   .short_cut = 12e-6,
                                   .long_cut = 40e-6,
                                   .seed = 11};
@@ -27,27 +27,27 @@ heights(enum rc_boundary boundary)
 
     assert_int_equal(rc_synth_selfaffine(&shape, &rough, h, &err), RC_OK);
     rc_synth_sphere(&shape, 2.385e-3, ball);
-    for (size_t k = 0; k < n && boundary == RC_FREE; k++)
+    for (size_t k = 0; k < n && rc_repeats(boundary) == 0; k++)
         h[k] += ball[k];
     free(ball);
     return h;
 }
 
 static struct rc_problem
-problem_on(enum rc_boundary boundary)
+problem_on(struct rc_boundary boundary)
 {
     return (struct rc_problem){.boundary = boundary,
                                .pair.estar = estar,
-                               .load = boundary == RC_FREE ? 0.05 : 0.8,
+                               .load = rc_repeats(boundary) == 0 ? 0.05 : 0.8,
                                .tol = 1e-7,
                                .method = contact_method};
 }
 
 /* A part of the contact yields. */
 static double
-soft(enum rc_boundary boundary)
+soft(struct rc_boundary boundary)
 {
-    return boundary == RC_FREE ? 20e6 : 200e6;
+    return rc_repeats(boundary) == 0 ? 20e6 : 200e6;
 }
 
 static struct rc_solver *
@@ -68,14 +68,14 @@ loads_are_independent(void **state)
     static const double factors[] = {1.5, 0.2, 2.5};
 
     (void)state;
-    for (int boundary = RC_FREE; boundary <= RC_PERIODIC; boundary++)
+    for (int boundary = 0; boundary < 2; boundary++)
         for (int plastic = 0; plastic < 2; plastic++) {
-            double *h = heights((enum rc_boundary)boundary);
-            struct rc_problem problem = problem_on((enum rc_boundary)boundary);
+            double *h = heights(boundary == 0 ? RC_FREE : RC_PERIODIC);
+            struct rc_problem problem = problem_on(boundary == 0 ? RC_FREE : RC_PERIODIC);
             struct rc_solver *s;
             struct rc_err err;
 
-            problem.hardness = plastic ? soft((enum rc_boundary)boundary) : INFINITY;
+            problem.hardness = plastic ? soft(boundary == 0 ? RC_FREE : RC_PERIODIC) : INFINITY;
             s = start(h, problem);
             (void)finish(s);
             for (size_t k = 0; k < sizeof factors / sizeof *factors; k++) {
@@ -102,9 +102,9 @@ static void
 approach_is_inverted(void **state)
 {
     (void)state;
-    for (int boundary = RC_FREE; boundary <= RC_PERIODIC; boundary++) {
-        double *h = heights((enum rc_boundary)boundary);
-        struct rc_problem problem = problem_on((enum rc_boundary)boundary);
+    for (int boundary = 0; boundary < 2; boundary++) {
+        double *h = heights(boundary == 0 ? RC_FREE : RC_PERIODIC);
+        struct rc_problem problem = problem_on(boundary == 0 ? RC_FREE : RC_PERIODIC);
         struct rc_solver *s = start(h, problem);
         struct rc_contact first = finish(s), second;
         struct rc_err err;
@@ -338,9 +338,9 @@ static void
 stiffness_is_the_slope(void **state)
 {
     (void)state;
-    for (int boundary = RC_FREE; boundary <= RC_PERIODIC; boundary++) {
-        double *h = heights((enum rc_boundary)boundary), k, d = 1e-3;
-        struct rc_problem problem = problem_on((enum rc_boundary)boundary);
+    for (int boundary = 0; boundary < 2; boundary++) {
+        double *h = heights(boundary == 0 ? RC_FREE : RC_PERIODIC), k, d = 1e-3;
+        struct rc_problem problem = problem_on(boundary == 0 ? RC_FREE : RC_PERIODIC);
         struct rc_solver *s = start(h, problem);
         struct rc_contact a = finish(s), b;
         struct rc_err err;
@@ -353,7 +353,7 @@ stiffness_is_the_slope(void **state)
         assert_true(fabs((b.load - a.load) / (b.approach - a.approach) / k - 1) < 2 * d);
         rc_solver_free(s);
         rc_synth_sphere(&shape, 2.385e-3, h);
-        if (boundary == RC_FREE) {
+        if (boundary == 0) {
             double radius = cbrt(0.75 * problem.load * 2.385e-3 / estar);
             s = start(h, problem);
             (void)finish(s);
@@ -374,15 +374,15 @@ yielded_shape_holds(void **state)
     static const double flattened = 1e-9; /* m: smaller depths would be negligible */
 
     (void)state;
-    for (int boundary = RC_FREE; boundary <= RC_PERIODIC; boundary++) {
-        double *h = heights((enum rc_boundary)boundary);
+    for (int boundary = 0; boundary < 2; boundary++) {
+        double *h = heights(boundary == 0 ? RC_FREE : RC_PERIODIC);
         double *flat = malloc(shape.nx * shape.ny * sizeof *flat), most = 0, top = 0;
-        struct rc_problem problem = problem_on((enum rc_boundary)boundary);
+        struct rc_problem problem = problem_on(boundary == 0 ? RC_FREE : RC_PERIODIC);
         struct rc_solver *s, *t;
         struct rc_contact first, second;
         struct rc_err err;
 
-        problem.hardness = soft((enum rc_boundary)boundary);
+        problem.hardness = soft(boundary == 0 ? RC_FREE : RC_PERIODIC);
         s = start(h, problem);
         first = finish(s);
         assert_true(first.plastic_nodes > 10);

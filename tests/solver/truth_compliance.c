@@ -39,7 +39,7 @@ fill(struct dense *d, const struct rc_shape *s, const struct rc_problem *problem
     p[0] = 1;
     rc_conv_apply(conv, p, u);
     u[0] += c;
-    if (problem->boundary == RC_PERIODIC) /* any mean changes only the shift */
+    if (!rc_has_mean(problem->boundary)) /* any mean changes only the shift */
         for (size_t k = 0; k < s->nx * s->ny; k++)
             u[k] += cell / base;
     dense_of(d, s, u);

@@ -70,7 +70,7 @@ of_wave(struct rc_shape s, double x, double y)
 
 /* Sum of t with K t = 1 on the nodes where p > 0, times the cell. */
 static double
-dense_stiffness(struct rc_shape shape, enum rc_boundary boundary, const double *p)
+dense_stiffness(struct rc_shape shape, struct rc_boundary boundary, const double *p)
 {
     size_t nodes = shape.nx * shape.ny, n = 0, *at = malloc(nodes * sizeof *at);
     double *a, *t, sum = 0;
@@ -85,7 +85,7 @@ dense_stiffness(struct rc_shape shape, enum rc_boundary boundary, const double *
         for (size_t j = 0; j < n; j++) {
             double x = node_x(shape, at[i]) - node_x(shape, at[j]);
             double y = node_y(shape, at[i]) - node_y(shape, at[j]);
-            a[i * n + j] = boundary == RC_PERIODIC
+            a[i * n + j] = !rc_has_mean(boundary)
                                ? of_wave(shape, x, y)
                                : love_displacement(x, y, shape.dx / 2, shape.dy / 2, estar);
         }
@@ -120,7 +120,7 @@ any_contact(void **state)
 
     (void)state;
     for (int k = 0; k < 8; k++) {
-        const enum rc_boundary boundary = k & 1 ? RC_PERIODIC : RC_FREE;
+        const struct rc_boundary boundary = k & 1 ? RC_PERIODIC : RC_FREE;
         struct rc_selfaffine rough = {.hurst = 0.7, .rms_slope = 0.1, .seed = 40 + (uint64_t)k};
         struct rc_problem problem = {.boundary = boundary, .load = 0.05};
         struct found f;
@@ -135,8 +135,8 @@ any_contact(void **state)
         f = conducts(shape, h, problem);
         dense = 2 * dense_stiffness(shape, boundary, f.p) / (estar * resistivity());
         print_message("%s, %zu nodes, %zu at the hardness: conductance %+.1e, bound %+.1e off\n",
-                      boundary == RC_FREE ? "free" : "periodic", f.c.contact_nodes,
-                      f.c.plastic_nodes, f.g.value / dense - 1, f.g.lower / dense - 1);
+                      rc_boundary_word(boundary), f.c.contact_nodes, f.c.plastic_nodes,
+                      f.g.value / dense - 1, f.g.lower / dense - 1);
         assert_true((f.c.plastic_nodes > 0) == (k > 1 && (k & 2) != 0));
         assert_true(fabs(f.g.value / dense - 1) < 3e-7);
         assert_true(f.g.lower <= dense * (1 + rounding));
@@ -163,7 +163,7 @@ struct circles {
 /* Flat punches with this radius in spacings, under load. */
 static struct found
 circles_conduct(struct rc_shape shape, const struct circles *c, double radius,
-                enum rc_boundary boundary)
+                struct rc_boundary boundary)
 {
     size_t n = shape.nx * shape.ny, inside = 0;
     double *h = malloc(n * sizeof *h);

@@ -107,7 +107,7 @@ slices_average_to_slabs(void **state)
                                                         .thickness = thickness,
                                                         .shear = e / (2 * (1 + nu)),
                                                         .nu = nu,
-                                                        .padded = padded,
+                                                        .boundary = padded ? RC_FREE : RC_PERIODIC,
                                                         .whole = true});
         struct voxels sum = voxels_new(shape, SLABS), known = voxels_new(shape, SLABS);
         struct rc_stress *stress;
@@ -140,8 +140,11 @@ piece(const struct strained *s, bool padded, double depth, struct voxels *to, do
     const double t = 1e-2 * fmin(shape.dx, shape.dy);
     double thick[SLABS + 2], top = 0;
     size_t from[SLABS + 2], n = 0, which = SLABS;
-    struct rc_slabs_options o = {
-        .thickness = thick, .shear = e / (2 * (1 + nu)), .nu = nu, .padded = padded, .whole = true};
+    struct rc_slabs_options o = {.thickness = thick,
+                                 .shear = e / (2 * (1 + nu)),
+                                 .nu = nu,
+                                 .boundary = padded ? RC_FREE : RC_PERIODIC,
+                                 .whole = true};
     struct voxels pieces, all;
     struct rc_slabs *v;
 

@@ -18,7 +18,7 @@ static const struct rc_shape shape = {NX, NY, 1.1e-6, 0.9e-6};
 static const double size = 2.385e8; /* Pa */
 
 static struct rc_stress_options
-options(enum rc_boundary boundary, double nu, double mu)
+options(struct rc_boundary boundary, double nu, double mu)
 {
     return (struct rc_stress_options){
         .boundary = boundary, .body.nu = nu, .mu = mu, .wanted = SIX, .threads = 2};
@@ -108,7 +108,7 @@ in_equilibrium(void **state)
     for (int b = 0; b < 2; b++) {
         double off[3] = {0}, harmonic = 0, largest = 0, bent = 0;
         for (int i = 0; i < 7; i++)
-            slice(p, options((enum rc_boundary)b, 0.3, 0.4), z + (i - 3) * step, &f[i]);
+            slice(p, options(b == 0 ? RC_FREE : RC_PERIODIC, 0.3, 0.4), z + (i - 3) * step, &f[i]);
         for (size_t k = 0; k < N; k++) {
             static const int of[3][3] = {
                 {RC_SXX, RC_SXY, RC_SXZ}, {RC_SXY, RC_SYY, RC_SYZ}, {RC_SXZ, RC_SYZ, RC_SZZ}};
@@ -159,9 +159,9 @@ sum_follows_poisson(void **state)
     rough(p);
     for (int periodic = 0; periodic < 2; periodic++)
         for (double z = 0; z < 10 * shape.dx; z += 3 * shape.dx) {
-            slice(p, options((enum rc_boundary)periodic, 0, 0.3), z, &a);
+            slice(p, options(periodic == 0 ? RC_FREE : RC_PERIODIC, 0, 0.3), z, &a);
             for (double nu = -0.5; nu <= 0.5; nu += 0.25) {
-                slice(p, options((enum rc_boundary)periodic, nu, 0.3), z, &b);
+                slice(p, options(periodic == 0 ? RC_FREE : RC_PERIODIC, nu, 0.3), z, &b);
                 for (size_t k = 0; k < N; k++)
                     assert_true(fabs(trace(&b, k) - (1 + nu) * trace(&a, k)) <= summed * size);
             }
@@ -239,7 +239,7 @@ tractions_at_the_surface(void **state)
     (void)state;
     rough(p);
     for (int b = 0; b < 2; b++) {
-        slice(p, options((enum rc_boundary)b, 0.3, 0.35), 0, &f);
+        slice(p, options(b == 0 ? RC_FREE : RC_PERIODIC, 0.3, 0.35), 0, &f);
         for (size_t k = 0; k < N; k++) {
             assert_true(fabs(f.s[RC_SZZ][k] + p[k]) <= summed * size);
             assert_true(fabs(f.s[RC_SXZ][k] + 0.35 * p[k]) <= summed * size);
@@ -334,7 +334,7 @@ mirrors_and_sums(void **state)
     (void)state;
     rough(p);
     for (int bd = 0; bd < 2; bd++) {
-        enum rc_boundary boundary = (enum rc_boundary)bd;
+        struct rc_boundary boundary = bd == 0 ? RC_FREE : RC_PERIODIC;
         slice(p, options(boundary, 0.3, 0.2), z, &a);
         for (size_t k = 0; k < N; k++)
             m[k] = p[k / NX * NX + NX - 1 - k % NX];
@@ -380,12 +380,12 @@ far_walls_do_not_matter(void **state)
         double *p = malloc(m * m * sizeof *p);
         off[grow] = 0;
         for (int b = 0; b < 2; b++) {
-            struct rc_stress_options o = options((enum rc_boundary)b, 0.3, 0.3);
+            struct rc_stress_options o = options(b == 0 ? RC_FREE : RC_PERIODIC, 0.3, 0.3);
             struct rc_stress *stress;
             struct rc_err err;
             for (size_t k = 0; k < m * m; k++) {
                 double r = node_r(map, k) / width, more = d * d / (6 * width * width) * (r * r - 1);
-                p[k] = size * exp(-r * r) * (b == RC_PERIODIC ? 1 + more : 1);
+                p[k] = size * exp(-r * r) * (b == 1 ? 1 + more : 1);
             }
             o.section = 'y';
             stress = rc_stress_new(&map, p, &o, &err);

@@ -41,22 +41,30 @@ maps_new(void)
 
 /* All combinations of the options. */
 struct way {
-    enum rc_boundary boundary;
+    struct rc_boundary boundary;
     bool coated;
     char section;
     const char *engine;
     double tol; /* tolerance of the result, over the largest pressure */
 };
 static const struct way ways[] = {
-    {RC_FREE, false, 0, NULL, 0},        {RC_FREE, true, 0, NULL, 0},
-    {RC_PERIODIC, false, 0, NULL, 0},    {RC_PERIODIC, true, 0, NULL, 0},
-    {RC_FREE, false, 'x', NULL, 0},      {RC_FREE, false, 'y', NULL, 0},
-    {RC_FREE, true, 'x', NULL, 0},       {RC_FREE, true, 'y', NULL, 0},
-    {RC_PERIODIC, false, 'x', NULL, 0},  {RC_PERIODIC, false, 'y', NULL, 0},
-    {RC_PERIODIC, true, 'x', NULL, 0},   {RC_PERIODIC, true, 'y', NULL, 0},
-    {RC_FREE, false, 0, "direct", 0},    {RC_FREE, true, 0, "direct", 0},
-    {RC_FREE, false, 0, "mlms", 1e-4},   {RC_FREE, false, 0, NULL, 1e-3},
-    {RC_PERIODIC, false, 0, NULL, 1e-3},
+    {{.x = false}, false, 0, NULL, 0},
+    {{.x = false}, true, 0, NULL, 0},
+    {{.x = true, .y = true}, false, 0, NULL, 0},
+    {{.x = true, .y = true}, true, 0, NULL, 0},
+    {{.x = false}, false, 'x', NULL, 0},
+    {{.x = false}, false, 'y', NULL, 0},
+    {{.x = false}, true, 'x', NULL, 0},
+    {{.x = false}, true, 'y', NULL, 0},
+    {{.x = true, .y = true}, false, 'x', NULL, 0},
+    {{.x = true, .y = true}, false, 'y', NULL, 0},
+    {{.x = true, .y = true}, true, 'x', NULL, 0},
+    {{.x = true, .y = true}, true, 'y', NULL, 0},
+    {{.x = false}, false, 0, "direct", 0},
+    {{.x = false}, true, 0, "direct", 0},
+    {{.x = false}, false, 0, "mlms", 1e-4},
+    {{.x = false}, false, 0, NULL, 1e-3},
+    {{.x = true, .y = true}, false, 0, NULL, 1e-3},
 };
 enum {
     WAYS = sizeof ways / sizeof *ways

@@ -15,7 +15,7 @@ static const double poisson = 0.3;
 
 /* All six components at one depth; `out` holds a map for each. */
 static void
-slice(struct rc_shape shape, enum rc_boundary boundary, const double *p, const double *tx,
+slice(struct rc_shape shape, struct rc_boundary boundary, const double *p, const double *tx,
       const double *ty, double z, double *const out[RC_COMPONENTS])
 {
     const struct rc_stress_options o = {.boundary = boundary,

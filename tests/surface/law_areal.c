@@ -44,7 +44,7 @@ make(double h[NX * NY], bool holes)
 }
 
 static struct rc_areal
-measured(const struct rc_shape *s, const double *h, enum rc_boundary boundary, size_t threads)
+measured(const struct rc_shape *s, const double *h, struct rc_boundary boundary, size_t threads)
 {
     const struct rc_surface_options options = {.boundary = boundary, .threads = threads};
     struct rc_areal a;
@@ -104,7 +104,7 @@ test_units_and_datum(void **state)
 
     (void)state;
     for (int turn = 0; turn < 4; turn++) {
-        enum rc_boundary boundary = turn & 2 ? RC_PERIODIC : RC_FREE;
+        struct rc_boundary boundary = turn & 2 ? RC_PERIODIC : RC_FREE;
         struct rc_areal a, b;
         make(h, turn & 1);
         a = measured(&shape, h, boundary, 2);
@@ -130,7 +130,7 @@ test_turned(void **state)
 
     (void)state;
     for (int turn = 0; turn < 4; turn++) {
-        enum rc_boundary boundary = turn & 2 ? RC_PERIODIC : RC_FREE;
+        struct rc_boundary boundary = turn & 2 ? RC_PERIODIC : RC_FREE;
         struct rc_areal a, b;
         make(h, turn & 1);
         a = measured(&shape, h, boundary, 2);
@@ -177,7 +177,7 @@ test_threads(void **state)
 
     (void)state;
     for (int turn = 0; turn < 4; turn++) {
-        enum rc_boundary boundary = turn & 2 ? RC_PERIODIC : RC_FREE;
+        struct rc_boundary boundary = turn & 2 ? RC_PERIODIC : RC_FREE;
         const struct rc_shape large = {570, 400, 1.1e-6, 1e-6};
         double *v = malloc(570 * 400 * sizeof *v);
         struct rc_areal a, b;

@@ -36,7 +36,7 @@ assert_zero(double got, double scale)
 }
 
 static struct rc_areal
-measured(const struct rc_shape *shape, const double *h, enum rc_boundary boundary)
+measured(const struct rc_shape *shape, const double *h, struct rc_boundary boundary)
 {
     const struct rc_surface_options options = {.boundary = boundary, .threads = 2};
     struct rc_areal a;
@@ -92,7 +92,7 @@ test_wave(void **state)
 
 /* One wave across the map, m periods along x and n along y. */
 static struct rc_areal
-oblique(const struct rc_shape *s, double m, double n, enum rc_boundary boundary)
+oblique(const struct rc_shape *s, double m, double n, struct rc_boundary boundary)
 {
     double *h = room(s);
     struct rc_areal a;

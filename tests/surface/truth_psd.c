@@ -336,10 +336,10 @@ struct made {
 /* told: the range of the fit is given, otherwise it is found automatically. The largest error over seeds. A
  * map that is not periodic is a quarter of a periodic one. */
 static double
-worst(const struct made *made, double hurst, enum rc_boundary boundary, bool told)
+worst(const struct made *made, double hurst, struct rc_boundary boundary, bool told)
 {
     const double d = 0.7e-6;
-    const size_t n = made->n, side = boundary == RC_FREE ? 2 * n : n;
+    const size_t n = made->n, side = rc_repeats(boundary) == 0 ? 2 * n : n;
     const struct rc_shape s = {n, n, d, d}, whole = {side, side, d, d};
     double *h = malloc(side * side * sizeof *h), most = 0;
 

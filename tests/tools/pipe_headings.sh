@@ -38,6 +38,7 @@ rc-synth selfaffine --nx 24 --dx 1um --hurst 0.8 --rms-slope 0.1 --seed 2 -o rou
 rc-synth sphere --nx 32 --dx 20nm --radius 10um -o ball.rcg
 body='--E1 91GPa --nu1 0.3 --E2 rigid --threads 1 --quiet'
 report rc-solve "rc-solve $body --load 1mN,2mN --hardness 8GPa --history --conductivity 45W/mK,16W/mK --report \$r -o p.rcg rough.rcg"
+report "rc-solve --periodic=y" "rc-solve $body --periodic=y --load 1N/m --report \$r -o line.rcg rough.rcg"
 report "rc-solve, one load" "rc-solve $body --load 1mN --discretization --report \$r -o one.rcg rough.rcg"
 report "rc-solve --yield" "rc-solve $body --yield 1GPa --slabs 6 --increments 8 --load 200uN --report \$r -o y.rcg ball.rcg"
 report "rc-solve --adhesion" "rc-solve $body --adhesion 50mJ/m2 --approach 0 --report \$r -o a.rcg ball.rcg"

@@ -76,4 +76,4 @@ listed() { for tool in $(tool_sources); do tool=${tool##*/} && [ "$tool" = rc-im
 claim "  each tool is in the list" listed
 claim "rc-pick corrects a wrong value" bash -c 'with load abc heights.rcg >bad.rcg && rc-pick --set load=2 bad.rcg | rc-info >out.txt && grep -q "load=2$" out.txt &&
     with boundary perodic heights.rcg >bad.rcg && rc-pick --set boundary= bad.rcg | rc-info >out.txt && lacks perodic out.txt'
-refuses 2 "set boundary=perodic: it must be free or periodic" "  and sets none" "rc-pick --set boundary=perodic heights.rcg"
+refuses 2 "set boundary=perodic: it must be free, periodic, periodic-x or periodic-y" "  and sets none" "rc-pick --set boundary=perodic heights.rcg"

@@ -32,7 +32,7 @@ refuses 2 '^rc-solve: unknown option --a{63}' "a long one" "rc-solve --\$(printf
 refuses 2 '^rc-solve: option --re is ambiguous: --relaxation, --report, --resume$' "one that is cut too short" 'rc-solve --re'
 refuses 2 '^rc-solve: option --E is ambiguous: --E1, --E2$' "another" 'rc-solve --E=3'
 refuses 2 '^rc-solve: option --load needs an argument' "one without its argument" 'rc-solve --load'
-refuses 2 '^rc-solve: option --periodic=3 takes no argument' "one with too many" 'rc-solve --periodic=3'
+refuses 2 '^rc-solve: option --history=3 takes no argument' "one with too many" 'rc-solve --history=3'
 claim "a unique abbreviation of an option is accepted" rc-solve --loa 1 --est 1GPa --out pressure --quiet -o cut.rcg ball.rcg
 
 # ---- spelling ----

@@ -36,7 +36,7 @@ sub check_effects {
     }
 }
 for my $row (@rows) {
-    $row->{boundary} =~ /^(free|periodic)$/ or die "boundary\n";
+    $row->{boundary} =~ /^(free|periodic|periodic-x|periodic-y)$/ or die "boundary\n";
     exists $row->{$_} or die "no $_\n" for qw(tol converged threads peak_memory memory_estimate);
     ref $row->{seconds} eq "HASH" && $row->{seconds}{total} > 0 or die "seconds\n";
     my $sum = 0;

@@ -34,7 +34,7 @@ plan_new(const struct rc_sum *sum, struct rc_err *err)
 {
     struct plan *plan = NULL;
 
-    if (sum->boundary != RC_FREE) {
+    if (rc_repeats(sum->boundary) > 0) {
         rc_err_set(err, "the toy sums free maps only");
         return NULL;
     }

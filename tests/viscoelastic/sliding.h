@@ -37,7 +37,7 @@ power_law(double power, double relaxed)
 }
 
 static struct rc_model *
-sliding(struct rc_shape s, enum rc_boundary boundary, const double *h, double tol,
+sliding(struct rc_shape s, struct rc_boundary boundary, const double *h, double tol,
         const struct rc_sliding_problem *law)
 {
     const struct rc_problem problem = {.boundary = boundary, .tol = tol, .threads = 1};

@@ -387,7 +387,7 @@ restored(void **state)
     (void)state;
     rough(map, 4, 1, 7, h);
     for (int round = 0; round < 12; round++) {
-        const enum rc_boundary boundary = round % 2 == 0 ? RC_PERIODIC : RC_FREE;
+        const struct rc_boundary boundary = round % 2 == 0 ? RC_PERIODIC : RC_FREE;
         const int axis = round / 2 % 2 == 0 ? RC_LOAD : RC_APPROACH;
         const bool half_way = round >= 8;
         const double tol = half_way || round < 4 ? 1e-3 : 1e-8;

@@ -38,7 +38,7 @@ material_of(double relaxed, size_t terms, const double *part, const double *tau)
 static const double tau[] = {0.1, 1, 10}, part[] = {0.3, 0.25, 0.25};
 
 static struct bodies
-bodies_of(const struct rc_shape *s, const double *h, enum rc_boundary boundary, double tol,
+bodies_of(const struct rc_shape *s, const double *h, struct rc_boundary boundary, double tol,
           size_t increments, struct rc_relaxation *material)
 {
     const struct rc_problem contact = {
@@ -119,7 +119,7 @@ memory_of(double (*f)(const struct rc_relaxation *r, double t), const struct rc_
 
 /* The nodes whose contact differs from that of elastic bodies under this load. */
 static size_t
-others(struct rc_shape s, enum rc_boundary boundary, double load, const double *pressure,
+others(struct rc_shape s, struct rc_boundary boundary, double load, const double *pressure,
        double *approach)
 {
     struct rc_problem problem = {

@@ -228,7 +228,7 @@ mirrored(void **state)
 
 /* A ball of radius 1; *p is the caller's to free. */
 static double
-ball(size_t side, double dx, enum rc_boundary boundary, double **p)
+ball(size_t side, double dx, struct rc_boundary boundary, double **p)
 {
     const struct rc_shape s = {side, side, dx, dx};
     struct rc_relaxation *r = standard();

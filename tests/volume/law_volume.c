@@ -43,7 +43,9 @@ is_reciprocal(void **state)
         size_t n = s.nx * s.ny;
         uint64_t seed = 7 + k;
         struct rc_slabs *v = volume_new(
-            s, (struct rc_slabs_options){.slabs = SLABS, .thickness = h, .shear = 8e10, .nu = 0.3});
+            s,
+            (struct rc_slabs_options){
+                .boundary = RC_PERIODIC, .slabs = SLABS, .thickness = h, .shear = 8e10, .nu = 0.3});
         struct voxels a = voxels_new(s, SLABS), b = voxels_new(s, SLABS), ga = voxels_new(s, SLABS),
                       gb = voxels_new(s, SLABS), sp = voxels_new(s, SLABS);
         double *p = random_pressure(n, 0, &seed), *u = calloc(n, sizeof *u), pu = 0, size = 0;
@@ -121,10 +123,12 @@ is_bounded(void **state)
 
     (void)state;
     for (size_t k = 0; k < sizeof nus / sizeof *nus; k++) {
-        struct rc_slabs *v = volume_new(
-            shape,
-            (struct rc_slabs_options){
-                .slabs = SLABS, .thickness = h, .shear = shear, .nu = nus[k], .whole = true});
+        struct rc_slabs *v = volume_new(shape, (struct rc_slabs_options){.boundary = RC_PERIODIC,
+                                                                         .slabs = SLABS,
+                                                                         .thickness = h,
+                                                                         .shear = shear,
+                                                                         .nu = nus[k],
+                                                                         .whole = true});
         struct voxels e = voxels_new(shape, SLABS), s = voxels_new(shape, SLABS);
         const struct rc_conv_options o = {.boundary = RC_PERIODIC, .engine = "fft64"};
         struct rc_conv *conv =
@@ -239,9 +243,12 @@ in_equilibrium(void **state)
     (void)state;
     for (size_t k = FIRST; k < MANY; k++)
         thick[k] = k < FIRST + THIN ? 0.05e-6 : 0.8e-6;
-    v = volume_new(shape,
-                   (struct rc_slabs_options){
-                       .slabs = MANY, .thickness = thick, .shear = 8e10, .nu = 0.3, .whole = true});
+    v = volume_new(shape, (struct rc_slabs_options){.boundary = RC_PERIODIC,
+                                                    .slabs = MANY,
+                                                    .thickness = thick,
+                                                    .shear = 8e10,
+                                                    .nu = 0.3,
+                                                    .whole = true});
     voxels_random(&e, 0xc007, &seed); /* the last two, and the first three */
     p = random_pressure(n, 3e7, &seed);
     volume_apply(v, &e, NULL, p, NULL, &s);
@@ -295,9 +302,12 @@ mean_is_local(void **state)
     static const struct rc_shape shape = {6, 5, 1e-6, 1e-6};
     const double nu = 0.3, shear = 8e10, e1 = 1.1e-3, e2 = -0.7e-3, e3 = 0.4e-3;
     struct voxels e = voxels_new(shape, SLABS), s = voxels_new(shape, SLABS);
-    struct rc_slabs *v = volume_new(
-        shape, (struct rc_slabs_options){
-                   .slabs = SLABS, .thickness = h, .shear = shear, .nu = nu, .whole = true});
+    struct rc_slabs *v = volume_new(shape, (struct rc_slabs_options){.boundary = RC_PERIODIC,
+                                                                     .slabs = SLABS,
+                                                                     .thickness = h,
+                                                                     .shear = shear,
+                                                                     .nu = nu,
+                                                                     .whole = true});
     double u[30], held = nu / (1 - nu) * (e1 + e2);
 
     (void)state;
@@ -346,7 +356,9 @@ refuses(void **state)
     }
     assert_null(rc_slabs_new(
         &(struct rc_shape){0, 3, 1, 1},
-        &(struct rc_slabs_options){.slabs = 2, .thickness = h, .shear = 8e10, .nu = 0.3}, NULL));
+        &(struct rc_slabs_options){
+            .boundary = RC_PERIODIC, .slabs = 2, .thickness = h, .shear = 8e10, .nu = 0.3},
+        NULL));
 }
 
 /* A free map is computed as the corner of a larger periodic map with zeros around it. */
@@ -358,8 +370,12 @@ padded(void **state)
     };
     const struct rc_shape small = {13, 11, 1.1, 0.9}, large = {28, 24, 1.1, 0.9};
     const double thick[PAD_SLABS] = {0.5, 0.8, 0.6};
-    struct rc_slabs_options o = {
-        .slabs = PAD_SLABS, .thickness = thick, .shear = 3, .nu = 0.3, .whole = true};
+    struct rc_slabs_options o = {.boundary = RC_PERIODIC,
+                                 .slabs = PAD_SLABS,
+                                 .thickness = thick,
+                                 .shear = 3,
+                                 .nu = 0.3,
+                                 .whole = true};
     struct voxels e = voxels_new(small, PAD_SLABS), wide = voxels_new(large, PAD_SLABS);
     struct voxels s = voxels_new(small, PAD_SLABS), t = voxels_new(large, PAD_SLABS);
     double p[13 * 11], q[28 * 24] = {0}, u[13 * 11], w[28 * 24], most = 0, size = 0;
@@ -367,7 +383,7 @@ padded(void **state)
     uint64_t seed = 3;
 
     (void)state;
-    o.padded = true;
+    o.boundary = RC_FREE;
     n = volume_new(small, o);
     voxels_random(&e, 0x7, &seed);
     for (size_t j = 0; j < small.ny; j++)

@@ -25,7 +25,8 @@ enum {
 static struct rc_slabs_options
 options(size_t threads)
 {
-    return (struct rc_slabs_options){.slabs = SLABS,
+    return (struct rc_slabs_options){.boundary = RC_PERIODIC,
+                                     .slabs = SLABS,
                                      .thickness = h,
                                      .shear = 8e10,
                                      .nu = 0.3,

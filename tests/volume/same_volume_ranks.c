@@ -25,7 +25,8 @@ of_shared_maps(void **state)
     (void)state;
     for (size_t k = 0; k < 4 * sizeof shapes / sizeof *shapes; k++) {
         struct rc_shape s = shapes[k / 4], part = s;
-        struct rc_slabs_options o = {.slabs = SLABS,
+        struct rc_slabs_options o = {.boundary = RC_PERIODIC,
+                                     .slabs = SLABS,
                                      .thickness = h,
                                      .shear = 8e10,
                                      .nu = 0.3,

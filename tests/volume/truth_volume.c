@@ -284,10 +284,12 @@ equals_elements(void **state)
     for (size_t k = 0; k < sizeof cases / sizeof *cases; k++) {
         struct rc_shape shape = cases[k].shape;
         size_t n = shape.nx * shape.ny;
-        struct rc_slabs *v = volume_new(
-            shape,
-            (struct rc_slabs_options){
-                .slabs = SLABS, .thickness = h, .shear = shear, .nu = cases[k].nu, .whole = true});
+        struct rc_slabs *v = volume_new(shape, (struct rc_slabs_options){.boundary = RC_PERIODIC,
+                                                                         .slabs = SLABS,
+                                                                         .thickness = h,
+                                                                         .shear = shear,
+                                                                         .nu = cases[k].nu,
+                                                                         .whole = true});
         struct voxels e = voxels_new(shape, SLABS), s = voxels_new(shape, SLABS),
                       t = voxels_new(shape, SLABS);
         double *p = calloc(n, sizeof *p), *u = calloc(n, sizeof *u), *w = calloc(n, sizeof *w);
@@ -364,9 +366,12 @@ equals_point_stresses(void **state)
         struct rc_shape shape = shapes_[k];
         size_t n = shape.nx * shape.ny;
         const double nu = 0.27;
-        struct rc_slabs *v = volume_new(
-            shape, (struct rc_slabs_options){
-                       .slabs = SLABS, .thickness = h, .shear = 7e10, .nu = nu, .whole = true});
+        struct rc_slabs *v = volume_new(shape, (struct rc_slabs_options){.boundary = RC_PERIODIC,
+                                                                         .slabs = SLABS,
+                                                                         .thickness = h,
+                                                                         .shear = 7e10,
+                                                                         .nu = nu,
+                                                                         .whole = true});
         struct voxels s = voxels_new(shape, SLABS), t = voxels_new(shape, SLABS);
         double *p = calloc(n, sizeof *p), *raw = calloc(n, sizeof *raw), z = 0;
         double *one[RC_STRESSES] = {NULL};
@@ -451,7 +456,9 @@ equals_sphere(void **state)
     for (size_t k = 0; k < SLABS; k++)
         h[k] = k > 0 ? 1e-6 : 80e-6;
     v = volume_new(
-        shape, (struct rc_slabs_options){.slabs = SLABS, .thickness = h, .shear = shear, .nu = nu});
+        shape,
+        (struct rc_slabs_options){
+            .boundary = RC_PERIODIC, .slabs = SLABS, .thickness = h, .shear = shear, .nu = nu});
     for (int c = 0; c < STRAINS; c++) {
         double stress, other = 0;
         memset(e.v, 0, e.n * SLABS * RC_COMPONENTS * sizeof *e.v);

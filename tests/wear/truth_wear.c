@@ -25,7 +25,7 @@ struct run {
 };
 
 static struct run
-start_with(const struct rc_shape *s, const double *h, enum rc_boundary boundary, double tol,
+start_with(const struct rc_shape *s, const double *h, struct rc_boundary boundary, double tol,
            const double *part)
 {
     const struct rc_problem contact = {.boundary = boundary,
@@ -47,7 +47,7 @@ start_with(const struct rc_shape *s, const double *h, enum rc_boundary boundary,
 }
 
 static struct run
-start(const struct rc_shape *s, const double *h, enum rc_boundary boundary, double tol)
+start(const struct rc_shape *s, const double *h, struct rc_boundary boundary, double tol)
 {
     return start_with(s, h, boundary, tol, NULL);
 }
@@ -165,7 +165,7 @@ static const double on_strip[TIMES] = {0.43244, 0.28019, 0.16419, 0.065626, 0.01
 /* A punch of all nodes nearer than `radius` to the middle. `half`: a in nodes, that its area has. Each way
  * between two times takes `parts` distances of the list. */
 static void
-punch(const struct rc_shape *s, double radius, double half, enum rc_boundary boundary,
+punch(const struct rc_shape *s, double radius, double half, struct rc_boundary boundary,
       const double *want, double tol, int parts)
 {
     const size_t n = s->nx * s->ny;

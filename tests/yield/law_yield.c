@@ -298,10 +298,12 @@ let_go(void **state)
         ball(SIDE, radius, (struct rc_yield_law){.stress = yield, .modulus = 0.05}, 1e-5, thickness,
              SLABS);
     struct voxels e = voxels_new(shape, SLABS), s = voxels_new(shape, SLABS);
-    struct rc_slabs *v = volume_new(
-        shape,
-        (struct rc_slabs_options){
-            .slabs = SLABS, .thickness = thickness, .shear = 1 / 2.6, .nu = 0.3, .whole = true});
+    struct rc_slabs *v = volume_new(shape, (struct rc_slabs_options){.boundary = RC_PERIODIC,
+                                                                     .slabs = SLABS,
+                                                                     .thickness = thickness,
+                                                                     .shear = 1 / 2.6,
+                                                                     .nu = 0.3,
+                                                                     .whole = true});
     size_t middle = SIDE / 2 * SIDE + SIDE / 2;
 
     (void)state;

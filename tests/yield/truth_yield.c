@@ -182,8 +182,11 @@ convex_minimum(void **state)
         thickness[k] = 0.4 + 0.1 * (double)k;
     assert_int_equal(rc_synth_selfaffine(&shape, &rough, h, NULL), RC_OK);
     t = (struct state){.yield = 0.04, .modulus = 0.05, .h = h};
-    t.v = volume_new(shape, (struct rc_slabs_options){
-                                .slabs = SLABS, .thickness = thickness, .shear = shear, .nu = nu});
+    t.v = volume_new(shape, (struct rc_slabs_options){.boundary = RC_PERIODIC,
+                                                      .slabs = SLABS,
+                                                      .thickness = thickness,
+                                                      .shear = shear,
+                                                      .nu = nu});
     dense_fill(&t.d, &shape, RC_PERIODIC, estar);
     t.p = calloc(NODES, sizeof *t.p);
     t.strain = calloc(NODES * SLABS, sizeof *t.strain);

@@ -82,7 +82,7 @@ enum {
 struct cost_line {
     const char *word[COST_WORDS];
     size_t words;
-    bool periodic;
+    struct rc_boundary boundary;
     const char *leak, *depths, *nu, *mu;
 };
 
@@ -114,7 +114,7 @@ struct cost_case {
     char *said; /* standard error of the last program */
 };
 
-/* Makes all trials of the case; c->about and c->periodic must be set. `kernels` and `methods`: bit k stands
+/* Makes all trials of the case; c->about and c->boundary must be set. `kernels` and `methods`: bit k stands
  * for row k of libcontact's tables. Ends the tool when memory is short. */
 void cost_trials(struct cost_case *c, size_t kernels, size_t methods);
 /* Index of the trial's series among all series, the name of the series, and of a point in it. */

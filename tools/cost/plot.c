@@ -38,7 +38,7 @@ describe(const struct cost_case *c, struct drawing *d, bool stress)
     snprintf(d->subtitle, sizeof d->subtitle,
              "%.60s%s%zu × %zu nodes, %s%s · %s %s · %.3g %% contact · %zu threads",
              source == NULL ? "" : source, source == NULL ? "" : " · ", c->shape.nx, c->shape.ny,
-             c->line.periodic ? "periodic" : "free", cost_body(c, " · ", body),
+             rc_boundary_word(c->line.boundary), cost_body(c, " · ", body),
              isnan(approach) ? "load" : "approach",
              isnan(approach) ? scale_value(cost_number(c->solved, "load"), "N")
                              : scale_value(approach, "m"),

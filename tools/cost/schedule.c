@@ -40,7 +40,7 @@ expect_stress(const struct cost_case *c, const struct cost_trial *t)
 {
     const struct cost_trial *exact = &c->trial[c->pressures];
     const double sums = t->kernel == exact->kernel ? 1 : 7.0 / 3;
-    const struct rc_conv_options by = {.boundary = c->line.periodic ? RC_PERIODIC : RC_FREE,
+    const struct rc_conv_options by = {.boundary = c->line.boundary,
                                        .engine = t->kernel,
                                        .tol = t->tol,
                                        .threads = c->tool->threads},

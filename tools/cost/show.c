@@ -115,7 +115,7 @@ put_head(const struct cost_case *c, FILE *out)
     char body[COST_BODY];
 
     fprintf(out, "# %s: %zu x %zu nodes, %s, ", tool_where(c->tool, c->heights), c->shape.nx,
-            c->shape.ny, c->line.periodic ? "periodic" : "free");
+            c->shape.ny, rc_boundary_word(c->line.boundary));
     if (isnan(approach))
         fprintf(out, "load %.9g N", cost_number(c->solved, "load"));
     else

@@ -139,7 +139,7 @@ add_stresses(struct cost_case *c)
         const double *tol = k == 0 ? first_tols : e->order == 1 ? other_tols : rounding;
         size_t n = k == 0 ? COUNT(first_tols) : e->order == 1 ? COUNT(other_tols) : 1;
 
-        if (e->precise || (c->line.periodic && !e->periodic))
+        if (e->precise || (rc_repeats(c->line.boundary) > 0 && !e->periodic))
             continue; /* stresses are always in double precision */
         for (size_t i = 0; i < n; i++)
             add(c, (struct cost_trial){.about = COST_STRESS,

@@ -100,25 +100,99 @@ contact_demand(struct tool *t, const struct rc_grid *p, const struct rc_grid *co
 
 /* ---- the boundary ---- */
 
-enum rc_boundary
-map_boundary(const struct rc_grid *g)
+/* The words of the option --periodic, and the boundary of each. */
+static const struct {
+    const char *axes;
+    struct rc_boundary boundary;
+} axes[] = {{"", {.x = true, .y = true}},
+            {"xy", {.x = true, .y = true}},
+            {"x", {.x = true}},
+            {"y", {.y = true}}};
+
+struct rc_boundary
+boundary_asked(const struct boundary_args *asked)
 {
-    if (rc_grid_get(g, "boundary") != NULL)
-        return map_says(g, "boundary", "periodic") ? RC_PERIODIC : RC_FREE;
-    return map_says(g, "periodic", "yes") ? RC_PERIODIC : RC_FREE;
+    struct rc_boundary boundary = {.datum = isnan(asked->datum) ? 0 : asked->datum};
+
+    for (size_t k = 0; k < sizeof axes / sizeof *axes && asked->periodic != NULL; k++)
+        if (strcmp(axes[k].axes, asked->periodic) == 0) {
+            boundary.x = axes[k].boundary.x;
+            boundary.y = axes[k].boundary.y;
+        }
+    return boundary;
 }
 
-enum rc_boundary
-contact_boundary(struct tool *tool, const struct rc_grid *p, bool periodic)
+/* The key `boundary` of a result; false when there is none. */
+static bool
+own_boundary(const struct rc_grid *g, struct rc_boundary *boundary)
 {
-    const char *own = rc_grid_get(p, "boundary");
+    const char *word = rc_grid_get(g, "boundary");
 
-    if (own == NULL)
-        return periodic ? RC_PERIODIC : RC_FREE;
-    if (map_says(p, "boundary", "periodic"))
-        return RC_PERIODIC;
-    if (periodic)
+    if (word == NULL || !rc_boundary_named(word, boundary))
+        return false;
+    (void)rc_grid_number(g, "datum", &boundary->datum);
+    return true;
+}
+
+struct rc_boundary
+map_repeats(const struct rc_grid *g)
+{
+    const bool both = map_says(g, "periodic", "yes");
+
+    return (struct rc_boundary){.x = both || map_says(g, "periodic", "x"),
+                                .y = both || map_says(g, "periodic", "y")};
+}
+
+struct rc_boundary
+map_boundary(const struct rc_grid *g)
+{
+    struct rc_boundary boundary = RC_FREE;
+
+    return own_boundary(g, &boundary) ? boundary : map_repeats(g);
+}
+
+void
+map_set_boundary(struct tool *t, struct rc_grid *g, struct rc_boundary boundary)
+{
+    const struct rc_shape shape = rc_grid_shape(g);
+
+    tool_set(t, g, "boundary", rc_boundary_word(boundary));
+    tool_set_number(t, g, "datum",
+                    rc_repeats(boundary) == 1 ? rc_boundary_on(&shape, boundary).datum : NAN);
+}
+
+struct rc_boundary
+contact_boundary(struct tool *tool, const struct rc_grid *p, const struct boundary_args *asked)
+{
+    const struct rc_boundary wanted = boundary_asked(asked);
+    struct rc_boundary own = RC_FREE;
+
+    if (!own_boundary(p, &own))
+        return wanted;
+    if (asked->periodic != NULL && !rc_same_boundary(own, wanted))
         tool_refuse(tool, p,
-                    "its boundary is %s, which contradicts --periodic: leave out --periodic", own);
-    return RC_FREE;
+                    "its boundary is %s, which contradicts --periodic%s%s: leave out --periodic",
+                    rc_boundary_word(own), *asked->periodic == '\0' ? "" : "=", asked->periodic);
+    if (!isnan(asked->datum))
+        own.datum = asked->datum;
+    return own;
+}
+
+void
+boundary_report(struct report *r, const struct rc_grid *g, struct rc_boundary boundary)
+{
+    const struct rc_shape shape = rc_grid_shape(g);
+
+    report_text(r, "boundary", rc_boundary_word(boundary));
+    if (rc_repeats(boundary) == 1)
+        report_number(r, "datum", rc_boundary_on(&shape, boundary).datum, "m");
+}
+
+const char *
+boundary_padding(struct rc_boundary boundary)
+{
+    return rc_repeats(boundary) == 0   ? "on"
+           : rc_repeats(boundary) == 2 ? "left out: the map is periodic"
+           : boundary.x                ? "on: along y only, the map repeats along x"
+                                       : "on: along x only, the map repeats along y";
 }

@@ -22,11 +22,47 @@ const struct rc_grid *contact_frame(struct tool *tool, const struct rc_grid *p,
 const struct rc_grid *contact_demand(struct tool *tool, const struct rc_grid *p,
                                      const struct rc_grid *contact);
 
-/* The boundary of a result is in its key `boundary`; without it, a map whose key `periodic` is yes is
- * periodic. */
-enum rc_boundary map_boundary(const struct rc_grid *g);
-/* The boundary of the contact that p was solved for; if p does not say, `periodic` (--periodic) does. Ends
- * the tool if the two contradict each other. */
-enum rc_boundary contact_boundary(struct tool *tool, const struct rc_grid *p, bool periodic);
+/* ---- the boundary ---- */
+
+/* The options --periodic and --datum. */
+struct boundary_args {
+    const char *periodic; /* NULL: not given; else "", "x", "y" or "xy" */
+    double datum;         /* m; NAN: not given */
+};
+#define BOUNDARY_NONE                                                                              \
+    {                                                                                              \
+        .datum = NAN                                                                               \
+    }
+/* A row of a tool's table for each, with .at of a struct boundary_args in the arguments. */
+#define OPT_PERIODIC(place, says)                                                                  \
+    {                                                                                              \
+        .name = "periodic", .type = OPT_CHOICE, .arg = "x|y|xy", .optional = true, .result = true, \
+        .at = (place) + offsetof(struct boundary_args, periodic), .help = says                     \
+    }
+#define OPT_DATUM(place)                                                                           \
+    {                                                                                              \
+        .name = "datum", .type = OPT_NUMBER, .unit = UNIT_M, .min = 0, .max = INFINITY,            \
+        .above = true, .result = true, .arg = "LENGTH",                                            \
+        .at = (place) + offsetof(struct boundary_args, datum),                                     \
+        .needs = RULES({.with = "periodic x"}, {.with = "periodic y"}),                            \
+        .help = "distance at which a line load does not displace the surface (default: the "       \
+                "length of the map across the axis that repeats)"                                  \
+    }
+/* The boundary that these ask for. */
+struct rc_boundary boundary_asked(const struct boundary_args *asked);
+
+/* The axes along which a surface repeats: its key `periodic`. */
+struct rc_boundary map_repeats(const struct rc_grid *g);
+/* The boundary of a result is in its keys `boundary` and `datum`; without them that of the surface holds. */
+struct rc_boundary map_boundary(const struct rc_grid *g);
+void map_set_boundary(struct tool *tool, struct rc_grid *g, struct rc_boundary boundary);
+/* The boundary of the contact that p was solved for; if p does not say, the options do. Ends the tool if the
+ * two contradict each other. */
+struct rc_boundary contact_boundary(struct tool *tool, const struct rc_grid *p,
+                                    const struct boundary_args *asked);
+/* The fields of a report: boundary and, if one axis repeats, the datum of the displacement. */
+void boundary_report(struct report *report, const struct rc_grid *g, struct rc_boundary boundary);
+/* The state of the effect "padding". */
+const char *boundary_padding(struct rc_boundary boundary);
 
 #endif

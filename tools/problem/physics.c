@@ -39,8 +39,10 @@ const struct opt physics_options[] = {
      .help = "upper bound of the pressure, where the surface yields; also a Vickers number, as 600HV"},
     {.name = "radius", .type = OPT_NUMBER, .unit = UNIT_M, AT(radius), ABOVE_0, .result = true,
      .arg = "LENGTH", .help = "add a sphere of this composite radius about the origin"},
-    {.name = "periodic", .type = OPT_FLAG, AT(periodic), .result = true,
-     .help = "the map repeats without end (default: a free half-space, loaded on the map only)"},
+    OPT_PERIODIC(offsetof(struct physics, repeats),
+                 "the map repeats without end, along both axes or the given one (default: a free "
+                 "half-space, loaded on the map only)"),
+    OPT_DATUM(offsetof(struct physics, repeats)),
     {.name = NULL},
 };
 const struct opt history_option[] = {
@@ -204,6 +206,7 @@ physics_check(struct tool *t, struct physics *a)
     check_elasticity(t, a);
     check_layers(t, a);
     say_vickers(t, a);
+    a->boundary = boundary_asked(&a->repeats);
 }
 
 const struct numbers *
@@ -249,14 +252,15 @@ add_form(struct tool *t, const struct physics *a, struct rc_grid *g)
 
 /* Warns of a periodic map whose opposite edges do not meet: the step there would carry much of the load. */
 static void
-warn_of_seam(struct tool *t, const struct rc_grid *g)
+warn_of_seam(struct tool *t, const struct physics *a, const struct rc_grid *g)
 {
     static const char *const line[] = {"column", "row"};
     struct rc_seam seam;
 
     rc_measure_seam(ranks_of(t), rc_shape_of(g), g->v, &seam);
     for (int side = 0; side < 2; side++)
-        if (seam.across[side] > 3 * seam.inside[side])
+        if (rc_wraps(a->boundary, side == 0 ? RC_X : RC_Y) &&
+            seam.across[side] > 3 * seam.inside[side])
             tool_warn(t,
                       "%s: the edges do not meet: from the last %s to the first the heights jump "
                       "by %s (RMS), %.3g times the steps inside: rc-detrend --plane removes a "
@@ -267,26 +271,28 @@ warn_of_seam(struct tool *t, const struct rc_grid *g)
                       g->nx > 1 && g->ny > 1 ? "4 times" : "twice");
 }
 
-/* The width of the single row or column of a profile, on which a force acts. */
-static double
-width_of(const struct rc_grid *g)
+double
+physics_width(const struct physics *a, const struct rc_grid *g)
 {
+    if (rc_repeats(a->boundary) == 1)
+        return a->boundary.x ? (double)g->nx * g->dx : (double)g->ny * g->dy;
     return g->ny == 1 ? g->dy : g->dx;
 }
 
 static void
 check_profile(struct tool *t, const struct physics *a, const struct rc_grid *g)
 {
-    const char *where = tool_where(t, g), *width = shown_in_unit(width_of(g), "m");
+    const char *where = tool_where(t, g), *width = shown_in_unit(physics_width(a, g), "m");
 
-    if (a->load.per_metre && g->nx > 1 && g->ny > 1)
+    if (a->load.per_metre && g->nx > 1 && g->ny > 1 && rc_repeats(a->boundary) != 1)
         tool_refuse(
             t, g,
-            "--load in N/m is for profiles, and this map has %zu rows: give the whole force, in N",
+            "--load in N/m is for profiles and for maps that repeat along one axis, and this map "
+            "has %zu rows: give the whole force, in N",
             g->ny);
     if ((g->nx > 1) == (g->ny > 1))
         return;
-    if (!a->periodic)
+    if (!rc_wraps(a->boundary, g->ny == 1 ? RC_Y : RC_X))
         tool_warn(t, "%s: a profile is solved as a strip %s wide%s, not as an infinite ridge",
                   where, width, a->load.n > 0 ? ", which carries the force" : "");
     else if (a->load.n > 0 && !a->load.per_metre)
@@ -323,15 +329,22 @@ static void
 warn(struct tool *t, const struct physics *a, const struct rc_grid *g)
 {
     const char *where = tool_where(t, g);
+    const struct rc_boundary surface = map_repeats(g);
 
     warn_of_metres(t, a, g, where);
-    if (!a->periodic && map_says(g, "periodic", "yes") && isnan(a->radius))
+    if (rc_repeats(a->boundary) == 0 && rc_repeats(surface) > 0 && isnan(a->radius))
         tool_warn(t,
-                  "%s: the surface is periodic, but the solution has no material beyond the map: "
-                  "for a periodic solution add --periodic",
-                  where);
-    if (a->periodic)
-        warn_of_seam(t, g);
+                  "%s: the surface is periodic%s, but the solution has no material beyond the "
+                  "map: for a periodic solution add --periodic%s",
+                  where,
+                  rc_repeats(surface) == 2 ? ""
+                  : surface.x              ? " along x"
+                                           : " along y",
+                  rc_repeats(surface) == 2 ? ""
+                  : surface.x              ? "=x"
+                                           : "=y");
+    if (rc_repeats(a->boundary) > 0)
+        warn_of_seam(t, a, g);
 }
 
 void
@@ -366,11 +379,11 @@ physics_hardness(struct tool *t, const struct rc_grid *hardness)
 struct rc_problem
 physics_problem(const struct physics *a, const struct rc_grid *g, size_t step)
 {
-    double number = physics_steps(a)->v[step] * (a->load.per_metre ? width_of(g) : 1);
+    double number = physics_steps(a)->v[step] * (a->load.per_metre ? physics_width(a, g) : 1);
     double area = g->dx * g->dy * (double)(g->nx * g->ny);
 
     return (struct rc_problem){
-        .boundary = a->periodic ? RC_PERIODIC : RC_FREE,
+        .boundary = a->boundary,
         .pair = a->pair,
         .load = a->load.n > 0            ? number
                 : a->mean_pressure.n > 0 ? number * area
@@ -400,7 +413,7 @@ physics_counter(struct tool *t, const char *name)
 
 void
 physics_counter_beside(struct tool *t, const char *name, const struct rc_grid *other,
-                       const struct rc_grid *g, bool periodic)
+                       const struct rc_grid *g, struct rc_boundary boundary)
 {
     const double near = 1e-6;
 
@@ -410,7 +423,7 @@ physics_counter_beside(struct tool *t, const char *name, const struct rc_grid *o
             "spacings of %g x %g m, and of %g x %g m in --counter %s: bring them together by "
             "rc-pick --resample",
             g->dx, g->dy, other->dx, other->dy, name);
-    if (periodic && (other->nx != g->nx || other->ny != g->ny))
+    if ((boundary.x && other->nx != g->nx) || (boundary.y && other->ny != g->ny))
         tool_refuse(
             t, g,
             "with --periodic both surfaces must have the same period: this one has %zu x %zu "

@@ -13,7 +13,8 @@ struct physics {
     struct numbers load, mean_pressure, approach; /* one of them is given */
     double estar, e1, nu1, e2, nu2;               /* given: estar alone, or the others */
     double hardness, radius;
-    bool periodic;
+    struct boundary_args repeats;
+    struct rc_boundary boundary; /* from these options */
     struct steps layer;      /* as on the command line, top first                                */
     struct rc_layer *layers; /* as numbers                                                       */
     double *residual;        /* their residual stresses, Pa; NULL: none                          */
@@ -39,7 +40,7 @@ struct tilt_args {
 #define PHYSICS_NONE                                                                               \
     {                                                                                              \
         .estar = NAN, .e1 = NAN, .nu1 = NAN, .e2 = NAN, .nu2 = NAN, .hardness = INFINITY,          \
-        .radius = NAN                                                                              \
+        .radius = NAN, .repeats = BOUNDARY_NONE                                                    \
     }
 
 /* Ends the tool if too few or too many options were given; otherwise makes the pair. */
@@ -56,10 +57,13 @@ void physics_hardness(struct tool *tool, const struct rc_grid *hardness);
 /* The heights of body 2 in the file of --counter. They face body 1, as in rc-add: the map is mirrored left to
  * right. The caller frees them. */
 struct rc_grid *physics_counter(struct tool *tool, const char *name);
-/* Ends the tool if their spacing differs from that of body 1, or if the numbers of nodes of a periodic map
- * differ. */
+/* Ends the tool if their spacing differs from that of body 1, or if their numbers of nodes along an axis
+ * that repeats differ. */
 void physics_counter_beside(struct tool *tool, const char *name, const struct rc_grid *counter,
-                            const struct rc_grid *heights, bool periodic);
+                            const struct rc_grid *heights, struct rc_boundary boundary);
+/* The length on which a force per metre acts: the period of a map that repeats along one axis, or the
+ * width of the single row or column of a profile. */
+double physics_width(const struct physics *physics, const struct rc_grid *heights);
 /* The contact at one step of the list, without the options of the solver. */
 struct rc_problem physics_problem(const struct physics *physics, const struct rc_grid *heights,
                                   size_t step);

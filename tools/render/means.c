@@ -46,7 +46,7 @@ mean_of_four(const double *p, size_t nx, size_t i, size_t i1, size_t j, size_t j
 void
 means_take(struct tool *t, struct rc_grid *g, struct means *m)
 {
-    bool round = map_says(g, "boundary", "periodic");
+    const struct rc_boundary round = map_boundary(g);
     size_t nx = g->nx, ny = g->ny;
     double *p;
 
@@ -56,8 +56,8 @@ means_take(struct tool *t, struct rc_grid *g, struct means *m)
     memcpy(p, g->v, nx * ny * sizeof *p);
     for (size_t j = 0; j < ny; j++)
         for (size_t i = 0; i < nx; i++) {
-            size_t k = j * nx + i, left = before(i, nx, round), right = after(i, nx, round);
-            size_t above = before(j, ny, round), below = after(j, ny, round);
+            size_t k = j * nx + i, left = before(i, nx, round.x), right = after(i, nx, round.x);
+            size_t above = before(j, ny, round.y), below = after(j, ny, round.y);
             double next = mean_of_four(p, nx, i, right, j, below);
 
             m->four = fmax(m->four, next);

@@ -93,7 +93,7 @@ slip_set_keys(struct slip_run *run, struct rc_grid *g, bool converged, double lo
     struct tool *t = &run->d.t;
 
     tool_set(t, g, "converged", converged && !map_says(g, "converged", "no") ? "yes" : "no");
-    tool_set(t, g, "boundary", run->boundary == RC_PERIODIC ? "periodic" : "free");
+    map_set_boundary(t, g, run->boundary);
     if (tool_given(t, "E1"))
         bodies_set(t, g, &run->bodies.pair, NULL);
     tool_sign(t, g);
@@ -316,7 +316,8 @@ forecast(struct slip_run *run)
     all.seconds = work * each * (passes * increment + (run->alternates ? solver.convolutions : 0));
     if (!run->solves)
         solver.memory = 0;
-    all.memory = ways * (size_t)(nodes * bytes[run->coupled][run->boundary == RC_PERIODIC]) +
+    all.memory = ways * (size_t)(nodes * rc_by_padding(run->boundary, bytes[run->coupled][0],
+                                                       bytes[run->coupled][1])) +
                  (run->alternates ? ways : 1) * solver.memory +
                  (maps + (ways > 1 ? 2 : 0) + STATE * ways + 2) * (size_t)nodes * sizeof(double);
     return all;
@@ -328,7 +329,7 @@ slip_case(struct slip_run *run)
     check_pressure(run);
     check_beside(run, run->gap);
     check_beside(run, run->height);
-    run->boundary = contact_boundary(&run->d.t, run->p, run->args->periodic);
+    run->boundary = contact_boundary(&run->d.t, run->p, &run->args->repeats);
     if (run->args->output >> SLIP_HEIGHT & 1 && run->height == NULL)
         tool_refuse(&run->d.t, run->p,
                     "--output height: there is no height beside it: take all that rc-solve writes");

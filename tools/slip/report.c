@@ -67,7 +67,7 @@ slip_report(struct drive *d, const struct rc_model *m)
     struct report *r = &d->report;
 
     report_map(r, run->p, run->number);
-    report_text(r, "boundary", run->boundary == RC_PERIODIC ? "periodic" : "free");
+    boundary_report(r, run->p, run->boundary);
     report_count(r, "threads", run->d.t.threads, NULL);
     report_number(r, "mu", run->args->mu, NULL);
     report_number(r, "tau_max", run->args->tau_max, "Pa");
@@ -197,9 +197,8 @@ void
 slip_say_plan(struct slip_run *run, const struct rc_expected *expected)
 {
     const struct slip_pair *b = &run->bodies;
-    const struct plan plan =
-        plan_begin(&run->d.t, &run->d.report, run->p, rc_grid_case(run->p),
-                   run->boundary == RC_PERIODIC ? "periodic" : "free", run->motion->work);
+    const struct plan plan = plan_begin(&run->d.t, &run->d.report, run->p, rc_grid_case(run->p),
+                                        rc_boundary_word(run->boundary), run->motion->work);
 
     plan_effects(&plan, effects_of(run));
     if (b->beta != 0)

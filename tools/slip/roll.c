@@ -133,8 +133,8 @@ model_of(struct slip_run *run)
 {
     const struct rc_grid *p = run->p;
     const struct slip_pair *b = &run->bodies;
-    const double now[] = {(double)p->nx, (double)p->ny, p->dx,  p->dy,
-                          run->boundary, b->kap,        b->beta};
+    const double now[] = {(double)p->nx,   (double)p->ny,   p->dx,  p->dy,
+                          run->boundary.x, run->boundary.y, b->kap, b->beta};
 
     if (run->args->steady)
         return new_model(run);

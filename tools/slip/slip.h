@@ -28,7 +28,8 @@ struct slip_args {
     struct numbers creep, creep_force;       /* 1, 1, rad/m; N */
     const char *path, *history, *increments, *coupling;
     size_t output; /* bits of enum slip_frame */
-    bool periodic, steady;
+    struct boundary_args repeats;
+    bool steady;
     struct drive_args drive;
 };
 
@@ -68,7 +69,7 @@ struct slip_run {
     /* frames of the input case; gap and height may be NULL */
     struct rc_grid *p, *gap, *height, *contact;
     struct slip_pair bodies;
-    enum rc_boundary boundary;
+    struct rc_boundary boundary;
     double load; /* N, load of the pressure in the stream */
     struct slip_corner *corner;
     size_t corners;

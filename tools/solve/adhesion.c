@@ -280,7 +280,7 @@ memory(struct run *run, const struct rc_problem *contact)
     const size_t maps = 2u + (run->steps->n > 1 || args.pull_off) + !isinf(run->bound_min) +
                         (run->d.checkpoint != NULL);
     const size_t kept =
-        contact->boundary == RC_PERIODIC ? 32 : 128; /* bytes a node of a retraction */
+        (size_t)rc_by_padding(contact->boundary, 128, 32); /* bytes a node of a retraction */
     struct rc_expected expected = {0};
     struct rc_err err;
 

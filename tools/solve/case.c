@@ -46,7 +46,7 @@ set_keys(struct drive *d, const struct rc_model *m, struct rc_grid *g)
     const struct rc_contact *c = &run->solution.contact;
 
     (void)m;
-    tool_set(&d->t, g, "boundary", run->physics->periodic ? "periodic" : "free");
+    map_set_boundary(&d->t, g, run->physics->boundary);
     tool_set(&d->t, g, "converged", c->converged ? "yes" : "no");
     bodies_set(&d->t, g, &run->physics->pair, run->physics->residual);
     tool_sign(&d->t, g);
@@ -137,7 +137,7 @@ static void
 look_at_contact(struct run *run, const struct rc_grid *g, const double *touch, struct solution *s)
 {
     struct rc_shape shape = rc_grid_shape(g);
-    struct rc_patch_options options = {.boundary = run->physics->periodic ? RC_PERIODIC : RC_FREE,
+    struct rc_patch_options options = {.boundary = run->physics->boundary,
                                        .each = report_wanted(&run->d.report),
                                        .threads = run->d.t.threads,
                                        .ranks = ranks_of(&run->d.t)};

@@ -26,7 +26,7 @@ sphere_state(const struct run *run)
 static const char *
 padding_state(const struct run *run)
 {
-    return run->physics->periodic ? "left out: the map is periodic" : "on";
+    return boundary_padding(run->physics->boundary);
 }
 
 static const char *

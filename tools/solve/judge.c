@@ -200,7 +200,7 @@ judge_pressure(struct run *run, const char *where, const struct solution *s)
     SOLVE_EACH (run, e, judge)
         e->judge(run, where, s);
     solve_warn_of_limits(run, where, NULL);
-    if (!run->physics->periodic &&
+    if (rc_has_mean(run->physics->boundary) &&
         s->contact.edge_load_fraction > rc_figure_find("edge_load_fraction")->limit)
         course_warn(&run->d.course, "the contact reaches the edge of the map",
                     "%s: %.1f %% of the load is on the outer 2 %% of the map: the contact reaches "

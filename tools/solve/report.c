@@ -152,7 +152,8 @@ report_asked(struct report *r, const struct run *run, const struct rc_model *m,
     report_number(r, "radius", a->radius, "m");
     report_text(r, "layers", layers);
     report_number(r, "tol", at.tol, NULL);
-    report_number(r, "asked_load", a->load.n > 0 ? step : NAN, "N");
+    report_number(r, "asked_load", a->load.n > 0 ? physics_problem(a, run->g, run->step).load : NAN,
+                  "N");
     report_number(r, "asked_mean_pressure", a->mean_pressure.n > 0 ? step : NAN, "Pa");
     report_number(r, "asked_approach", a->approach.n > 0 ? step : NAN, "m");
 }
@@ -178,7 +179,7 @@ solve_report(struct drive *d, const struct rc_model *m)
     struct report *r = &d->report;
 
     report_map(r, run->g, run->d.course.number);
-    report_text(r, "boundary", run->physics->periodic ? "periodic" : "free");
+    boundary_report(r, run->g, run->physics->boundary);
     report_text(r, "kernel", solver == NULL ? NULL : rc_solver_engine(solver));
     report_text(r, "method",
                 solver != NULL ? rc_solver_method(solver)
@@ -186,6 +187,9 @@ solve_report(struct drive *d, const struct rc_model *m)
                                : NULL);
     report_count(r, "threads", run->d.t.threads, NULL);
     solve_report_named(r, run, of_contact);
+    if (rc_repeats(run->physics->boundary) == 1)
+        report_number(r, "load_per_metre", s->contact.load / physics_width(run->physics, run->g),
+                      "N/m");
     report_patches(r, &s->patches);
     report_effects(r, effects_of(run, solver != NULL ? rc_solver_engine_reason(solver)
                                       : by != NULL   ? by->engine
@@ -267,7 +271,7 @@ solve_demand_memory(struct run *run, const struct rc_problem *problem)
     if (SOLVE_FIRST(run, memory) ==
         NULL) /* the message names another engine if the map would fit */
         run->d.t.remedy =
-            tool_leaner_engine(&run->d.t, problem->boundary == RC_PERIODIC, memory_by, &d);
+            tool_leaner_engine(&run->d.t, rc_repeats(problem->boundary) > 0, memory_by, &d);
     tool_demand_memory(&run->d.t, run->g, memory_of(run, problem));
     run->d.t.remedy = NULL;
 }
@@ -297,7 +301,7 @@ solve_plan(struct run *run, const struct rc_problem *problem)
     snprintf(what, sizeof what, ", %zu %s%s, engine %s", run->cases,
              points != NULL ? points->noun : "load", run->cases == 1 ? "" : "s", engine);
     plan = plan_begin(&run->d.t, &run->d.report, g, rc_grid_case(g),
-                      run->physics->periodic ? "periodic" : "free", what);
+                      rc_boundary_word(run->physics->boundary), what);
     plan_effects(&plan, effects_of(run, why));
     plan_end(&plan, each,
              run->cases == 1  ? ""

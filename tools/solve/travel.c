@@ -141,7 +141,7 @@ open(struct run *run)
     if (run->bound_varies)
         tool_refuse(&run->d.t, g, "--travel with a map of hardness is not implemented");
     if (own.counter != NULL)
-        physics_counter_beside(&run->d.t, args.counter, own.counter, g, run->physics->periodic);
+        physics_counter_beside(&run->d.t, args.counter, own.counter, g, run->physics->boundary);
     own.track = g;
     run->g = window_of(run, g);
 }
@@ -163,14 +163,13 @@ put_around(struct run *run, struct rc_model *inner)
     const struct rc_grid *g = own.track, *other = own.counter;
     struct rc_travel_problem problem = {.track = rc_grid_shape(g),
                                         .h1 = g->v,
-                                        .repeats = run->physics->periodic ||
-                                                   map_says(g, "periodic", "yes"),
+                                        .repeats = run->physics->boundary.x || map_repeats(g).x,
                                         .ratio = args.counter_travel};
 
     if (other != NULL) {
         problem.counter = rc_grid_shape(other);
         problem.h2 = other->v;
-        problem.counter_repeats = run->physics->periodic || map_says(other, "periodic", "yes");
+        problem.counter_repeats = run->physics->boundary.x || map_repeats(other).x;
     }
     if (!isnan(run->physics->radius))
         problem.radius = run->physics->radius;

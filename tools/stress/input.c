@@ -16,8 +16,9 @@ const struct opt stress_body_options[] = {
     {.name = NULL},
 };
 const struct opt stress_sum_options[] = {
-    {.name = "periodic", .type = OPT_FLAG, AT(periodic), .result = true,
-     .help = "the map repeats without end (default: the stream's boundary, else free)"},
+    OPT_PERIODIC(offsetof(struct stress_asked, repeats),
+                 "the map repeats without end, along both axes or the given one (default: the "
+                 "stream's boundary, else free)"),
     {.name = "kernel", .alias = "engine", .type = OPT_CHOICE, AT(kernel),
      .words = words_stress_engine_or_auto, .help = "engine that sums stresses (default auto)"},
     {.name = "tol", .type = OPT_NUMBER, AT(tol), .min = 0, .max = 1, .above = true,
@@ -135,7 +136,7 @@ stress_input_read(struct tool *t, const struct rc_grid *p, const struct stress_a
 {
     char list[128];
 
-    o->boundary = contact_boundary(t, p, asked->periodic);
+    o->boundary = contact_boundary(t, p, &asked->repeats);
     set_material(t, asked, p, in, o);
     o->mu = asked->mu;
     o->engine = asked->kernel;
@@ -144,7 +145,7 @@ stress_input_read(struct tool *t, const struct rc_grid *p, const struct stress_a
     o->ranks = ranks_of(t);
     o->strain = NULL;
     set_traction(t, asked, p, in, o);
-    if (o->boundary == RC_PERIODIC && stress_on_free_maps_only(asked->kernel))
+    if (rc_repeats(o->boundary) > 0 && stress_on_free_maps_only(asked->kernel))
         tool_refuse(t, p, "its boundary is periodic, where only %s sums: leave out --kernel %s",
                     words_periodic_engines(list, sizeof list), asked->kernel);
 }
@@ -234,7 +235,13 @@ transforms(const char *engine)
     return e == NULL || e->mixed || e->precise;
 }
 
-/* The index: free, periodic. */
+/* Bytes of a free and of a periodic map. */
+static double
+by(const struct rc_stress_options *o, const double bytes[2])
+{
+    return rc_by_padding(o->boundary, bytes[0], bytes[1]);
+}
+
 size_t
 stress_plan_bytes(const struct rc_grid *p, const struct rc_stress_options *o, size_t components)
 {
@@ -243,21 +250,22 @@ stress_plan_bytes(const struct rc_grid *p, const struct rc_stress_options *o, si
     static const double kernel[] = {8, 0};                    /* work of each component and load */
     static const double traction[] = {29, 8}, slab[] = {279, 71};
     static const double section = 26, direct = 16; /* work on both boundaries */
-    const int k = o->boundary == RC_PERIODIC, single = o->tol >= RC_SINGLE_FLOOR;
+    const int single = o->tol >= RC_SINGLE_FLOOR;
     const int tractions = (o->traction[0] != NULL) + (o->traction[1] != NULL);
     const int loads = 1 + (o->mu != 0) + tractions;
     const struct rc_shape shape = rc_grid_shape(p);
     const double coarser = rc_stress_coarser(&shape, o); /* with fields and rows of the transfer */
-    double bytes = o->strain != NULL ? slab[k] * (double)o->strain->slabs : 0;
+    double bytes = o->strain != NULL ? by(o, slab) * (double)o->strain->slabs : 0;
 
     if (o->section != 0)
         bytes += section;
     else if (!transforms(o->engine))
         bytes += direct;
     else
-        bytes += 8 * sqrt(coarser) + 16 * coarser +
-                 (1 + coarser) * (fft[single][k] + kernel[k] * (double)components * loads +
-                                  ((components > 1 ? second[k] : 0) + traction[k] * tractions) /
-                                      (single ? 2 : 1));
+        bytes +=
+            8 * sqrt(coarser) + 16 * coarser +
+            (1 + coarser) * (by(o, fft[single]) + by(o, kernel) * (double)components * loads +
+                             ((components > 1 ? by(o, second) : 0) + by(o, traction) * tractions) /
+                                 (single ? 2 : 1));
     return (size_t)(bytes * (double)rc_grid_nodes(p));
 }

@@ -133,7 +133,7 @@ coating_effect(const struct rc_stress_options *o)
 static const char *
 padding_effect(const struct rc_stress_options *o)
 {
-    return o->boundary == RC_FREE ? "on" : "left out: the map is periodic";
+    return boundary_padding(o->boundary);
 }
 
 static const char *
@@ -156,7 +156,7 @@ coarse_effect(const struct rc_stress_options *o)
         return "left out: no --tol";
     if (o->section != 0)
         return "left out: a section is a line already";
-    if (o->boundary == RC_PERIODIC)
+    if (!rc_has_mean(o->boundary))
         return "left out: the map is periodic";
     if (o->body.layers > 0)
         return "left out: the body is coated";
@@ -234,7 +234,7 @@ stress_report_write(struct stress_report *r, struct report *out, const struct rc
 
     report_begin(out);
     report_map(out, r->p, rc_grid_case(r->p));
-    report_text(out, "boundary", o->boundary == RC_PERIODIC ? "periodic" : "free");
+    report_text(out, "boundary", rc_boundary_word(o->boundary));
     report_text(out, "kernel", rc_stress_engine(stress));
     report_count(out, "threads", o->threads, NULL);
     report_number(out, "nu", o->body.layers == 0 ? o->body.nu : NAN, NULL);
@@ -333,8 +333,7 @@ stress_report_plan(struct tool *t, struct report *r, const struct rc_grid *p,
 
     if (expect(t, p, o, depths, memory, &seconds, err) != RC_OK)
         return RC_FAIL;
-    plan =
-        plan_begin(t, r, p, rc_grid_case(p), o->boundary == RC_PERIODIC ? "periodic" : "free", "");
+    plan = plan_begin(t, r, p, rc_grid_case(p), rc_boundary_word(o->boundary), "");
     plan_say(&plan, "depths", "%zu, %g to %g m", depths->n, depths->v[0], depths->v[depths->n - 1]);
     say_materials(&plan, o, depths);
     plan_say(&plan, "kernel", "%s", engine_of(o));

@@ -58,7 +58,8 @@ enum rc_status stress_report_plan(struct tool *tool, struct report *report, cons
 struct stress_asked {
     double nu, mu, tol; /* NAN: not given */
     const char *kernel;
-    bool periodic, residual; /* residual: without the pressure */
+    struct boundary_args repeats;
+    bool residual; /* residual: without the pressure */
 };
 #define STRESS_ASKED                                                                               \
     {                                                                                              \

@@ -149,7 +149,7 @@ plan_new(const struct rc_sum *sum, struct rc_err *err)
 
     if (rc_shape_check(&sum->shape, err) != RC_OK)
         return NULL;
-    if (sum->boundary != RC_FREE) {
+    if (rc_repeats(sum->boundary) > 0) {
         rc_err_set(err, "the direct sum has no end on a periodic boundary: use fft");
         return NULL;
     }

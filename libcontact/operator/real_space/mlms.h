@@ -26,8 +26,6 @@
 #include "simd.h"
 
 enum {
-    RC_X,
-    RC_Y,
     RC_MLMS_HALF_MAX = 64, /* largest t                          */
     RC_MLMS_LEVELS = 64,
     RC_MLMS_TILE = 64 /* approximate places of a class in a tile, in each direction */

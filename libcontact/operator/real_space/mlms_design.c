@@ -316,7 +316,7 @@ rc_mlms_design(const struct rc_sum *sum, struct rc_mlms_design *d, struct rc_err
 
     if (rc_shape_check(&sum->shape, err) != RC_OK)
         return false;
-    if (sum->boundary != RC_FREE) {
+    if (rc_repeats(sum->boundary) > 0) {
         rc_err_set(err, "the multi-level sum has no end on a periodic boundary: use fft");
         return false;
     }
