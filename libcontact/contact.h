@@ -998,6 +998,8 @@ struct rc_travel_problem {
     double ratio;
     /* m, of the ball that travels; 0: none */
     double radius;
+    /* the ball is a cylinder instead, along y */
+    bool cylinder;
 };
 struct rc_travel_figures {
     /* m: x of the middle of the contact on the map of body 1, from the middle of that map */

@@ -244,7 +244,7 @@ reaches() {
 # file that code asks for. Names that every contact has are allowed.
 effects() {
     (cd "$1" && cat tools/solve/*.c | sed -n 's/^const struct effect solve_effect_\([a-z]*\) .*/\1/p') |
-        grep -vxE 'layers|hardness|sphere|padding|approach|history|sequence|time|stiffness' | paste -s -d '|' >effects.txt
+        grep -vxE 'layers|hardness|sphere|cylinder|padding|approach|history|sequence|time|stiffness' | paste -s -d '|' >effects.txt
     (cd "$1" && ls tools/rc-solve.c tools/solve/*.[ch]) | while read -r file; do
         perl -0777 -ne '
             BEGIN { ($words, $name) = splice @ARGV, 0, 2 }

@@ -266,6 +266,8 @@ show_bodies(struct run *run, FILE *in, const char *a, const char *b)
                 p->pair.one.layers == 1 ? "" : "s");
     if (!isnan(p->radius))
         fprintf(out, ", a sphere of radius %s is added", shown_in_unit(p->radius, "m"));
+    if (!isnan(p->cylinder))
+        fprintf(out, ", a cylinder of radius %s is added", shown_in_unit(p->cylinder, "m"));
     if (isfinite(p->hardness))
         fprintf(out, ", the hardness is %s", shown_in_unit(p->hardness, "Pa"));
     else

@@ -4,7 +4,7 @@
  *
  *     h(x, y; X) = h1(x, y) + h2(x - r X, y) - ((x - X)^2 + y^2)/(2 R)
  *
- * with the heights h1 of body 1, which stays, h2 of body 2, and a ball of radius R. The roughness of body 2
+ * with the heights h1 of body 1, which stays, h2 of body 2, and a ball of radius R (without y^2: a cylinder). The roughness of body 2
  * travels r times as far as the contact: r = 1 while it slides, 0 while it rolls. The contact is solved on
  * the whole map of body 1, or in a window of it that goes along by whole nodes. h1 is therefore never
  * interpolated; h2 is, by cubic polynomials, where r X is not a whole number of nodes.
@@ -96,7 +96,7 @@ check_position(const struct travel *v, struct rc_err *err)
         beside * track->dx);
 }
 
-/* Adds the ball. On a map that repeats, its nearest image. */
+/* Adds the ball or the cylinder. On a map that repeats, its nearest image. */
 static void
 add_ball(struct travel *v, double column)
 {
@@ -106,6 +106,8 @@ add_ball(struct travel *v, double column)
     for (size_t j = 0; j < s->ny; j++)
         for (size_t i = 0; i < s->nx; i++) {
             double x = (double)i - middle, y = ((double)j - (double)(s->ny - 1) / 2) * s->dy;
+            if (v->problem.cylinder)
+                y = 0;
             if (v->whole && v->problem.repeats)
                 x -= (double)s->nx * round(x / (double)s->nx);
             x *= s->dx;

@@ -103,7 +103,7 @@ claim "--dry-run counts the positions" says '64 x 48 nodes, boundary free, 7 pos
     bash -c "$solve $window --dry-run track.rcg"
 refuses 2 '--travel does not work with --load LIST' "a list of loads" \
     "rc-solve --load 1mN,2mN --radius 2mm --estar 1GPa --travel 0 track.rcg"
-refuses 2 '--travel has no effect without --radius or --counter, because nothing travels' "a contact without a body that travels" \
+refuses 2 '--travel has no effect without --radius, --cylinder or --counter, because nothing travels' "a contact without a body that travels" \
     "rc-solve --load 1mN --estar 1GPa --travel 0 track.rcg"
 refuses 2 '--window has no effect without --travel' "a window that stays" \
     "rc-solve --load 1mN --estar 1GPa --window 8x8 track.rcg"

@@ -426,6 +426,7 @@ static const struct rc_figure own[] = {
     {.name = "estar", .unit = "Pa", .title = "E*"},
     {.name = "hardness", .unit = "Pa", .title = "Hardness"},
     {.name = "radius", .unit = "m", .title = "Radius"},
+    {.name = "cylinder", .unit = "m", .title = "Radius of the cylinder"},
     {.name = "depth", .unit = "m", .title = "Depth"},
     {.name = "pass", .title = "Pass"},
     {.name = "strain_gain", .title = "Plastic strain of a pass"},

@@ -39,6 +39,10 @@ const struct opt physics_options[] = {
      .help = "upper bound of the pressure, where the surface yields; also a Vickers number, as 600HV"},
     {.name = "radius", .type = OPT_NUMBER, .unit = UNIT_M, AT(radius), ABOVE_0, .result = true,
      .arg = "LENGTH", .help = "add a sphere of this composite radius about the origin"},
+    {.name = "cylinder", .type = OPT_NUMBER, .unit = UNIT_M, AT(cylinder), ABOVE_0, .result = true,
+     .arg = "LENGTH", .against = RULES({.with = "radius"}),
+     .help = "add a cylinder of this composite radius about the origin; its axis is along x with "
+             "--periodic=x and on a map of one column, else along y"},
     OPT_PERIODIC(offsetof(struct physics, repeats),
                  "the map repeats without end, along both axes or the given one (default: a free "
                  "half-space, loaded on the map only)"),
@@ -217,36 +221,52 @@ physics_steps(const struct physics *a)
 
 /* ---- a height map ---- */
 
+/* True if a sphere or a cylinder is added. */
+static bool
+adds_form(const struct physics *a)
+{
+    return !isnan(a->radius) || !isnan(a->cylinder);
+}
+
+enum rc_map_axis
+physics_cylinder_axis(const struct physics *a, const struct rc_grid *g)
+{
+    return rc_repeats(a->boundary) == 1 ? (a->boundary.x ? RC_X : RC_Y) : g->nx == 1 ? RC_X : RC_Y;
+}
+
+/* Adds the sum of two parabolas, one along x and one along y; a radius of infinity adds nothing. */
 static void
-add_sphere(struct tool *t, const struct physics *a, struct rc_grid *g)
+add_parabolas(struct tool *t, double radius_x, double radius_y, struct rc_grid *g)
 {
     struct rc_shape along = {g->nx, 1, g->dx, g->dy}, across = {1, g->ny, g->dx, g->dy};
     double *row = tool_room(t, g->nx + g->ny, sizeof *row, "a sphere"), *column;
     size_t first = tool_first_row(t, g);
 
     column = row + g->nx;
-    /* the sum of two parabolas, one along x and one along y */
-    rc_synth_sphere(&along, a->radius, row);
-    rc_synth_sphere(&across, a->radius, column);
+    rc_synth_sphere(&along, radius_x, row);
+    rc_synth_sphere(&across, radius_y, column);
     for (size_t j = 0; j < g->ny - g->elsewhere; j++)
         for (size_t i = 0; i < g->nx; i++)
             g->v[j * g->nx + i] += row[i] + column[first + j];
     free(row);
 }
 
-/* An added sphere is named in the header, so that it is not added twice. */
+/* An added form is named in the header, so that it is not added twice. */
 static void
 add_form(struct tool *t, const struct physics *a, struct rc_grid *g)
 {
     const char *form = rc_grid_get(g, "form");
-    char name[RC_NUMBER_SIZE + 8];
+    const bool sphere = !isnan(a->radius);
+    const bool turned = !sphere && physics_cylinder_axis(a, g) == RC_X;
+    const double radius = sphere ? a->radius : a->cylinder;
+    char name[RC_NUMBER_SIZE + 10];
 
     if (form != NULL)
-        tool_refuse(t, g, "a sphere was already added to these heights (form=%s): remove --radius",
-                    form);
+        tool_refuse(t, g, "a %.*s was already added to these heights (form=%s): remove --%s",
+                    (int)strcspn(form, " "), form, form, sphere ? "radius" : "cylinder");
     if (!a->travels)
-        add_sphere(t, a, g);
-    snprintf(name, sizeof name, "sphere %s", rc_number(a->radius));
+        add_parabolas(t, turned ? INFINITY : radius, sphere || turned ? radius : INFINITY, g);
+    snprintf(name, sizeof name, "%s %s", sphere ? "sphere" : "cylinder", rc_number(radius));
     tool_set(t, g, "form", name);
 }
 
@@ -308,6 +328,7 @@ warn_of_metres(struct tool *t, const struct physics *a, const struct rc_grid *g,
 {
     const double width = fmax((double)g->nx * g->dx, (double)g->ny * g->dy);
     const double thick = 0.1, wide = 0.5; /* m: limits for a layer and for a radius */
+    const double radius = isnan(a->radius) ? a->cylinder : a->radius;
     char map[SHOWN_NUMBER];
 
     shown_in_unit_to(map, width, "m");
@@ -318,21 +339,26 @@ warn_of_metres(struct tool *t, const struct physics *a, const struct rc_grid *g,
                       "in metres, write %sum for micrometres",
                       where, shown_in_unit(a->layers[k].thickness, "m"), map,
                       rc_number(a->layers[k].thickness));
-    if (a->radius >= wide && a->radius > 1000 * width)
+    if (radius >= wide && radius > 1000 * width)
         tool_warn(t,
-                  "%s: --radius: a radius of %s on a map %s wide: a number without a unit is in "
+                  "%s: --%s: a radius of %s on a map %s wide: a number without a unit is in "
                   "metres, write %smm for millimetres",
-                  where, shown_in_unit(a->radius, "m"), map, rc_number(a->radius));
+                  where, isnan(a->radius) ? "cylinder" : "radius", shown_in_unit(radius, "m"), map,
+                  rc_number(radius));
 }
 
 static void
 warn(struct tool *t, const struct physics *a, const struct rc_grid *g)
 {
     const char *where = tool_where(t, g);
-    const struct rc_boundary surface = map_repeats(g);
+    struct rc_boundary surface = map_repeats(g);
 
+    if (adds_form(a)) { /* a form repeats along the axis of a cylinder only */
+        surface.x = surface.x && isnan(a->radius) && physics_cylinder_axis(a, g) == RC_X;
+        surface.y = surface.y && isnan(a->radius) && physics_cylinder_axis(a, g) == RC_Y;
+    }
     warn_of_metres(t, a, g, where);
-    if (rc_repeats(a->boundary) == 0 && rc_repeats(surface) > 0 && isnan(a->radius))
+    if (rc_repeats(a->boundary) == 0 && rc_repeats(surface) > 0)
         tool_warn(t,
                   "%s: the surface is periodic%s, but the solution has no material beyond the "
                   "map: for a periodic solution add --periodic%s",
@@ -354,10 +380,10 @@ physics_heights(struct tool *t, const struct physics *a, struct rc_grid *g)
         tool_refuse(t, g,
                     "its unit is '%s': heights are in metres; import the file again with --z-unit",
                     g->unit);
-    if (!isnan(a->radius))
+    if (adds_form(a))
         add_form(t, a, g);
     if (t->input.missing || t->input.infinite ||
-        !isnan(a->radius)) /* a frame that was read, or the form */
+        adds_form(a)) /* a frame that was read, or the form */
         tool_demand_finite(t, g, "fill them with rc-detrend --fill");
     check_profile(t, a, g);
     warn(t, a, g);

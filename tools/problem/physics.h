@@ -12,7 +12,7 @@
 struct physics {
     struct numbers load, mean_pressure, approach; /* one of them is given */
     double estar, e1, nu1, e2, nu2;               /* given: estar alone, or the others */
-    double hardness, radius;
+    double hardness, radius, cylinder;
     struct boundary_args repeats;
     struct rc_boundary boundary; /* from these options */
     struct steps layer;      /* as on the command line, top first                                */
@@ -22,7 +22,7 @@ struct physics {
     double surface_estar;    /* surface estar of the topmost material and body 2 */
     double relaxes;         /* Pa: instantaneous modulus of a viscoelastic body; 0: there is none */
     size_t relaxing_layers; /* layers that have this modulus, instead of body 1                 */
-    bool travels;           /* the sphere is not part of the map, but moves over it             */
+    bool travels;           /* the form is not part of the map, but moves over it               */
     bool pulls;             /* loads and approaches may be negative or 0                        */
     bool history;           /* each load acts on the shape that earlier ones left, and may be 0 */
 };
@@ -40,7 +40,7 @@ struct tilt_args {
 #define PHYSICS_NONE                                                                               \
     {                                                                                              \
         .estar = NAN, .e1 = NAN, .nu1 = NAN, .e2 = NAN, .nu2 = NAN, .hardness = INFINITY,          \
-        .radius = NAN, .repeats = BOUNDARY_NONE                                                    \
+        .radius = NAN, .cylinder = NAN, .repeats = BOUNDARY_NONE                                   \
     }
 
 /* Ends the tool if too few or too many options were given; otherwise makes the pair. */
@@ -48,9 +48,12 @@ void physics_check(struct tool *tool, struct physics *physics);
 /* The loads, mean pressures or approaches. */
 const struct numbers *physics_steps(const struct physics *physics);
 
-/* Ends the tool when a frame does not hold heights suitable for contact. Otherwise adds the sphere, which the
- * key `form` then names, and warns when the map does not suit the boundary. */
+/* Ends the tool when a frame does not hold heights suitable for contact. Otherwise adds the sphere or the
+ * cylinder, which the key `form` then names, and warns when the map does not suit the boundary. */
 void physics_heights(struct tool *tool, const struct physics *physics, struct rc_grid *heights);
+/* The axis of --cylinder on this map. */
+enum rc_map_axis physics_cylinder_axis(const struct physics *physics,
+                                       const struct rc_grid *heights);
 /* Ends the tool when a frame of hardness beside the heights (or NULL) is invalid, or --hardness is given
  * too. */
 void physics_hardness(struct tool *tool, const struct rc_grid *hardness);

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Rows of every contact: layers, the sphere, the boundary, the approach. */
+/* Rows of every contact: layers, the form, the boundary, the approach. */
 #include "solve.h"
 
 #include <math.h>
@@ -24,6 +24,14 @@ sphere_state(const struct run *run)
 }
 
 static const char *
+cylinder_state(const struct run *run)
+{
+    return isnan(run->physics->cylinder)                         ? "left out: no --cylinder"
+           : physics_cylinder_axis(run->physics, run->g) == RC_X ? "on: along x"
+                                                                 : "on: along y";
+}
+
+static const char *
 padding_state(const struct run *run)
 {
     return boundary_padding(run->physics->boundary);
@@ -43,6 +51,7 @@ approach_keys(struct run *run, struct rc_grid *g)
 
 const struct effect solve_effect_layers = {.name = "layers", .state = layers_state};
 const struct effect solve_effect_sphere = {.name = "sphere", .state = sphere_state};
+const struct effect solve_effect_cylinder = {.name = "cylinder", .state = cylinder_state};
 const struct effect solve_effect_padding = {.name = "padding", .state = padding_state};
 const struct effect solve_effect_approach = {
     .name = "approach", .state = approach_state, .keys = approach_keys};

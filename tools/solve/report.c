@@ -213,6 +213,7 @@ solve_report(struct drive *d, const struct rc_model *m)
     report_number(r, "elastic_energy", s->contact.elastic_energy, "J");
     report_columns_at(r, run, COLUMNS_OF_POINTS);
     report_columns_at(r, run, COLUMNS_LAST);
+    report_number(r, "cylinder", run->physics->cylinder, "m");
 }
 
 /* ---- cost ---- */

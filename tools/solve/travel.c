@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
- * --travel: the contact travels along x over the map, a case a position. A ball (--radius) or the surface of
- * --counter is pressed on the whole map, or on a window that goes along. With --yield the plastic strain
+ * --travel: the contact travels along x over the map, a case a position. A ball (--radius), a roller
+ * (--cylinder) or the surface of --counter is pressed on the whole map, or on a window that goes along. With --yield the plastic strain
  * stays in body 1, and --passes repeats the positions.
  */
 #include "solve.h"
@@ -35,7 +35,7 @@ static struct {
 static const struct opt options[] = {
     {.name = "travel", .type = OPT_NUMBERS, .unit = UNIT_M, .base = &args.travel, .min = -INFINITY,
      .max = INFINITY, .result = true, .points = true, .arg = "LIST",
-     .needs = RULES({.with = "radius|counter", .because = "nothing travels"}),
+     .needs = RULES({.with = "radius|cylinder|counter", .because = "nothing travels"}),
      .against = RULES({.with = "load LIST|mean-pressure LIST|approach LIST",
                        .remedy = "run rc-solve once for each load"},
                       {.with = "adhesion", .because = "it is not implemented"},
@@ -45,7 +45,7 @@ static const struct opt options[] = {
              "map, each a case"},
     {.name = "counter", .type = OPT_TEXT, .base = &args.counter, .result = true, .arg = "FILE",
      .needs = RULES({.with = "travel"}),
-     .help = "heights of body 2, which travels (or a ball: --radius); mirrored as by rc-add"},
+     .help = "heights of body 2, which travels (or a ball: --radius, a roller: --cylinder); mirrored as by rc-add"},
     {.name = "counter-travel", .type = OPT_NUMBER, .base = &args.counter_travel, .min = -INFINITY,
      .max = INFINITY, .result = true, .arg = "RATIO",
      .needs = RULES({.with = "travel"}, {.with = "counter"}),
@@ -99,6 +99,9 @@ read(struct run *run)
         tool_usage(t,
                    "--travel does not work with --history, because the dents of a hardness are not "
                    "carried from position to position");
+    if (!isnan(run->physics->cylinder) && run->physics->boundary.x && !run->physics->boundary.y)
+        tool_usage(t, "--travel does not work with --cylinder and --periodic=x, because the "
+                      "cylinder would travel along its axis: take --periodic=y");
     if (ranks_of(t) != NULL)
         tool_usage(t, "--travel does not work with several processes: take one");
     if (args.window != NULL)
@@ -173,6 +176,9 @@ put_around(struct run *run, struct rc_model *inner)
     }
     if (!isnan(run->physics->radius))
         problem.radius = run->physics->radius;
+    problem.cylinder = !isnan(run->physics->cylinder);
+    if (problem.cylinder)
+        problem.radius = run->physics->cylinder;
     return tool_made(&run->d.t, g, rc_travel_new(inner, &problem, &run->d.t.err));
 }
 
