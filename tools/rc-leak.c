@@ -87,20 +87,23 @@ struct run {
 
 /* ---- a case ---- */
 
-/* True if the edges along the flow join. */
+/* True if the edges along the flow join: the map repeats across the flow. */
 static bool
 sides_meet(struct run *run, const struct rc_grid *g)
 {
+    const enum rc_map_axis across = args.direction[0] == 'x' ? RC_Y : RC_X;
     const char *boundary = rc_grid_get(g, "boundary");
-    bool meet = !rc_has_mean(map_boundary(g));
+    const bool meet = rc_wraps(map_boundary(g), across);
 
     if (args.sides == NULL)
         return meet;
     if (strcmp(args.sides, "closed") == 0)
         return false;
     if (boundary != NULL && !meet)
-        tool_refuse(&run->t, g, "boundary=%s contradicts --sides periodic: remove that option",
-                    boundary);
+        tool_refuse(&run->t, g,
+                    "boundary=%s contradicts --sides periodic, which needs a map that repeats "
+                    "along %c: remove that option",
+                    boundary, across == RC_X ? 'x' : 'y');
     return true;
 }
 

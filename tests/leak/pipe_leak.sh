@@ -154,9 +154,39 @@ sed 's/^boundary=free/&\nconverged=no/' channel.rcg | perl -MCompress::Zlib -077
 refuses 3 'converged' "what has not converged stays so" "rc-leak short.rcg -o short-flow.rcg"
 claim "  a message says so" says 'converged=no' head -c 1000 short-flow.rcg
 
+# ---- maps that repeat along one axis: the sides join where this axis lies across the flow ----
+
+# in row 0 to column 6 and in row 3 from there: 13 nodes in a row if the rows are neighbours: the conductance g^3/13
+bent='($i <= 6 && $j == 0) || ($i >= 6 && $j == 3)'
+made boundary=periodic-y 12 4 1e-6 1e-6 gap "$bent ? 2e-6 : 1e-12" pressure "$bent ? 0 : 8e7" >bent.rcg
+turn() { sed 's/\$i/$t/g; s/\$j/$i/g; s/\$t/$j/g' <<<"$1"; }
+turned=$(turn "$bent")
+made boundary=periodic-x 4 12 1e-6 1e-6 gap "$turned ? 2e-6 : 1e-12" pressure "$turned ? 0 : 8e7" >turned.rcg
+along() { rc-leak --quiet --direction "$1" --report - "${@:2}" | field flow_conductance /dev/stdin; }
+near "$(along x bent.rcg)" "$(awk 'BEGIN { print 8e-18 / 13 }')" "$six_digits" "periodic-y, flow along x: the rows at the edges are neighbours"
+near "$(along y turned.rcg)" "$(awk 'BEGIN { print 8e-18 / 13 }')" "$six_digits" "  periodic-x, flow along y"
+claim "  along the axis that repeats the sides are walls" test "$(along y bent.rcg) $(along x turned.rcg)" = "0 0"
+claim "    and the report says so" says '"sides": "closed"' rc-leak --quiet --direction y --report - bent.rcg
+near "$(along x --sides closed bent.rcg)" 0 0 "  --sides closed closes them"
+refuses 1 'boundary=periodic-y contradicts --sides periodic, which needs a map that repeats along x' "sides of the free axis that do not meet" "rc-leak --direction y --sides periodic bent.rcg -o x.rcg"
+claim "  along the free axis --sides periodic says nothing new" rc-leak --quiet --sides periodic bent.rcg -o x.rcg
+# a rough gap, its rows moved by 5 of 16 with those that leave entering on the other side, and two of it beside each other
+uneven='1e-6 * (1.2 + cos(0.7 * $i * $i) * cos(2 * 3.14159265358979 * J / 16) + 0.3 * sin(3 * $i + 6 * 3.14159265358979 * J / 16))'
+for kind in "16 \$j" "16 (\$j+5)" "32 \$j"; do
+    made boundary=periodic-y 20 "${kind% *}" 1e-6 1.5e-6 gap "${uneven//J/${kind#* }}" >"uneven${kind%% *}${#kind}.rcg"
+    made boundary=periodic-x "${kind% *}" 20 1.5e-6 1e-6 gap "$(turn "${uneven//J/${kind#* }}")" >"turned${kind%% *}${#kind}.rcg"
+done
+one=$(along x uneven165.rcg)
+near "$(along x uneven169.rcg)" "$one" "$rounding" "a rough gap moved along the axis that repeats has the same flow"
+near "$(along x uneven325.rcg)" "$(awk "BEGIN { printf \"%.17g\", 2 * $one }")" "$rounding" "  two of it beside each other have twice the flow"
+near "$(along y turned165.rcg)" "$one" "$rounding" "  the turned gap has the flow of the gap"
+near "$(along x turned165.rcg)" "$(along y uneven165.rcg)" "$rounding" "    along the axis that repeats too"
+rc-solve --quiet --periodic=y --estar 1GPa --mean-pressure 1MPa --output pressure,gap rough.rcg -o strip.rcg
+claim "a pipe from rc-solve --periodic=y: the sides of a flow along x join" says '"boundary": "periodic-y", .*"sides": "periodic"' rc-leak --quiet --report - strip.rcg
+
 # ---- refusals ----
 
-refuses 1 'boundary=free contradicts --sides periodic: remove that option' "sides that do not meet" "rc-leak --sides periodic channel.rcg -o x.rcg"
+refuses 1 'boundary=free contradicts --sides periodic, .* along y: remove that option' "sides that do not meet" "rc-leak --sides periodic channel.rcg -o x.rcg"
 refuses 2 'direction z: it must be one of|direction z: ' "another direction" "rc-leak --direction z channel.rcg -o x.rcg"
 refuses 2 '--viscosity has no effect without --pressure-drop' "a viscosity alone" "rc-leak --viscosity 1mPas channel.rcg -o x.rcg"
 refuses 2 '--pressure-drop has no effect without --viscosity' "a pressure drop alone" "rc-leak --pressure-drop 1Pa channel.rcg -o x.rcg"
