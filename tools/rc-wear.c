@@ -456,7 +456,7 @@ add_counter(struct run *run, const struct rc_grid *g)
 
     if (!map_boundary(g).x)
         tool_refuse(t, g,
-                    "--motion sliding needs a map that repeats along x, on which body 2 can pass "
+                    "--motion sliding needs a map that is periodic along x, on which body 2 can pass "
                     "for ever: run "
                     "rc-solve --periodic");
     if (run->law.part != NULL)

@@ -952,7 +952,7 @@ make(struct rolling *f, struct rc_err *err)
     if (o->boundary.x && !f->problem.path)
         return rc_err_set(
             err,
-            "steady rolling on a map that repeats along x has no leading edge, where free surface "
+            "steady rolling on a map that is periodic along x has no leading edge, where free surface "
             "comes in: take a boundary that is free along x");
     f->n = f->base.shape.nx * f->base.shape.ny;
     o->tol = o->tol > 0 ? o->tol : usual_tol[f->problem.path];

@@ -116,7 +116,7 @@ check(const struct rc_shape *shape, const struct rc_problem *problem, struct rc_
                             (double)(shape->ny - 1) / 2 * shape->dy};
 
     if (rc_repeats(problem->boundary) > 0)
-        return rc_err_set(err, "a surface that repeats cannot tilt, because it has no centre");
+        return rc_err_set(err, "a periodic surface cannot tilt, because it has no centre");
     for (size_t a = 0; a < 2; a++)
         if (!(fabs(problem->force_at[a]) < half[a]) && problem->force_at[a] != 0)
             return rc_err_set(err,

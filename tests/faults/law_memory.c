@@ -254,6 +254,8 @@ CONVOLUTION(periodic_fft, bare, .engine = "fft", .boundary = {.x = true, .y = tr
 CONVOLUTION(mlms, bare, .engine = "mlms", .tol = 1e-4)
 CONVOLUTION(direct, bare, .engine = "direct")
 CONVOLUTION(coated, layered, .tol = 0)
+CONVOLUTION(line, bare, .boundary = {.y = true})
+CONVOLUTION(column, layered, .boundary = {.x = true})
 CONVOLUTION(coated_periodic, layered, .boundary = {.x = true, .y = true})
 
 /* ---- contact ---- */
@@ -898,6 +900,7 @@ without(double *out, struct rc_err *err)
     struct rc_seam seam;
     char text[RC_NUMBER_SIZE];
     size_t product, least, largest;
+    struct rc_boundary boundary;
 
     (void)rc_version(), (void)rc_threads_available();
     rc_memory_budget(0);
@@ -936,6 +939,9 @@ without(double *out, struct rc_err *err)
     out[2 * N + 2] = rc_number_read(rc_number_text(text, 1.5), false, &out[0]) != NULL;
     out[2 * N + 3] = rc_figure_number(rc_figures("contact"), &(struct rc_contact){.load = 1});
     if (rc_figure_word(rc_figure_find("converged"), &(struct rc_contact){0}) != NULL)
+        return RC_FAIL;
+    if (!rc_boundary_named(rc_boundary_word(RC_PERIODIC), &boundary) ||
+        rc_boundary_on(&shape, boundary).datum != 0)
         return RC_FAIL;
     return rc_key_valid("note") && rc_err_set(NULL, "%s", "x") == RC_FAIL ? RC_OK : RC_FAIL;
 }
@@ -996,6 +1002,8 @@ static const struct {
     {.name = "convolution, direct", .use = direct},
     {.name = "convolution, coated", .use = coated},
     {.name = "convolution, coated and periodic", .use = coated_periodic},
+    {.name = "convolution, periodic along y", .use = line},
+    {.name = "convolution, coated and periodic along x", .use = column},
     {.name = "contact", .use = free_contact},
     {.name = "contact, periodic with a hardness", .use = hard_contact},
     {.name = "contact, a map of hardness", .use = two_phases},

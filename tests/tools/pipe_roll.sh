@@ -135,7 +135,7 @@ refuses 1 'limit|slide; give the creepage instead' "a force beyond the limit" 'r
 rc-pick --crop 0,0,53,64 ball.rcg -o edge.rcg
 refuses 1 'leading edge of the map, column 52 of 53: .*leave free columns' "a contact at the leading edge" 'rc-slip --mu 0.3 --creep 1e-3,0 --steady -o x.rcg edge.rcg'
 rc-synth sphere --nx 64 --dx 10um --radius 7.5mm | rc-solve --quiet --periodic --load 240N --E1 210GPa --nu1 0.25 --E2 210GPa --nu2 0.25 -o round.rcg
-refuses 1 'periodic map has no leading edge' "a periodic map" 'rc-slip --mu 0.3 --creep 1e-3,0 --steady -o x.rcg round.rcg'
+refuses 1 'periodic along x has no leading edge' "a periodic map" 'rc-slip --mu 0.3 --creep 1e-3,0 --steady -o x.rcg round.rcg'
 for x in 0 1e-5; do rc-pick --set position=$x ball.rcg -o at-$x.rcg; done
 refuses 1 'position is 1e-05 m, that of the case before 0 m: .*leave out --steady' "positions that differ" \
     'cat at-0.rcg at-1e-5.rcg | rc-slip --mu 0.3 --creep 1e-3,0 --steady -o x.rcg'

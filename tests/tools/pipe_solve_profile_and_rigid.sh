@@ -19,7 +19,7 @@ rc-pick --rotate 90 ridge.rcg -o column.rcg
 claim "5 kN/m on a column causes no message" bash -c 'rc-solve --periodic --estar 100GPa --load 5kN/m --output pressure --report c.json column.rcg -o c.rcg 2>err && [ ! -s err ]'
 near "$(field max_pressure c.json)" 126.157e6 1e-3 "  and the same pressure"
 near "$(field load c.json)" 2.5e-3 "$summed" "  its load too"
-refuses 1 "in N/m is for profiles, and this map has 33 rows: give the whole force, in N" "a map carries a force" \
+refuses 1 "in N/m is for profiles and for maps that repeat along one axis, and this map has 33 rows: give the whole force, in N" "a map carries a force" \
     "rc-synth sphere --nx 33 --dx 1um --radius 1mm | rc-solve --load 1N/m --estar 1GPa | cat >/dev/null"
 
 # A wave in contact over 2 a: sin^2(pi a/l) = p/p*, p* = pi E* A/l, largest 2 p/sin(pi a/l) (Westergaard). The

@@ -125,7 +125,7 @@ claim "  the pressure at the end is that of one alignment, with its error" warns
     ${slide/--quiet/} --distance 100m -o x.rcg pressed.rcg
 phase_of() { beside pressed.rcg <(map wear-coefficient 1/Pa '$i < 16 ? 1e-15 : 5e-16' 2>/dev/null); }
 export -f phase_of
-refuses 1 'needs a periodic map' "a free map" "$slide --distance 1m -o x.rcg pin.rcg"
+refuses 1 'needs a map that is periodic along x' "a free map" "$slide --distance 1m -o x.rcg pin.rcg"
 refuses 1 'sliding with a hardness' "a hardness" "$slide --distance 1m -o x.rcg <(rc-solve --quiet --periodic --hardness 50MPa --load 1mN --estar 1GPa rough.rcg)"
 refuses 1 'sliding with a map of the wear coefficient' "a coefficient of each node" \
     "rc-wear --motion sliding --counter other.rcg --distance 1m -o x.rcg <(phase_of)"

@@ -219,8 +219,8 @@ LISTS = {'load': 'load', 'mean-pressure': 'load', 'approach': 'approach', 'time'
 OTHER = {
     'rc-solve': {
         'load': ['15mN'], 'mean-pressure': ['50MPa'], 'approach': ['.02um'], 'estar': ['50GPa'], 'E1': ['100GPa'], 'nu1': ['.2'],
-        'E2': ['50GPa', 'rigid'], 'nu2': ['.1'], 'layer': ['1um,50GPa,.3', '2um,100GPa,.2'], 'hardness': ['3GPa'], 'radius': ['30um'],
-        'periodic': [None], 'yield': ['3GPa', '2GPa,1GPa'], 'adhesion': ['80mJ/m2,exponential,.5um', '50mJ/m2,dugdale,.5um'],
+        'E2': ['50GPa', 'rigid'], 'nu2': ['.1'], 'layer': ['1um,50GPa,.3', '2um,100GPa,.2'], 'hardness': ['3GPa'], 'radius': ['30um'], 'cylinder': ['20um'],
+        'periodic': [None, 'y'], 'datum': ['1mm'], 'yield': ['3GPa', '2GPa,1GPa'], 'adhesion': ['80mJ/m2,exponential,.5um', '50mJ/m2,dugdale,.5um'],
         'history': [None], 'tilt': ['free'], 'at': ['.5um,.5um'], 'increments': ['3'], 'slabs': ['3'],
         'relaxation': ['20MPa,100MPa:1s'], 'shift': ['3'], 'time': ['0,1s'], 'speed': ['2um/s'], 'along': ['y'], 'track': ['fresh', 'repeated'],
         'pull-off': [None], 'travel': ['-1um'], 'counter': ['rough.rcg'], 'counter-travel': ['.5'], 'window': ['10x10'], 'passes': ['3', '1'],
@@ -244,8 +244,8 @@ TOGETHER = {('rc-slip', o): '--E1 200GPa --nu1 .3 --E2 200GPa --nu2 .3'.split() 
 FIXED = {('rc-slip', o) for o in 'history E1 nu1 E2 nu2 periodic'.split()}
 # keys of rcg(5): other values
 KEYS = {
-    'case': [], 'source': ['other'], 'file.*': [], 'history': ['rc-synth 0 sphere'], 'periodic': ['yes'], 'filled': ['3'], 'outliers': ['3'],
-    'dunit': [], 'taper': ['2e-6'], 'form.radius': ['1'], 'form': ['sphere 1e-3'], 'boundary': ['periodic', 'free'], 'estar': ['1e11'],
+    'case': [], 'source': ['other'], 'file.*': [], 'history': ['rc-synth 0 sphere'], 'periodic': ['yes', 'x'], 'filled': ['3'], 'outliers': ['3'],
+    'dunit': [], 'taper': ['2e-6'], 'form.radius': ['1'], 'form': ['sphere 1e-3'], 'boundary': ['periodic', 'free', 'periodic-y'], 'datum': ['1e-3'], 'estar': ['1e11'],
     'e1': ['1.5e11'], 'nu': ['.25'], 'e2': ['1.5e11'], 'nu2': ['.25'], 'load': ['.02'], 'hardness': ['3e9'], 'hardness_map': ['yes'],
     'cycles': ['3'], 'wear_1': ['1e-15'], 'wear_2': ['1e-15'], 'coat_left': ['1e-3'], 'bending_limit': ['1e8'], 'torsion_limit': ['1e8'], 'yield': ['1e9'],
     'hardening': ['1e9'], 'slabs': ['3'], 'approach': ['1e-7'], 'position': ['1e-6'], 'height': ['1e-6'], 'converged': ['yes', 'no'],

@@ -9,7 +9,7 @@
 
 static struct {
     struct rc_model *path; /* rolls from case to case; NULL: not yet */
-    double first[7];       /* its grid, boundary and bodies */
+    double first[8];       /* its grid, boundary and bodies */
     struct rc_rolling_contact known;
     double position; /* m, of the last case; NAN: unknown    */
 } own = {.position = NAN};
