@@ -9,7 +9,7 @@
 
 static struct {
     struct rc_model *path; /* rolls from case to case; NULL: not yet */
-    double first[8];       /* its grid, boundary and bodies */
+    double first[9];       /* its grid, boundary and bodies */
     struct rc_rolling_contact known;
     double position; /* m, of the last case; NAN: unknown    */
 } own = {.position = NAN};
@@ -133,8 +133,9 @@ model_of(struct slip_run *run)
 {
     const struct rc_grid *p = run->p;
     const struct slip_pair *b = &run->bodies;
-    const double now[] = {(double)p->nx,   (double)p->ny,   p->dx,  p->dy,
-                          run->boundary.x, run->boundary.y, b->kap, b->beta};
+    const struct rc_boundary on = run->boundary;
+    const double now[] = {(double)p->nx, (double)p->ny, p->dx,  p->dy,  on.x,
+                          on.y,          on.datum,      b->kap, b->beta};
 
     if (run->args->steady)
         return new_model(run);
@@ -142,11 +143,11 @@ model_of(struct slip_run *run)
         own.path = new_model(run);
         tool_must(&run->d.t, p, /* the map of this case is freed before the next one */
                   rc_model_set_heights(own.path, p->v, &run->d.t.err));
-    } else if (memcmp(now, own.first, sizeof now) != 0)
+    } else if (memcmp(now, own.first, sizeof own.first) != 0)
         tool_refuse(&run->d.t, p,
                     "its grid, boundary or bodies differ from those of the case before: roll over "
                     "the cases of one rc-solve --travel");
-    memcpy(own.first, now, sizeof now);
+    memcpy(own.first, now, sizeof own.first);
     return own.path;
 }
 
