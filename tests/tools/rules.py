@@ -100,10 +100,14 @@ class Tool:
                     options.append(rule['options'][0])
         return options
 
-    def without(self, option):
-        """An option with a word that it may have by default: the same with another word."""
-        others = [word for word in self.rows[option['name']]['words'] if word != option['word']]
-        return [{'name': option['name'], 'word': others[0]}] if option['word'] is not None and others else []
+    def without(self, options):
+        """Options with words that they may have by default: the same with another word."""
+        words = {}
+        for option in options:
+            others = [word for word in self.rows[option['name']]['words'] if dict(option, word=word) not in options]
+            if option['word'] is not None and others:
+                words[option['name']] = others[0]
+        return [{'name': name, 'word': word} for name, word in words.items()]
 
     def refused(self, kind, options, named):
         counts[kind] += 1
@@ -153,7 +157,7 @@ class Tool:
                     own = {'name': row['name'], 'word': word}
                     before = [r['options'][0] for r in row['needs'][:k]]
                     line = self.with_needs([own] + before, own)
-                    line += [other for option in rule['options'] for other in self.without(option)]
+                    line += self.without(rule['options'])
                     self.refused('needs', line, [shown(own)] + [shown(o) for o in rule['options']])
             for rule in row['one_of']:
                 names = [shown(o) for o in rule['options']]

@@ -44,7 +44,7 @@ struct boundary_args {
         .name = "datum", .type = OPT_NUMBER, .unit = UNIT_M, .min = 0, .max = INFINITY,            \
         .above = true, .result = true, .arg = "LENGTH",                                            \
         .at = (place) + offsetof(struct boundary_args, datum),                                     \
-        .needs = RULES({.with = "periodic x"}, {.with = "periodic y"}),                            \
+        .needs = RULES({.with = "periodic x|periodic y"}),                                         \
         .help = "distance at which a line load does not displace the surface (default: the "       \
                 "length of the map across the axis that repeats)"                                  \
     }
