@@ -729,7 +729,8 @@ take(struct rc_discs *d, double length, double reach)
     }
 }
 
-/* Takes a step along the projected gradient. */
+/* Takes a step along the projected gradient. A second one shows that nodes on chords should stick: on their
+ * circles the energy would rise. */
 static void
 fall_back(struct rc_discs *d)
 {
@@ -745,6 +746,10 @@ fall_back(struct rc_discs *d)
     project(d, d->way.d);
     if (judge(d, 0, at))
         take(d, fmin(at[FALL] / at[TWIST], 1), 0);
+    for (size_t k = 0; k < d->n && d->way.fell; k++)
+        if (d->face[k] == SLIP && hypot(d->q[0][k], d->q[1][k]) < d->g[k] * (1 - on_circle))
+            d->face[k] = STICK;
+    d->way.fell = true;
 }
 
 /* Takes a step along z. */
@@ -777,6 +782,7 @@ step_along(struct rc_discs *d)
                  ? fmin(fmin(length, 1), 1.9 * at[FALL] / at[TWIST])
                  : fmin(fmax(newton, 0.25), 1); /* see 6 */
     d->way.sift = length >= short_step;
+    d->way.fell = false;
     take(d, length, reach);
 }
 
@@ -864,6 +870,7 @@ rc_discs_begin(struct rc_discs *d)
     d->way.part = 0;
     d->way.reach = 1;
     d->way.sift = true;
+    d->way.fell = false;
 }
 
 /* ---- memory ---- */

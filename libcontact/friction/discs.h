@@ -56,6 +56,7 @@ struct rc_discs {
         double reach;        /* part of the direction that precedes the projection, 0.5 to 1 */
         double part; /* the reach of the last step; 0: the next step does not use the last one */
         bool sift;   /* nodes whose inward slip would be pushed out again stay on their circles */
+        bool fell;   /* it was along the projected gradient */
     } way;
     struct rc_extension *m;
     struct rc_sums rows;
