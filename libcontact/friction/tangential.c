@@ -78,7 +78,7 @@ along(const struct rc_tangential *t, bool x, double q)
     rc_fft_period(&t->shape, t->boundary, &nodes[0], &nodes[1]);
     n = nodes[x ? 0 : 1];
     at = q * (x ? t->shape.dx : t->shape.dy) * (double)n / (2 * RC_PI);
-    if (rc_wraps(t->boundary, x ? RC_X : RC_Y) || at < 1 || at > (double)(n / 2))
+    if (!rc_has_mean(t->boundary) || at < 1 || at > (double)(n / 2))
         return NAN;
     wave[0] = (size_t)at;
     wave[1] = (size_t)ceil(at);
