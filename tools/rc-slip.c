@@ -15,6 +15,7 @@ static struct slip_args args = {
     .e2 = NAN,
     .nu2 = NAN,
     .tol = NAN,
+    .repeats = BOUNDARY_NONE,
     .coupling = "full",
     .output = (1u << SLIP_STATE) - 1,
     .drive.interval = 60,

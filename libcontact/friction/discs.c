@@ -829,6 +829,32 @@ rc_discs_step(struct rc_discs *d)
     return RC_MORE;
 }
 
+/* A load on a line displaces a strip of the width w by the logarithm of the datum over w/4 at least. */
+enum rc_status
+rc_discs_check_datum(const struct rc_discs *d, double length, struct rc_err *err)
+{
+    const bool across = d->t->boundary.x; /* the free axis is y */
+    const double cell = across ? d->t->shape.dy : d->t->shape.dx;
+    size_t first = SIZE_MAX, end = 0;
+    double width;
+
+    for (size_t k = 0; k < d->n && rc_repeats(d->t->boundary) == 1; k++) {
+        const size_t at = across ? k / d->nx : k % d->nx;
+        if (d->g[k] > 0) {
+            first = at < first ? at : first;
+            end = at + 1 > end ? at + 1 : end;
+        }
+    }
+    width = end > 0 ? (double)(end - first) * cell * length : 0;
+    if (d->t->boundary.datum * length > width / 4 || width == 0)
+        return RC_OK;
+    return rc_err_set(
+        err,
+        "datum %g m, in a contact %g m wide: where the displacement is given, it must "
+        "be above a quarter of this width; give a larger datum, or the force",
+        d->t->boundary.datum * length, width);
+}
+
 static void
 radius(const struct rc_discs *d, size_t k, const void *with, double *sum)
 {

@@ -67,6 +67,9 @@ struct rc_discs {
 struct rc_discs *rc_discs_new(struct rc_tangential *t, struct rc_err *err);
 void rc_discs_free(struct rc_discs *d); /* NULL is allowed */
 RC_OWNER(rc_discs)
+/* RC_FAIL if a displacement is given on a map that repeats along one axis, and the datum is so near that a
+ * larger force would move the bodies back. length: m, the unit of lengths of T. Only g is used. */
+enum rc_status rc_discs_check_datum(const struct rc_discs *d, double length, struct rc_err *err);
 /* Starts from q: moves it to the discs and to the load, which the discs must be able to carry, and finds
  * u. */
 void rc_discs_begin(struct rc_discs *d);

@@ -128,7 +128,8 @@ enum rc_status
 rc_friction_solver_set_displacement(struct rc_friction_solver *s, double dx, double dy,
                                     struct rc_err *err)
 {
-    if (finite(dx, dy, "tangential displacement", err) != RC_OK)
+    if (finite(dx, dy, "tangential displacement", err) != RC_OK ||
+        rc_discs_check_datum(s->discs, s->length, err) != RC_OK)
         return RC_FAIL;
     s->discs->delta[0] = dx / s->unit;
     s->discs->delta[1] = dy / s->unit;
@@ -464,6 +465,7 @@ rc_friction_solver_new(const struct rc_shape *shape, const struct rc_friction_la
     static const double usual = 1e-4;
     struct rc_shear shear, inside;
     struct rc_shape unit;
+    struct rc_boundary boundary = p->boundary;
     RC_OWN(rc_friction_solver, s) = NULL;
 
     if (rc_friction_solver_check(shape, p, &shear, err) != RC_OK)
@@ -479,11 +481,12 @@ rc_friction_solver_new(const struct rc_shape *shape, const struct rc_friction_la
                                      .coupled = shear.beta != 0 && !p->uncoupled};
     s->unit = s->length / shear.estar;
     unit = (struct rc_shape){shape->nx, shape->ny, shape->dx / s->length, shape->dy / s->length};
+    boundary.datum /= s->length;
     inside = (struct rc_shear){1, shear.kap, s->coupled ? shear.beta : 0};
     if (!allocate(s))
         return rc_err_null(err, "out of memory for the friction of %zu x %zu nodes", shape->nx,
                            shape->ny);
-    s->t = rc_tangential_new(&unit, p->boundary, &inside, p->threads, err);
+    s->t = rc_tangential_new(&unit, boundary, &inside, p->threads, err);
     if (s->t == NULL || (s->discs = rc_discs_new(s->t, err)) == NULL)
         return NULL;
     s->discs->asked.tol = p->tol > 0 ? p->tol : usual;

@@ -4,6 +4,8 @@
 #ifndef DENSE_H
 #define DENSE_H
 
+#include <gsl/gsl_integration.h>
+#include <gsl/gsl_sf_bessel.h>
 #include <math.h>
 #include <stdbool.h>
 #include <string.h>
@@ -83,6 +85,128 @@ periodic_matrix(struct dense *d, const struct rc_shape *s, double kap)
                 d->t[d->n + i][j] += cross;
             }
     }
+}
+
+/* A map that repeats along one axis. The field of a wave Q along this axis, times 1 on a cell of the other
+ * one, is the integral of 1/r, x^2/r^3 ... over the wave (Gradshteyn and Ryzhik, section 3.77), and over the
+ * cell. K0, K1: Bessel functions; z = Q x. For Q = 0 the load is on a line. E* = 1. */
+enum line {
+    LINE_ACROSS,      /* displacement along the free axis by a traction along it */
+    LINE_ALONG,       /* the same along the axis that repeats                    */
+    LINE_CROSS,       /* along one axis by a traction along the other            */
+    LINE_PUSH_ACROSS, /* displacement along the free axis by a pressure          */
+    LINE_PUSH_ALONG
+};
+struct line_pair {
+    double kap, beta, datum;
+};
+
+static const double line_far = 600; /* K0 and K1 are 0 to rounding there, and do not underflow */
+
+static inline double
+line_k0(double z, void *none)
+{
+    (void)none;
+    return z > 0 && z < line_far ? gsl_sf_bessel_K0(z) : 0;
+}
+
+/* From 0 to z. */
+static inline double
+line_integral_of_k0(double z)
+{
+    const gsl_function f = {line_k0, NULL};
+    gsl_integration_workspace *room = gsl_integration_workspace_alloc(200);
+    double value, error;
+
+    gsl_integration_qags(&f, 0, fmin(fabs(z), 50), 0, 1e-13, 200, room, &value, &error);
+    gsl_integration_workspace_free(room);
+    return copysign(value, z);
+}
+
+/* The integral of the field over x, for a wave Q >= 0. */
+static inline double
+line_integral(enum line what, const struct line_pair *pair, double q, double x)
+{
+    const double z = q * x, size = fabs(z), part = 2 / (exact_pi * q), kap = pair->kap;
+
+    if (q == 0)
+        return what == LINE_PUSH_ACROSS ? pair->beta * fabs(x)
+                                        : -2 / exact_pi * (what == LINE_ALONG ? 1 + kap : 1) * x *
+                                              (log(fabs(x) / pair->datum) - 1);
+    switch (what) {
+    case LINE_ACROSS: /* of K0 + kap |z| K1 */
+        return part * ((1 + kap) * line_integral_of_k0(z) - kap * z * line_k0(size, NULL));
+    case LINE_ALONG: /* of (1 + kap) K0 - kap |z| K1 */
+        return part * (line_integral_of_k0(z) + kap * z * line_k0(size, NULL));
+    case LINE_CROSS: /* of kap z K0 */
+        return size < line_far ? -part * kap * size * gsl_sf_bessel_K1(size) : 0;
+    case LINE_PUSH_ACROSS:
+        return pair->beta / q * (1 - exp(-size));
+    default:
+        return pair->beta / q * copysign(1 - exp(-size), x);
+    }
+}
+
+/* The displacement at a node by a load on the node that is so many columns and rows before it. */
+static inline double
+line_at(enum line what, const struct rc_shape *s, struct rc_boundary boundary,
+        const struct line_pair *pair, double columns, double rows)
+{
+    const size_t n = boundary.x ? s->nx : s->ny;
+    const double cell = boundary.x ? s->dy : s->dx,
+                 length = (double)n * (boundary.x ? s->dx : s->dy);
+    const double x = (boundary.x ? rows : columns) * cell,
+                 phase = (boundary.x ? columns : rows) / (double)n;
+    const bool odd = what == LINE_CROSS || what == LINE_PUSH_ALONG;
+    double sum = 0;
+
+    for (size_t m = odd; m < n; m++) {
+        const double wave = (double)m - (2 * m > n ? (double)n : 0),
+                     q = 2 * exact_pi * fabs(wave) / length;
+        const double of = 2 * exact_pi * wave * phase;
+        if (!(odd && 2 * m == n))
+            sum += (odd ? (wave > 0 ? sin(of) : -sin(of)) : cos(of)) / (double)n *
+                   (line_integral(what, pair, q, x + cell / 2) -
+                    line_integral(what, pair, q, x - cell / 2));
+    }
+    return sum;
+}
+
+static inline void
+line_matrix(struct dense *d, const struct rc_shape *s, struct rc_boundary boundary, double kap)
+{
+    const struct line_pair pair = {kap, 0, rc_boundary_on(s, boundary).datum};
+    const enum line x = boundary.x ? LINE_ALONG : LINE_ACROSS,
+                    y = boundary.x ? LINE_ACROSS : LINE_ALONG;
+    const size_t n = d->n = s->nx * s->ny;
+    double table[3][DENSE_MOST];
+
+    for (size_t k = 0; k < n; k++) {
+        const double i = (double)(k % s->nx), j = (double)(k / s->nx);
+        table[0][k] = line_at(x, s, boundary, &pair, i, j);
+        table[1][k] = line_at(y, s, boundary, &pair, i, j);
+        table[2][k] = line_at(LINE_CROSS, s, boundary, &pair, i, j);
+    }
+    for (size_t at = 0; at < n; at++)
+        for (size_t from = 0; from < n; from++) {
+            const int i = (int)(at % s->nx) - (int)(from % s->nx);
+            const int j = (int)(at / s->nx) - (int)(from / s->nx);
+            const size_t k = (size_t)abs(j) * s->nx + (size_t)abs(i);
+            d->t[at][from] = table[0][k];
+            d->t[n + at][n + from] = table[1][k];
+            d->t[at][n + from] = d->t[n + at][from] =
+                (i < 0) == (j < 0) ? table[2][k] : -table[2][k];
+        }
+}
+
+/* The matrix of this boundary. */
+static inline void
+matrix_of(struct dense *d, const struct rc_shape *s, struct rc_boundary boundary, double kap)
+{
+    if (rc_repeats(boundary) == 1)
+        line_matrix(d, s, boundary, kap);
+    else
+        (rc_has_mean(boundary) ? dense_matrix : periodic_matrix)(d, s, kap);
 }
 
 /* min q'A q/2 - b'q over |q| <= g, A 2 x 2. (A + m)q = b, with the m >= 0 that puts q on the circle;

@@ -113,15 +113,15 @@ check_hard(const char *name, struct problem w)
 }
 
 static void
-test_hard_cases(void **state)
+check_hard_cases(struct rc_boundary boundary)
 {
     const struct rc_shape map = {64, 64, 1, 1}, tall = {64, 64, 1, 4}, line = {256, 1, 1, 1};
-    struct problem w = {.shape = map, .boundary = RC_PERIODIC, .nu = 0.3, .mu = 0.3, .part = 0.5};
-    double *rough = pressure_of(&map, RC_PERIODIC, slip_rough(&map, 0.1, 4, 7), 0.016);
+    struct problem w = {.shape = map, .boundary = boundary, .nu = 0.3, .mu = 0.3, .part = 0.5};
+    double *rough = pressure_of(&map, boundary, slip_rough(&map, 0.1, 4, 7), 0.016);
     uint64_t seed = 5;
     static const double parts[] = {1e-4, 0.83, 0.99, 0.999, 0.9999, 0.99999};
 
-    (void)state;
+    print_message("%s\n", rc_boundary_word(boundary));
     w.p = rough;
     for (size_t k = 0; k < sizeof parts / sizeof *parts; k++) {
         char name[40];
@@ -157,7 +157,7 @@ test_hard_cases(void **state)
         check_hard(nodes == 1 ? "one node" : nodes == 2 ? "two nodes" : "three nodes", w);
         w.boundary = RC_FREE;
         check_hard("  on the free boundary", w);
-        w.boundary = RC_PERIODIC;
+        w.boundary = boundary;
     }
     for (size_t k = 0; k < 4096; k++)
         w.p[k] = hypot((double)(k % 64) - 31.5, (double)(k / 64) - 31.5) < 24;
@@ -168,8 +168,8 @@ test_hard_cases(void **state)
     check_hard("ball", w);
     free(w.p);
     w.shape = tall;
-    w.boundary = RC_PERIODIC;
-    w.p = pressure_of(&tall, RC_PERIODIC, slip_rough(&tall, 0.1, 16, 7), 0.012);
+    w.boundary = boundary;
+    w.p = pressure_of(&tall, boundary, slip_rough(&tall, 0.1, 16, 7), 0.012);
     check_hard("cells 1:4", w);
     free(w.p);
     w.shape = line;
@@ -181,7 +181,16 @@ test_hard_cases(void **state)
     free(rough);
 }
 
-/* 50 problems, at every step with an error above 1e-6. The estimate is never below the error, and below 1e-2
+static void
+test_hard_cases(void **state)
+{
+    (void)state;
+    check_hard_cases(RC_PERIODIC);
+    check_hard_cases(rc_boundary_of(true, false));
+    check_hard_cases(rc_boundary_of(false, true));
+}
+
+/* 60 problems, at every step with an error above 1e-6. The estimate is never below the error, and below 1e-2
  * it is at most 2.5 times the error. The reference is the end of the same iteration, at 1e-11; same_slip
  * compares it with another method. */
 static void
@@ -196,10 +205,12 @@ test_estimate_bounds_the_error(void **state)
     size_t seen = 0;
 
     (void)state;
-    for (int k = 0; k < 50; k++) {
+    for (int k = 0; k < 60; k++) {
         size_t nodes = k % 5 == 4 ? 64 : k % 2 == 0 ? 48 : 32, n = nodes * nodes, steps = 0;
         const struct rc_shape shape = {nodes, nodes, 1, 1};
-        struct rc_boundary boundary = k % 7 == 3 ? RC_FREE : RC_PERIODIC;
+        struct rc_boundary boundary = k >= 50      ? rc_boundary_of(k % 2 == 0, k % 2 == 1)
+                                      : k % 7 == 3 ? RC_FREE
+                                                   : RC_PERIODIC;
         double *h = slip_rough(&shape, 0.1, 4, 100 + (uint64_t)k), *p, limit = 0;
         double *q[STEPS][2], estimate[STEPS], angle = k, part = parts[(k / 3) % 5];
         struct rc_friction_law what = {
@@ -330,6 +341,14 @@ test_work_does_not_grow(void **state)
         {{64, 64, 1, 100}, {.x = false}, 0.004, {20, 32, 41}},
         {{4096, 1, 1, 1}, {.x = true, .y = true}, 0.016, {17, 23, 26}},
         {{4096, 1, 1, 1}, {.x = false}, 0.004, {11, 20, 23}},
+        {{64, 64, 1, 1}, {.y = true}, 0.01, {14, 20, 23}},
+        {{128, 128, 1, 1}, {.y = true}, 0.01, {14, 20, 23}},
+        {{128, 128, 1, 1}, {.x = true}, 0.01, {14, 20, 23}},
+        {{256, 256, 1, 1}, {.x = true}, 0.016, {14, 20, 26}},
+        {{64, 64, 1, 100}, {.y = true}, 0.016, {20, 32, 41}},
+        {{64, 64, 1, 100}, {.x = true}, 0.004, {20, 32, 41}},
+        {{4096, 1, 1, 1}, {.y = true}, 0.004, {17, 26, 32}},
+        {{4096, 1, 1, 1}, {.x = true}, 0.004, {11, 17, 23}},
     };
     static const double levels[3] = {1e-2, 1e-4, 1e-6};
 
@@ -395,7 +414,7 @@ test_nonsense_is_refused(void **state)
     const struct rc_shape shape = {8, 8, 1e-6, 1e-6};
     const struct rc_layer layer = {1e-6, 1e9, 0.3};
     struct rc_friction_law good = {.pair.estar = 1e9, .nu = 0.3, .mu = 0.2}, bad;
-    struct rc_friction_solver *slip = rc_friction_solver_new(&shape, &good, NULL);
+    struct rc_friction_solver *slip = rc_friction_solver_new(&shape, &good, NULL), *near;
     struct rc_err err = {""};
     double p[64] = {1e6}, load = 1e6 * 1e-12;
     struct rc_friction_increment f;
@@ -435,6 +454,20 @@ test_nonsense_is_refused(void **state)
     assert_non_null(strstr(err.text, "less than 2e-07 N"));
     assert_int_equal(rc_friction_solver_set_force(slip, INFINITY, 0, &err), RC_FAIL);
     assert_int_equal(rc_friction_solver_set_displacement(slip, NAN, 0, &err), RC_FAIL);
+    /* a datum within the contact, 4 nodes wide */
+    good.boundary = (struct rc_boundary){.y = true, .datum = 0.9e-6};
+    near = rc_friction_solver_new(&shape, &good, &err);
+    assert_non_null(near);
+    assert_int_equal(rc_friction_solver_set_pressure(near, p, NULL, &err), RC_OK);
+    assert_int_equal(rc_friction_solver_set_displacement(near, 1e-9, 0, &err), RC_OK);
+    p[3] = p[0];
+    assert_int_equal(rc_friction_solver_set_pressure(near, p, NULL, &err), RC_OK);
+    assert_int_equal(rc_friction_solver_set_displacement(near, 1e-9, 0, &err), RC_FAIL);
+    assert_non_null(strstr(err.text, "datum 9e-07 m, in a contact 4e-06 m wide"));
+    assert_int_equal(rc_friction_solver_set_force(near, load * 0.1, 0, &err), RC_OK);
+    assert_int_equal(slip_solve(near, &f), RC_OK);
+    rc_friction_solver_free(near);
+    p[3] = 0;
     assert_int_equal(rc_friction_solver_set_force(slip, 0, load * 0.15, &err), RC_OK);
     assert_int_equal(slip_solve(slip, &f), RC_OK);
     assert_true(fabs(f.force[1] / (load * 0.15) - 1) < summed && f.stick_nodes == 1);
@@ -448,8 +481,9 @@ test_nonsense_is_refused(void **state)
     rc_friction_solver_free(slip);
 }
 
-/* On a periodic map: prescribing the displacement found for a force gives this force; complete contact
- * carries the friction limit under any displacement and direction. */
+/* On a map that repeats along one axis or both: prescribing the displacement found for a force gives this
+ * force. Where both repeat complete contact carries the friction limit under any displacement and
+ * direction. */
 static void
 test_periodic_displacement_gives_the_force(void **state)
 {
@@ -464,11 +498,13 @@ test_periodic_displacement_gives_the_force(void **state)
     enum rc_status status;
 
     (void)state;
-    for (size_t k = 0; k < 9; k++) {
-        struct rc_friction_solver *slip, *moved = rc_friction_solver_new(&shape, &what, NULL);
+    for (size_t k = 0; k < 15; k++) {
+        struct rc_friction_solver *slip, *moved;
         const double *q[2], *exact[2];
-        w.p = pressure_of(&shape, RC_PERIODIC, slip_rough(&shape, 0.1, 4, 11 + k), means[k % 3]);
-        w.part = parts[k / 3];
+        w.boundary = what.boundary = k < 9 ? RC_PERIODIC : rc_boundary_of(k % 2 == 0, k % 2 == 1);
+        moved = rc_friction_solver_new(&shape, &what, NULL);
+        w.p = pressure_of(&shape, w.boundary, slip_rough(&shape, 0.1, 4, 11 + k), means[k % 3]);
+        w.part = parts[k / 3 % 3];
         w.angle = (double)k;
         slip = slide(&w, 1e-9, &f, &status);
         assert_int_equal(status, RC_OK);
@@ -486,6 +522,7 @@ test_periodic_displacement_gives_the_force(void **state)
         rc_friction_solver_free(moved);
         free(w.p);
     }
+    what.boundary = RC_PERIODIC;
     for (int k = 0; k < 8; k++) {
         double size = pow(10, 3 - k),
                angle = k; /* over E*, with cells of 1: complete contact slides */
@@ -520,8 +557,10 @@ test_errors_of_a_path_add_up(void **state)
     double least = INFINITY, most = 0;
 
     (void)state;
-    for (int k = 0; k < 12; k++) {
-        struct rc_boundary boundary = k % 3 == 0 ? RC_FREE : RC_PERIODIC;
+    for (int k = 0; k < 15; k++) {
+        struct rc_boundary boundary = k >= 12      ? rc_boundary_of(k % 2 == 0, k % 2 == 1)
+                                      : k % 3 == 0 ? RC_FREE
+                                                   : RC_PERIODIC;
         double *h = slip_rough(&shape, 0.1, 4, 60 + (uint64_t)k), *p, load = 0;
         struct rc_model *model[2];
         uint64_t seed = 40 + (uint64_t)k;
@@ -580,7 +619,7 @@ test_errors_of_a_path_add_up(void **state)
         }
         free(p);
     }
-    print_message("192 states: sum %.2f to %.1f of the error, %zu below; the last alone %zu\n",
+    print_message("240 states: sum %.2f to %.1f of the error, %zu below; the last alone %zu\n",
                   least, most, below, alone);
     assert_int_equal(below, 0);
     assert_true(alone > 30);
@@ -646,29 +685,33 @@ test_bodies_apart_forget(void **state)
 /* Results scale with the units, transform with the axes and with the direction of the force, and do not
  * depend on the threads. */
 static void
-test_units_axes_and_threads(void **state)
+check_units_axes_and_threads(struct rc_boundary boundary)
 {
     const struct rc_shape map = {48, 40, 1, 1.3}, turned = {40, 48, 1.3, 1};
     const struct rc_shape small = {48, 40, 1e-7, 1.3e-7};
     size_t n = 48 * 40;
-    double *p = pressure_of(&map, RC_PERIODIC, slip_rough(&map, 0.1, 6, 3), 0.016), limit = 0;
+    double *p = pressure_of(&map, boundary, slip_rough(&map, 0.1, 6, 3), 0.016), limit = 0;
     double *side = malloc(n * sizeof *side), *high = malloc(n * sizeof *high);
     struct rc_friction_law what = {
-        .boundary = RC_PERIODIC, .pair.estar = 1, .nu = 0.4, .mu = 0.3, .tol = 1e-11};
+        .boundary = boundary, .pair.estar = 1, .nu = 0.4, .mu = 0.3, .tol = 1e-11};
     struct rc_friction_solver *slip[4];
     struct rc_friction_increment f[4];
     double far[2] = {0, 0}, size = 0;
 
-    (void)state;
     for (size_t k = 0; k < n; k++) {
         side[k % 48 * 40 + k / 48] = p[k];
         high[k] = p[k] * 3e11;
         limit += 0.3 * p[k] * 1.3;
     }
     slip[0] = rc_friction_solver_new(&map, &what, NULL);
+    what.boundary.x = boundary.y;
+    what.boundary.y = boundary.x;
     slip[1] = rc_friction_solver_new(&turned, &what, NULL);
+    what.boundary = boundary;
     what.pair.estar = 3e11;
+    what.boundary.datum *= 1e-7;
     slip[2] = rc_friction_solver_new(&small, &what, NULL);
+    what.boundary = boundary;
     what.pair.estar = 1;
     what.threads = 1;
     slip[3] = rc_friction_solver_new(&map, &what, NULL);
@@ -695,6 +738,7 @@ test_units_axes_and_threads(void **state)
             assert_true(q == rc_friction_solver_traction(slip[3], c)[k]);
         }
     print_message("axes %.1e, units %.1e\n", far[0] / size, far[1] / size);
+    assert_true(fabs(f[1].displacement[1] / f[0].displacement[0] - 1) < 1e-9);
     assert_true(far[0] < 1e-9 * size && far[1] < 1e-9 * size);
     assert_true(fabs(f[2].displacement[0] / (f[0].displacement[0] * 1e-7) - 1) < 1e-9);
     assert_true(fabs(f[2].dissipated / (f[0].dissipated * 3e11 * 1e-21) - 1) < 1e-6);
@@ -703,6 +747,15 @@ test_units_axes_and_threads(void **state)
     free(p);
     free(side);
     free(high);
+}
+
+static void
+test_units_axes_and_threads(void **state)
+{
+    (void)state;
+    check_units_axes_and_threads(RC_PERIODIC);
+    check_units_axes_and_threads((struct rc_boundary){.x = true, .datum = 700});
+    check_units_axes_and_threads((struct rc_boundary){.y = true, .datum = 700});
 }
 
 int

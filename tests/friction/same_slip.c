@@ -20,12 +20,11 @@ enum {
 static const double bound = 1e-9;
 
 static void
-test_another_method_finds_the_same(void **state)
+another_method_finds_the_same(struct rc_boundary boundary)
 {
     double worst = 0, moved = 0;
     size_t stuck = 0, slid = 0;
 
-    (void)state;
     for (int problem = 0; problem < PROBLEMS; problem++) {
         uint64_t seed = 77 + (uint64_t)problem;
         static const struct rc_shape shapes[] = {{6, 4, 1, 1},   {4, 5, 1, 1.7}, {3, 3, 1, 1},
@@ -34,7 +33,8 @@ test_another_method_finds_the_same(void **state)
         size_t n = shape.nx * shape.ny;
         double nu = problem % 3 == 0 ? 0 : 0.5 * slip_noise(&seed), kap = nu / (1 - nu);
         bool given = problem % 4 == 3;
-        struct rc_friction_law what = {.pair.estar = 1,
+        struct rc_friction_law what = {.boundary = boundary,
+                                       .pair.estar = 1,
                                        .nu = nu,
                                        .mu = 0.1 + slip_noise(&seed),
                                        .tau_max = problem % 5 == 2 ? 0.2 : 0,
@@ -45,7 +45,7 @@ test_another_method_finds_the_same(void **state)
         double q[2 * DENSE_MOST] = {0}, delta[2] = {0, 0}, origin[2 * DENSE_MOST] = {0};
 
         assert_non_null(slip);
-        dense_matrix(&d, &shape, kap);
+        matrix_of(&d, &shape, boundary, kap);
         for (int increment = 0; increment < 3; increment++) {
             double p[DENSE_MOST], limit = 0, load[2], angle = 6.3 * slip_noise(&seed), size = 0,
                                   far = 0;
@@ -100,10 +100,19 @@ test_another_method_finds_the_same(void **state)
         }
         rc_friction_solver_free(slip);
     }
-    print_message("tractions %.1e, displacements %.1e; %zu stick, %zu slip\n", worst, moved, stuck,
-                  slid);
+    print_message("%s: tractions %.1e, displacements %.1e; %zu stick, %zu slip\n",
+                  rc_boundary_word(boundary), worst, moved, stuck, slid);
     assert_true(worst < bound && moved < bound);
     assert_true(stuck > 100 && slid > 100);
+}
+
+static void
+test_another_method_finds_the_same(void **state)
+{
+    (void)state;
+    another_method_finds_the_same(RC_FREE);
+    another_method_finds_the_same(rc_boundary_of(true, false));
+    another_method_finds_the_same(rc_boundary_of(false, true));
 }
 
 /* Three displacements, small or large, move a periodic map, for partial and complete contact. If all nodes

@@ -13,6 +13,7 @@
 #include <string.h>
 
 #include "libcontact/friction/tangential.h"
+#include "dense.h"
 #include "tests/exact.h"
 
 static const double quadrature = 1e-12, in_floats = 5e-6;
@@ -297,6 +298,68 @@ test_free_sums_are_double_sums(void **state)
     assert_true(worst < 3e-13);
 }
 
+/* On a map that repeats along one axis: sums of the closed forms of waves along it. */
+static void
+test_sums_of_waves_are_double_sums(void **state)
+{
+    static const struct rc_shape maps[] = {{7, 5, 1.1, 0.9}, {8, 8, 1, 1},   {1, 9, 1, 2},
+                                           {16, 1, 0.5, 3},  {6, 10, 1, 40}, {2, 31, 0.01, 1}};
+    static const struct rc_boundary boundaries[] = {
+        {.x = true}, {.y = true}, {.y = true, .datum = 3}};
+    struct rc_shear shear;
+    double worst = 0;
+
+    (void)state;
+    assert_int_equal(rc_pair_shear(&pairs[0], NAN, &shear, NULL), RC_OK);
+    shear.estar = 1;
+    for (size_t s = 0; s < 6; s++)
+        for (int b = 0; b < 3; b++) {
+            const struct rc_shape *shape = &maps[s];
+            const size_t n = shape->nx * shape->ny;
+            const struct line_pair pair = {shear.kap, shear.beta,
+                                           rc_boundary_on(shape, boundaries[b]).datum};
+            const bool along_x = boundaries[b].x;
+            struct rc_tangential *t = rc_tangential_new(shape, boundaries[b], &shear, 2, NULL);
+            struct maps m = maps_new(n, 3 + s), pushed = maps_new(n, 3 + s);
+            struct dense d;
+            double size = 0, off = 0;
+
+            assert_non_null(t);
+            line_matrix(&d, shape, boundaries[b], shear.kap);
+            rc_tangential_apply(t, m.q, m.u);
+            rc_tangential_pressure(t, m.p, pushed.u);
+            rc_tangential_normal(t, m.q, m.uz);
+            for (size_t at = 0; at < n; at++) {
+                double u[2] = {0, 0}, p[2] = {0, 0}, uz = 0;
+                for (size_t from = 0; from < n; from++) {
+                    const double i = (double)(at % shape->nx) - (double)(from % shape->nx);
+                    const double j = (double)(at / shape->nx) - (double)(from / shape->nx);
+                    for (int c = 0; c < 2; c++) {
+                        const double push =
+                            line_at((c == 0) == along_x ? LINE_PUSH_ALONG : LINE_PUSH_ACROSS, shape,
+                                    boundaries[b], &pair, i, j);
+                        u[c] += d.t[(size_t)c * n + at][from] * m.q[0][from] +
+                                d.t[(size_t)c * n + at][n + from] * m.q[1][from];
+                        p[c] -= push * m.p[from];
+                        uz += push * m.q[c][from];
+                    }
+                }
+                for (int c = 0; c < 2; c++) {
+                    size = fmax(size, fabs(u[c]));
+                    off = larger(off, fabs(u[c] - m.u[c][at]));
+                    off = larger(off, fabs(p[c] - pushed.u[c][at]));
+                }
+                off = larger(off, fabs(uz - m.uz[at]));
+            }
+            worst = larger(worst, off / size);
+            maps_free(&m);
+            maps_free(&pushed);
+            rc_tangential_free(t);
+        }
+    print_message("double sums of waves: %.1e\n", worst);
+    assert_true(worst < quadrature);
+}
+
 /* ---- in single precision ---- */
 
 /* The inverse applied to T q gives q minus its mean, in single precision. On a periodic map this is tested
@@ -450,10 +513,10 @@ test_loads_and_displacements_are_reciprocal(void **state)
     (void)state;
     assert_int_equal(rc_pair_shear(&pairs[0], NAN, &shear, NULL), RC_OK);
     for (size_t s = 0; s < SHAPES; s++)
-        for (int boundary = 0; boundary < 2; boundary++) {
+        for (int boundary = 0; boundary < 4; boundary++) {
             size_t n = shapes[s].nx * shapes[s].ny;
             struct rc_tangential *t = rc_tangential_new(
-                &shapes[s], (boundary == 0 ? RC_FREE : RC_PERIODIC), &shear, 2, NULL);
+                &shapes[s], rc_boundary_of(boundary & 1, boundary & 2), &shear, 2, NULL);
             struct maps a = maps_new(n, 11), b = maps_new(n, 12);
             double size = 0, there, back;
 
@@ -511,6 +574,7 @@ main(void)
         cmocka_unit_test(test_bodies_in_two_numbers),
         cmocka_unit_test(test_coefficients_are_integrals),
         cmocka_unit_test(test_free_sums_are_double_sums),
+        cmocka_unit_test(test_sums_of_waves_are_double_sums),
         cmocka_unit_test(test_the_inverse_in_single_precision),
         cmocka_unit_test(test_waves_of_planes_and_strips),
         cmocka_unit_test(test_waves_are_plane_and_antiplane),
