@@ -160,8 +160,8 @@ spin_of(const struct rolling *f)
     return rc_point_has(&f->base.to, RC_SPIN) ? f->base.to.at[RC_SPIN] : 0;
 }
 
-/* m: a point `ahead` of node k, from the middle of the contact. A periodic map has a contact in each period;
- * the point belongs to the nearest one. */
+/* m: a point `ahead` of node k, from the middle of the contact. A map that repeats has a contact in each
+ * period; the point belongs to the nearest one. */
 static void
 from_middle(const struct level *l, size_t k, double ahead, double at[2])
 {
@@ -169,8 +169,9 @@ from_middle(const struct level *l, size_t k, double ahead, double at[2])
 
     at[0] = l->x + (double)(k % s->nx) * s->dx + ahead;
     at[1] = l->y + (double)(k / s->nx) * s->dy;
-    for (int c = 0; c < 2 && l->period[0] > 0; c++)
-        at[c] -= l->period[c] * round(at[c] / l->period[c]);
+    for (int c = 0; c < 2; c++)
+        if (l->period[c] > 0)
+            at[c] -= l->period[c] * round(at[c] / l->period[c]);
 }
 
 /* The motion of body 2 over body 1 due to the spin, per length rolled, after node k. */
@@ -192,15 +193,15 @@ spans_period(const struct level *l, double length)
     const double size[2] = {l->d->shape.dx + length, l->d->shape.dy};
     bool low[2] = {false, false}, high[2] = {false, false};
 
-    for (size_t k = 0; k < l->d->n && l->period[0] > 0; k++) {
+    for (size_t k = 0; k < l->d->n && l->period[0] + l->period[1] > 0; k++) {
         double at[2];
         if (!(l->d->g[k] > 0))
             continue;
         from_middle(l, k, 0.5 * length, at);
         for (int c = 0; c < 2; c++) {
             const double end = 0.5 * (l->period[c] - size[c]), near = 1e-9 * l->period[c];
-            low[c] |= at[c] < near - end || at[c] > end + near;
-            high[c] |= at[c] > end - near || at[c] < -end - near;
+            low[c] |= l->period[c] > 0 && (at[c] < near - end || at[c] > end + near);
+            high[c] |= l->period[c] > 0 && (at[c] > end - near || at[c] < -end - near);
         }
     }
     return (low[0] && high[0]) || (low[1] && high[1]);
@@ -208,11 +209,40 @@ spans_period(const struct level *l, double length)
 
 /* ---- grids ---- */
 
-/* The node of the finer grid in the place of the first one. */
-static size_t
-first_of(size_t n)
+/* The next coarser grid. Where the map repeats its period stays: an odd number of rows is kept. */
+static struct rc_shape
+coarser(const struct rc_shape *s, struct rc_boundary boundary)
 {
-    return n > 1 ? (n - 1) % 2 : 0;
+    struct rc_shape to = rc_shape_coarser(s);
+
+    if (boundary.y && s->ny % 2 == 1) {
+        to.ny = s->ny;
+        to.dy = s->dy;
+    }
+    return to;
+}
+
+/* The node of the finer grid, of n nodes, in the place of the first one of the coarser grid, of m. */
+static size_t
+first_of(size_t n, size_t m)
+{
+    return n > m ? (n - 1) % 2 : 0;
+}
+
+/* The same for node k of the coarser grid. */
+static size_t
+place_of(size_t k, size_t n, size_t m)
+{
+    return n > m ? 2 * k + first_of(n, m) : k;
+}
+
+/* The node of the coarser grid beside node k of the finer one: at most there, or `up` it. */
+static size_t
+beside(size_t k, size_t up, size_t n, size_t m)
+{
+    const size_t first = first_of(n, m), at = n > m ? (k + first + up) / 2 - first : k;
+
+    return at < m ? at : 0;
 }
 
 /* m: the middle of the map, as the position of the contact is counted. */
@@ -229,6 +259,7 @@ make_level(struct rolling *f, size_t l, struct rc_err *err)
     const struct rc_friction_law *o = &f->problem.law;
     const struct rc_shear inside = {1, f->shear.kap, o->uncoupled ? 0 : f->shear.beta};
     struct rc_shape shape = f->base.shape;
+    struct rc_boundary boundary = o->boundary;
     struct level *at = &f->at[l];
 
     at->x = middle_of(f) - f->base.to.at[RC_POSITION] - (double)(shape.nx - 1) / 2 * shape.dx;
@@ -239,9 +270,10 @@ make_level(struct rolling *f, size_t l, struct rc_err *err)
                           "positions from the middle of the map",
                           f->base.to.at[RC_POSITION], fabs(at->x), most_columns);
     for (size_t k = 0; k < l; k++) {
-        at->x += (double)first_of(shape.nx) * shape.dx;
-        at->y += (double)first_of(shape.ny) * shape.dy;
-        shape = rc_shape_coarser(&shape);
+        const struct rc_shape next = coarser(&shape, o->boundary);
+        at->x += (double)first_of(shape.nx, next.nx) * shape.dx;
+        at->y += (double)first_of(shape.ny, next.ny) * shape.dy;
+        shape = next;
     }
     at->period[0] = o->boundary.x ? (double)shape.nx * shape.dx : 0;
     at->period[1] = o->boundary.y ? (double)shape.ny * shape.dy : 0;
@@ -249,9 +281,11 @@ make_level(struct rolling *f, size_t l, struct rc_err *err)
     at->length = f->problem.path ? f->length : shape.dx;
     if (at->d != NULL)
         return RC_OK;
+    boundary.datum *=
+        f->problem.path ? 1 / (sqrt(shape.dx) * sqrt(shape.dy)) : 0; /* (1 - S) 1 = 0 */
     at->d = rc_steady_new(&(struct rc_shape){shape.nx, shape.ny, sqrt(shape.dx / shape.dy),
                                              sqrt(shape.dy / shape.dx)},
-                          o->boundary, &inside, f->problem.force, f->problem.path, o->threads, err);
+                          boundary, &inside, f->problem.force, f->problem.path, o->threads, err);
     if (at->d == NULL)
         return RC_FAIL;
     at->d->shape = shape;
@@ -268,7 +302,7 @@ thin(const struct level *fine, const double *p, struct level *to, double *less)
 
     for (size_t j = 0; j < t->ny; j++)
         for (size_t i = 0; i < t->nx; i++)
-            less[j * t->nx + i] = p[(2 * j + first_of(s->ny)) * s->nx + 2 * i + first_of(s->nx)];
+            less[j * t->nx + i] = p[place_of(j, s->ny, t->ny) * s->nx + place_of(i, s->nx, t->nx)];
     sum = rc_sum(less, t->nx * t->ny) * t->dx * t->dy;
     for (size_t k = 0; k < t->nx * t->ny && sum > 0; k++)
         less[k] *= all / sum;
@@ -358,6 +392,16 @@ carries(const struct rolling *f, struct rc_err *err)
                      size, limit);
 }
 
+static enum rc_status
+check_spin(const struct rolling *f, struct rc_err *err)
+{
+    if (spin_of(f) == 0 || !spans_period(f->at, f->at->length))
+        return RC_OK;
+    return rc_err_set(
+        err, "the contact reaches half a period from its middle, where the spin of a map that "
+             "repeats jumps: take a map with a longer period, or a boundary that is free there");
+}
+
 /* Poses the next step of a path, in a map that has moved by some columns. */
 static enum rc_status
 pose_step(struct rolling *f, size_t columns, struct rc_err *err)
@@ -367,10 +411,8 @@ pose_step(struct rolling *f, size_t columns, struct rc_err *err)
     if (make_level(f, 0, err) != RC_OK)
         return RC_FAIL;
     pose_level(f, l, f->p);
-    if (spin_of(f) != 0 && spans_period(l, f->length))
-        return rc_err_set(
-            err, "the contact reaches half a period from its middle, where the spin of a periodic "
-                 "map jumps: take a map with a longer period, or the free boundary");
+    if (check_spin(f, err) != RC_OK)
+        return RC_FAIL;
     f->levels = 1;
     l->d->asked.tol *= f->rolls ? 1 - f->kept : 1;
     if (f->resumes && f->stage == THERE) {
@@ -421,7 +463,7 @@ pose(struct rolling *f, struct rc_err *err)
         pose_level(f, l, p);
         more = f->levels + 1 < LEVELS && run_of(&l->d->shape, p) >= RUN;
     }
-    return carries(f, err);
+    return check_spin(f, err) == RC_OK ? carries(f, err) : RC_FAIL;
 }
 
 /* The start of a grid: the q/g of the coarser one. */
@@ -429,14 +471,12 @@ static void
 refine(const struct level *from, struct level *to)
 {
     const struct rc_shape *s = &from->d->shape, *t = &to->d->shape;
-    const size_t oi = first_of(t->nx), oj = first_of(t->ny);
 
     for (size_t k = 0; k < to->d->n; k++) {
-        const size_t i = k % t->nx, j = k / t->nx;
         size_t at = 0;
         for (size_t up = 0; up < 4; up++) { /* the first neighbour with a load */
-            const size_t a = (i + oi + up % 2) / 2 - oi, b = (j + oj + up / 2) / 2 - oj;
-            at = (b < s->ny ? b : 0) * s->nx + (a < s->nx ? a : 0);
+            at = beside(k / t->nx, up / 2, t->ny, s->ny) * s->nx +
+                 beside(k % t->nx, up % 2, t->nx, s->nx);
             if (from->d->g[at] > 0)
                 break;
         }

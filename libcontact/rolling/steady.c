@@ -400,6 +400,9 @@ set_out(struct rc_steady *d, double *const before[2], size_t columns, double tol
     if (discs == NULL && (discs = d->discs = rc_discs_new(d->t, err)) == NULL)
         return RC_FAIL;
     memcpy(discs->g, d->g, d->n * sizeof *d->g);
+    if (!d->asked.force &&
+        rc_discs_check_datum(discs, sqrt(d->shape.dx) * sqrt(d->shape.dy), err) != RC_OK)
+        return RC_FAIL;
     for (int c = 0; c < 2; c++)
         for (size_t k = 0; k < d->n; k++) {
             discs->q[c][k] = d->q[c][k];

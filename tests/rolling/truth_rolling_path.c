@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* A path of rolling with spin on a periodic map is that of dense matrices, which know nothing of
- * transforms and of faces, with distances from the nearest middle. It does not depend on where the map
- * begins. A contact that reaches half a period from its middle is refused with spin, and has no moment
+/* A path of rolling with spin on a map that repeats along one axis or both is that of dense matrices, which
+ * know nothing of transforms and of faces, with distances from the nearest middle. It does not depend on where
+ * the map begins. A contact that reaches half a period from its middle is refused with spin, and has no moment
  * without. */
 #include <setjmp.h>
 #include <stdarg.h>
@@ -21,6 +21,7 @@ enum {
 /* A rough ball that rolls over the end of its map. */
 struct way {
     struct rc_shape shape;
+    struct rc_boundary boundary;
     double nu, mu, creep[3], start, length; /* m: position of the first point, of a step */
     double axes[2];                         /* m: of the contact                         */
     uint64_t seed;                          /* of the roughness                          */
@@ -34,15 +35,19 @@ between(uint64_t *seed, double low, double high)
 
 /* m: node k from the nearest image of the middle. */
 static void
-nearest(const struct rc_shape *s, size_t k, double position, double ahead, double at[2])
+nearest(const struct way *w, size_t k, double position, double ahead, double at[2])
 {
-    at[0] = remainder(((double)(k % s->nx) - (double)(s->nx - 1) / 2) * s->dx + ahead - position,
-                      (double)s->nx * s->dx);
+    const struct rc_shape *s = &w->shape;
+
+    at[0] = ((double)(k % s->nx) - (double)(s->nx - 1) / 2) * s->dx + ahead - position;
     at[1] = ((double)(k / s->nx) - (double)(s->ny - 1) / 2) * s->dy;
+    if (w->boundary.x)
+        at[0] = remainder(at[0], (double)s->nx * s->dx);
 }
 
+/* On a map that ends the contact stays within it. */
 static struct way
-random_way(uint64_t *seed)
+random_way(uint64_t *seed, struct rc_boundary boundary)
 {
     static const size_t sides[][2] = {{8, 8}, {9, 7}, {16, 4}, {12, 5}, {7, 9}, {10, 6}};
     const size_t which = (size_t)between(seed, 0, 6);
@@ -56,6 +61,12 @@ random_way(uint64_t *seed)
         w.axes[c] =
             between(seed, 0.2, 0.5) * (period[c] - (c == 0 ? 2 * w.length + w.shape.dx : 1));
     w.start = between(seed, -1, 1) * period[0];
+    w.boundary = boundary;
+    if (!boundary.x) {
+        w.axes[0] = fmax(0.4 * w.axes[0], w.shape.dx);
+        w.start = -period[0] / 2 + w.axes[0] + w.shape.dx;
+        w.length = fmin(w.length, (-2 * w.start - w.shape.dx) / (STEPS + 1));
+    }
     for (int c = 0; c < 3; c++)
         w.creep[c] = between(seed, -1, 1) * w.mu / (c == 2 ? w.axes[1] : 1);
     w.seed = (uint64_t)between(seed, 1, 1e6);
@@ -70,7 +81,7 @@ press(const struct way *w, double position, double *p)
 
     for (size_t k = 0; k < n; k++) {
         double at[2];
-        nearest(&w->shape, k, position, 0, at);
+        nearest(w, k, position, 0, at);
         p[k] = sqrt(fmax(1 - pow(at[0] / w->axes[0], 2) - pow(at[1] / w->axes[1], 2), 0)) *
                (1 + 0.4 * sin((double)w->seed + 3 * at[0] + 5 * at[1]));
     }
@@ -83,7 +94,7 @@ model_of(const struct way *w, const double *p)
                        (struct rc_rolling_problem){.law = {.pair.estar = 1,
                                                            .nu = w->nu,
                                                            .mu = w->mu,
-                                                           .boundary = RC_PERIODIC,
+                                                           .boundary = w->boundary,
                                                            .tol = 1e-9,
                                                            .threads = 1},
                                                    .path = true},
@@ -127,7 +138,7 @@ dense_step(struct dense *d, const struct way *w, double position, const double *
     }
     for (size_t k = 0; k < d->n; k++) {
         double at[2];
-        nearest(&w->shape, k, position, w->length / 2, at);
+        nearest(w, k, position, w->length / 2, at);
         d->g[k] = w->mu * p[k];
         d->w[k] = u[k] + w->length * (w->creep[0] - w->creep[2] * at[1]);
         d->w[d->n + k] = u[d->n + k] + w->length * (w->creep[1] + w->creep[2] * at[0]);
@@ -136,7 +147,7 @@ dense_step(struct dense *d, const struct way *w, double position, const double *
     sum[0] = sum[1] = sum[2] = 0;
     for (size_t k = 0; k < d->n; k++) {
         double at[2];
-        nearest(&w->shape, k, position, 0, at);
+        nearest(w, k, position, 0, at);
         sum[0] += q[k] * cell;
         sum[1] += q[d->n + k] * cell;
         sum[2] += (at[0] * q[d->n + k] - at[1] * q[k]) * cell;
@@ -151,14 +162,15 @@ test_dense_path(void **state)
     size_t stick = 0, slipping = 0;
 
     (void)state;
-    for (int which = 0; which < 50; which++) {
-        const struct way w = random_way(&seed);
+    for (int which = 0; which < 90; which++) {
+        const struct way w = random_way(
+            &seed, which < 50 ? RC_PERIODIC : rc_boundary_of(which % 2 == 0, which % 2 == 1));
         double p[DENSE_MOST], q[2 * DENSE_MOST], exact[2 * DENSE_MOST] = {0}, sum[3];
         static struct dense d;
         struct rc_model *m = model_of(&w, p);
         double stored = 0;
 
-        periodic_matrix(&d, &w.shape, w.nu / (1 - w.nu));
+        matrix_of(&d, &w.shape, w.boundary, w.nu / (1 - w.nu));
         press(&w, w.start, p);
         roll_to(m, &w, w.start, q);
         for (int step = 1; step <= STEPS; step++) {
@@ -180,7 +192,7 @@ test_dense_path(void **state)
                 const int c = i < d.n ? 0 : 1;
                 for (size_t j = 0; j < 2 * d.n; j++)
                     u += d.t[i][j] * exact[j];
-                nearest(&w.shape, i % d.n, position, w.length / 2, at);
+                nearest(&w, i % d.n, position, w.length / 2, at);
                 now += exact[i] * u / 2;
                 supplied += (exact[i] + before[i]) / 2 *
                             (w.creep[c] + w.creep[2] * (c == 0 ? -at[1] : at[0]));
@@ -212,7 +224,8 @@ test_begin_of_map(void **state)
 
     (void)state;
     for (int which = 0; which < 8; which++) {
-        const struct way w = random_way(&seed);
+        const struct way w =
+            random_way(&seed, which % 2 == 0 ? RC_PERIODIC : rc_boundary_of(true, false));
         double p[2][DENSE_MOST], q[2][2 * DENSE_MOST];
         const size_t nx = w.shape.nx, n = nx * w.shape.ny, columns = nx / 2;
         struct rc_model *m[2] = {model_of(&w, p[0]), model_of(&w, p[1])};
@@ -247,9 +260,17 @@ test_half_a_period(void **state)
     static const struct {
         size_t first[2], last[2]; /* columns and rows of the contact */
         bool there, in_step;
-    } of[] = {{{2, 1}, {8, 4}, false, false}, {{0, 2}, {9, 3}, true, true},
-              {{3, 0}, {5, 5}, true, true},   {{0, 2}, {1, 3}, false, false},
-              {{3, 0}, {5, 2}, false, false}, {{6, 2}, {9, 3}, false, true}};
+        struct rc_boundary boundary;
+    } of[] = {{{2, 1}, {8, 4}, false, false, {true, true, 0}},
+              {{0, 2}, {9, 3}, true, true, {true, true, 0}},
+              {{3, 0}, {5, 5}, true, true, {true, true, 0}},
+              {{0, 2}, {1, 3}, false, false, {true, true, 0}},
+              {{3, 0}, {5, 2}, false, false, {true, true, 0}},
+              {{6, 2}, {9, 3}, false, true, {true, true, 0}},
+              {{3, 0}, {5, 5}, true, true, {false, true, 0}},
+              {{0, 2}, {8, 3}, false, false, {false, true, 0}},
+              {{3, 0}, {5, 5}, false, false, {true, false, 0}},
+              {{0, 2}, {9, 3}, true, true, {true, false, 0}}};
     struct way w = {.shape = {10, 6, 1, 1}, .nu = 0.3, .mu = 0.3, .length = 1};
 
     (void)state;
@@ -257,8 +278,10 @@ test_half_a_period(void **state)
         for (int spin = 0; spin < 2; spin++) {
             double p[60] = {0}, q[120];
             struct rc_point to = {0};
-            struct rc_model *m = model_of(&w, p);
+            struct rc_model *m;
 
+            w.boundary = of[k].boundary;
+            m = model_of(&w, p);
             for (size_t i = of[k].first[0]; i <= of[k].last[0]; i++)
                 for (size_t j = of[k].first[1]; j <= of[k].last[1]; j++)
                     p[j * 10 + i] = 1;
