@@ -68,6 +68,7 @@ claim "a file above the limit is refused" check limit
 claim "a broken file gives the message of rc-import" check broken broken.x3p 'the ZIP archive is damaged or cut off'
 claim "a file that is not a surface" check broken note.doc 'not recognised'
 claim "a wrong unit gives the message of rc-solve" check wrong_unit
+claim "all four boundaries can be chosen" check boundaries
 
 # ---- runs ----
 

@@ -185,6 +185,15 @@ def wrong_unit():
     assert run['state'] == 'failed' and "unknown unit 'K'" in run['steps'][1]['words'], run
 
 
+def boundaries():
+    """All four boundaries can be chosen; the frames have their names."""
+    for axes, word in ((None, 'free'), ('xy', 'periodic'), ('x', 'periodic-x'), ('y', 'periodic-y')):
+        more = [] if axes is None else [['periodic', axes]]
+        run = ended(start(SAMPLE, ('rc-import', []), ('rc-detrend', LEVEL), ('rc-solve', [['load', '1N'], ['estar', '114GPa']] + more)))
+        heads = found('frames', {'run': run['number'], 'step': 2})
+        assert heads[0]['boundary'] == word, heads[0]
+
+
 def options():
     """Only options of the tables, and no file outside of the folder of the run."""
     for tool, option, words in (('rc-solve', ['o', 'x'], 'no option --o'), ('rc-pick', ['psd-map', 'x'], 'no option'), ('rc-solve', ['report', 'x'], 'no option'), ('rc-solve', ['checkpoint', 'x'], 'no option'),

@@ -36,7 +36,7 @@ struct boundary_args {
 /* A row of a tool's table for each, with .at of a struct boundary_args in the arguments. */
 #define OPT_PERIODIC(place, says)                                                                  \
     {                                                                                              \
-        .name = "periodic", .type = OPT_CHOICE, .arg = "x|y|xy", .optional = true, .result = true, \
+        .name = "periodic", .type = OPT_CHOICE, .arg = "xy|x|y", .optional = true, .result = true, \
         .at = (place) + offsetof(struct boundary_args, periodic), .help = says                     \
     }
 #define OPT_DATUM(place)                                                                           \
