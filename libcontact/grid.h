@@ -128,6 +128,13 @@ rc_repeats(struct rc_boundary boundary)
     return (int)boundary.x + (int)boundary.y;
 }
 
+/* The word of the key `periodic` of a surface that repeats so: yes, no, x, y. */
+static inline const char *
+rc_repeats_word(struct rc_boundary boundary)
+{
+    return rc_repeats(boundary) == 2 ? "yes" : boundary.x ? "x" : boundary.y ? "y" : "no";
+}
+
 /* True if a uniform pressure displaces the surface relative to a point far away: some axis is free. */
 static inline bool
 rc_has_mean(struct rc_boundary boundary)

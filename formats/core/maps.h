@@ -52,11 +52,11 @@ struct rc_map {
     double beside;              /* bytes that fill needs in addition to v; rc_map_bound sets them */
     const struct rc_wish *wish; /* data of fill, and the notes */
     struct rc_notes *notes;
-    struct rc_piece title; /* title of this map, for the key file.title; n = 0: none */
-    bool periodic;         /* the file says that the map repeats */
-    bool heights;          /* the values are heights: a unit that is not a length is refused */
-    bool own_dy;           /* --dx does not give the spacing in y */
-    const char *doubt;     /* a doubt about the heights: noted, unless --z-unit is given     */
+    struct rc_piece title;      /* title of this map, for the key file.title; n = 0: none */
+    struct rc_boundary repeats; /* the axes along which the map repeats, as the file says */
+    bool heights;               /* the values are heights: a unit that is not a length is refused */
+    bool own_dy;                /* --dx does not give the spacing in y */
+    const char *doubt;          /* a doubt about the heights: noted, unless --z-unit is given     */
     double step[2]; /* the spacing if the file gives it without a unit, and a text about it for the
                        message: */
     char hint[128];

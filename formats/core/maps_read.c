@@ -277,7 +277,8 @@ rc_maps_read(struct rc_maps *maps, const struct rc_wish *wish, size_t index, str
         (strcmp(map->name, "height") != 0 &&
          rc_word_keep(g, "file.channel", map->name, err) != RC_OK) ||
         rc_piece_keep(g, "file.title", map->title, err) != RC_OK ||
-        (map->periodic && rc_grid_set(g, "periodic", "yes", err) != RC_OK))
+        (rc_repeats(map->repeats) > 0 &&
+         rc_grid_set(g, "periodic", rc_repeats_word(map->repeats), err) != RC_OK))
         return NULL;
     for (size_t k = 0; k < maps->keys; k++)
         if (rc_grid_set(g, maps->key[k].name, maps->key[k].value, err) != RC_OK)

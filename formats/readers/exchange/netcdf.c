@@ -212,7 +212,7 @@ add_map(const struct rc_cdf *f, const struct rc_cdf_variable *v, struct rc_maps 
 {
     struct rc_map *map = rc_maps_add(maps, v->name);
     double angstrom = 1e-10, dz = 1;
-    bool along_x, along_y, gxsm = is_gxsm(f, v, &dz);
+    bool gxsm = is_gxsm(f, v, &dz);
     size_t x, y;
 
     map->by_columns = rc_cdf_is(f->dimension[v->dimension[0]].name, "x") &&
@@ -221,8 +221,8 @@ add_map(const struct rc_cdf *f, const struct rc_cdf_variable *v, struct rc_maps 
     y = v->dimension[map->by_columns ? 1 : 0];
     map->nx = (size_t)length(f, x);
     map->ny = (size_t)length(f, y);
-    if (step_of(f, x, gxsm ? angstrom : NAN, &map->dx, &along_x, err) != RC_OK ||
-        step_of(f, y, gxsm ? angstrom : NAN, &map->dy, &along_y, err) != RC_OK)
+    if (step_of(f, x, gxsm ? angstrom : NAN, &map->dx, &map->repeats.x, err) != RC_OK ||
+        step_of(f, y, gxsm ? angstrom : NAN, &map->dy, &map->repeats.y, err) != RC_OK)
         return RC_FAIL;
     map->right_first = map->dx < 0;
     map->bottom_first = map->dy < 0 && !gxsm; /* there y falls from the top row on */
@@ -231,7 +231,6 @@ add_map(const struct rc_cdf *f, const struct rc_cdf_variable *v, struct rc_maps 
     map->fill = fill_values;
     map->more = (size_t)(v - f->variable);
     map->title = v->title;
-    map->periodic = along_x && along_y;
     rc_map_unit(map, v->unit);
     if (gxsm && strcmp(map->unit, "m") == 0)
         map->si = angstrom;

@@ -21,7 +21,8 @@ struct cdf {
     double step_y;
     const char *unit;
     double fill, factor, offset;
-    bool coordinates, periodic;
+    bool coordinates;
+    int periodic; /* 1: along x, 2: along y, 3: both */
 };
 
 static const struct cdf cdf = {.version = 1,
@@ -88,8 +89,8 @@ static void
 cdf_variable(struct bytes *b, const struct cdf *c, const char *name, size_t rank, unsigned first,
              const char *unit, unsigned type, uint64_t size, uint64_t at)
 {
-    bool map = rank == 2;
-    size_t attributes = (size_t)1 + (!map && c->periodic) +
+    const bool map = rank == 2, periodic = !map && (c->periodic & (strcmp(name, "x") == 0 ? 1 : 2));
+    size_t attributes = (size_t)1 + periodic +
                         (map ? (size_t)!isnan(c->fill) + (c->factor != 1) + (c->offset != 0) : 0);
 
     cdf_text(b, c, name);
@@ -100,7 +101,7 @@ cdf_variable(struct bytes *b, const struct cdf *c, const char *name, size_t rank
     cdf_text(b, c, "units");
     add_number(b, 2, 4);
     cdf_text(b, c, unit);
-    if (!map && c->periodic)
+    if (periodic)
         cdf_number(b, c, "periodic", 1);
     if (map && !isnan(c->fill))
         cdf_number(b, c, "_FillValue", c->fill);
@@ -184,6 +185,8 @@ cdf_file(const struct cdf *c)
     return b;
 }
 
+static const char *const periods[] = {NULL, "x", "y", "yes"};
+
 static void
 check_cdf(const struct cdf *c, bool turned)
 {
@@ -202,7 +205,10 @@ check_cdf(const struct cdf *c, bool turned)
         check_map(g, 2, 3, 0.7e-6, 1.25e-6, v);
     else
         check_map(g, 3, 2, 1.25e-6, 0.7e-6, v);
-    assert_int_equal(rc_grid_get(g, "periodic") != NULL, c->periodic);
+    if (c->periodic == 0)
+        assert_null(rc_grid_get(g, "periodic"));
+    else
+        assert_string_equal(rc_grid_get(g, "periodic"), periods[c->periodic]);
     assert_string_equal(rc_grid_get(g, "file.channel"), "heights");
     rc_grid_free(g);
     drop(&b);
@@ -225,7 +231,8 @@ netcdf_is_read(void **state)
             c.fill = 100;
             c.factor = 0.25;
             c.offset = -3;
-            c.periodic = true;
+            for (c.periodic = 1; c.periodic < 3; c.periodic++)
+                check_cdf(&c, false);
             check_cdf(&c, false);
             c.rows = 0; /* along the record dimension */
             check_cdf(&c, false);
