@@ -127,7 +127,7 @@ RC_API enum rc_status rc_detrend_rows(const struct rc_shape *shape, size_t degre
                                       double *h, struct rc_err *err);
 
 /* The Gaussian regression filter of order 0 over the measured points: ISO 16610-61, for profiles 16610-21. A
- * missing point stays missing and has no weight; a map that is not periodic ends at its edges. */
+ * missing point stays missing and has no weight; along a free axis the map ends at its edges. */
 struct rc_filter {
     /* m, wavelength with 50 % transmission */
     double cutoff;
@@ -136,8 +136,8 @@ struct rc_filter {
     /* ISO 16610-71, 16610-31: weights (1 - (r/c)^2)^2 of the residuals r, c = 4.4478 times the
      * median of |r|, iterated until c converges */
     bool robust;
-    /* the map repeats */
-    bool periodic;
+    /* the filter continues at the opposite edge along an axis that repeats */
+    struct rc_boundary boundary;
     /* 0: all */
     size_t threads;
 };
@@ -149,11 +149,12 @@ RC_API enum rc_status rc_filter(const struct rc_shape *shape, const struct rc_fi
 /* Sets a point to missing if it differs too much from the median of the others in the 5 x 5 nodes around it.
  * The limit is `times` times the spread. *count is the number of such points. The spread is 1.4826 times the
  * median absolute deviation of all such differences, which is the standard deviation for Gaussian noise.
- * Missing neighbours and, unless the map is periodic, those beyond its edges do not count; a point without
+ * Missing neighbours and, along a free axis, those beyond the edges do not count; a point without
  * neighbours is kept. RC_FAIL when `times` is not positive, a height is infinite, or memory is short; h is
  * then unchanged. */
-RC_API enum rc_status rc_outliers(const struct rc_shape *shape, double times, bool periodic,
-                                  size_t threads, double *h, size_t *count, struct rc_err *err);
+RC_API enum rc_status rc_outliers(const struct rc_shape *shape, double times,
+                                  struct rc_boundary boundary, size_t threads, double *h,
+                                  size_t *count, struct rc_err *err);
 
 /* Blends the outer `width` (m) of the map into the mean of all heights. In each direction it multiplies the
  * difference from the mean by (1 - cos(pi s / width)) / 2, s the distance of the node from the edge. The map
@@ -195,18 +196,20 @@ RC_API void rc_resample_means(const struct rc_shape *from, const double *v,
  * RC_FAIL when a spacing is not positive or wider than the map, or there are too many nodes. */
 RC_API enum rc_status rc_resample_shape(const struct rc_shape *from, double dx, double dy,
                                         struct rc_shape *to, struct rc_err *err);
-/* Whether the cells of `to` cover the map `from` completely, within RC_SAME_SPACING; a periodic map then
- * stays periodic. */
-RC_API bool rc_resample_covers(const struct rc_shape *from, const struct rc_shape *to);
+/* Whether the cells of `to` cover the map `from` completely along this axis, within RC_SAME_SPACING; a map
+ * that repeats along it still does then. */
+RC_API bool rc_resample_covers(const struct rc_shape *from, const struct rc_shape *to,
+                               enum rc_map_axis axis);
 /* v on the grid `to`, with the same middle. Along an axis with larger cells: means over their area, missing
  * (NaN) where less than half of it is measured. Along an axis with smaller cells it is cubic convolution with
- * six nodes (Keys 1981), exact for cubic polynomials and smooth to the first derivative. It wraps if
- * `periodic`; otherwise a parabola extrapolates the map. Near a missing value it is bilinear, closer constant
+ * six nodes (Keys 1981), exact for cubic polynomials and smooth to the first derivative. It wraps along an
+ * axis that repeats; along a free axis a parabola extrapolates the map. Near a missing value it is bilinear, closer constant
  * in the old cell, and missing in a missing cell. Equal cells are copied. v and out do not overlap. RC_FAIL
  * when `to` exceeds the map or memory is short. The memory is another map if one axis becomes coarser and the
  * other finer, otherwise a few rows. */
-RC_API enum rc_status rc_resample(const struct rc_shape *from, const double *v, bool periodic,
-                                  const struct rc_shape *to, double *out, struct rc_err *err);
+RC_API enum rc_status rc_resample(const struct rc_shape *from, const double *v,
+                                  struct rc_boundary boundary, const struct rc_shape *to,
+                                  double *out, struct rc_err *err);
 
 /* The to->nx by to->ny values from column `left` and row `top` on; out may be v. RC_FAIL when they exceed the
  * map. */
@@ -214,12 +217,13 @@ RC_API enum rc_status rc_crop(const struct rc_shape *from, const double *v, size
                               const struct rc_shape *to, double *out, struct rc_err *err);
 /* Reverses left and right (axis 'x') or top and bottom ('y'), in place. */
 RC_API void rc_mirror(const struct rc_shape *shape, char axis, double *v);
-/* Reflection: the upper left quarter holds the map, the others its images about the right and the lower edge.
- * This is a period without steps. A side of one node is not reflected. Rotation: quarter turns
- * counterclockwise, row 0 at the top. *_shape: the resulting shape (an odd number of turns exchanges rows and
+/* Reflection along the axes that `along` repeats: the map is in the upper left, with its images about the
+ * right edge (x) and the lower edge (y). This is a period without steps along these axes. A side of one node
+ * is not reflected. Rotation: quarter turns counterclockwise, row 0 at the top. *_shape: the resulting shape (an odd number of turns exchanges rows and
  * columns). v and out do not overlap. */
-RC_API struct rc_shape rc_reflect_shape(const struct rc_shape *from);
-RC_API void rc_reflect(const struct rc_shape *from, const double *v, double *out);
+RC_API struct rc_shape rc_reflect_shape(const struct rc_shape *from, struct rc_boundary along);
+RC_API void rc_reflect(const struct rc_shape *from, const double *v, struct rc_boundary along,
+                       double *out);
 RC_API struct rc_shape rc_rotate_shape(const struct rc_shape *from, size_t quarters);
 RC_API void rc_rotate(const struct rc_shape *from, const double *v, size_t quarters, double *out);
 
@@ -405,7 +409,7 @@ RC_API void rc_profile_along(const struct rc_shape *shape, const double *h, stru
 
 struct rc_psd_options {
     struct rc_boundary boundary;
-    /* a name of rc_window_name; NULL: none for a periodic map, else hann */
+    /* a name of rc_window_name; NULL: none for a map that repeats along both axes, else hann */
     const char *window;
     /* m: range of the fit of the Hurst exponent; both 0: where the spectrum follows a power law */
     double shortest, longest;
@@ -422,7 +426,7 @@ struct rc_psd_options {
  * area of the map, is Sq^2. With a window w it is |FFT(w h)|^2 dx dy/(nx ny)/mean(w^2), as in Gwyddion and
  * SurfaceTopography. Its sum is then the mean square in the window: Sq^2 on average for statistically
  * homogeneous surfaces. The window is applied along each side, to heights less their mean weighted with
- * it. */
+ * it; if the map repeats along one axis, along the other side only. */
 struct rc_psd {
     size_t rings;
     /* rad/m: mean over the waves of a ring */

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* rc-add: the sum of two facing surfaces, as one surface pressed against a flat. */
 #include "tools/cli/cli.h"
+#include "tools/frames/frames.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -113,17 +114,22 @@ refuse_spacings(struct tool *t, const struct rc_grid *a, const struct rc_grid *b
 
 /* ---- keys ---- */
 
-static enum rc_status
-set_periodic(struct tool *t, struct rc_grid *a, const struct rc_grid *b, bool cut,
-             struct rc_err *err)
+/* The sum repeats along an axis if both do and no node was cut along it. */
+static void
+set_periodic(struct tool *t, struct rc_grid *a, const struct rc_grid *b, struct rc_boundary cut)
 {
-    if (!map_says(a, "periodic", "yes") || (map_says(b, "periodic", "yes") && !cut))
-        return RC_OK;
-    tool_warn(
-        t, "%s: this surface is periodic, but the result is not, because %s: it gets periodic=no",
-        tool_where(t, a), cut ? "the maps are cut to their overlap" : "the other one is not");
-    return rc_grid_set(a, "taper", NULL, err) == RC_OK ? rc_grid_set(a, "periodic", "no", err)
-                                                       : RC_FAIL;
+    const struct rc_boundary other = map_repeats(b);
+    const char *along = map_end_period(t, a, rc_boundary_of(cut.x || !other.x, cut.y || !other.y));
+
+    if (along == NULL)
+        return;
+    tool_warn(t,
+              "%s: this surface is periodic, but the result is not%s, because %s: it gets "
+              "periodic=%s",
+              tool_where(t, a), along,
+              rc_repeats(cut) > 0 ? "the maps are cut to their overlap" : "the other one is not",
+              rc_grid_get(a, "periodic"));
+    tool_set(t, a, "taper", NULL);
 }
 
 /* A shape that was added to one of them is in the sum; the same shape in both cancels in the difference. */
@@ -205,16 +211,16 @@ static void
 add(struct tool *t, struct rc_grid *a, const struct rc_grid *b)
 {
     struct rc_shape sa = rc_grid_shape(a), sb = rc_grid_shape(b), sum;
-    bool cut;
+    struct rc_boundary cut;
 
     if (rc_add_shape(&sa, &sb, &sum, &t->err) != RC_OK)
         refuse_spacings(t, a, b);
-    cut = sa.nx != sb.nx || sa.ny != sb.ny;
-    if (cut)
+    cut = rc_boundary_of(sa.nx != sb.nx, sa.ny != sb.ny);
+    if (rc_repeats(cut) > 0)
         tool_note(t, "%s: %zu x %zu nodes and %zu x %zu of B: cut to the %zu x %zu that they share",
                   tool_where(t, a), sa.nx, sa.ny, sb.nx, sb.ny, sum.nx, sum.ny);
     tool_must(t, a, (args.subtract ? rc_subtract : rc_add)(&sa, a->v, &sb, b->v, a->v, &t->err));
-    tool_must(t, a, set_periodic(t, a, b, cut, &t->err));
+    set_periodic(t, a, b, cut);
     tool_must(t, a, set_form(a, b, &t->err));
     tool_must(t, a, add_history(t, a, b, &t->err));
     a->nx = sum.nx;

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "tools/cli/cli.h"
+#include "tools/frames/frames.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -23,15 +24,42 @@ struct work {
 static const double filled_much = 0.05;
 static const double outliers_much = 0.05; /* the same for outliers */
 
-/* Removing a form from a periodic surface opens a step between the periods. */
-static enum rc_status
-end_period(struct tool *t, struct rc_grid *g, struct rc_err *err)
+/* Removing a form from a periodic surface opens a step between the periods, along the axes along which the
+ * form changes. */
+static void
+end_period(struct tool *t, struct rc_grid *g, struct rc_boundary changes)
 {
-    if (!map_says(g, "periodic", "yes"))
-        return RC_OK;
-    tool_warn(t, "%s: a periodic surface is not periodic without its form: it gets periodic=no",
-              tool_where(t, g));
-    return rc_grid_set(g, "periodic", "no", err);
+    const char *along = map_end_period(t, g, changes);
+
+    if (along != NULL)
+        tool_warn(t,
+                  "%s: a periodic surface is not periodic%s without its form: it gets periodic=%s",
+                  tool_where(t, g), along, rc_grid_get(g, "periodic"));
+}
+
+/* The axes along which the heights have changed by different amounts: by more than the rounding of a fit. */
+static struct rc_boundary
+changed_along(struct tool *t, const struct rc_grid *g, const double *before)
+{
+    const double of_range = 1e-9, of_height = 1e-15;
+    struct rc_boundary changes = RC_FREE;
+    RC_OWNED double *column = tool_room(t, g->nx, sizeof *column, "a row of a map");
+    struct rc_statistics s;
+    double rounding;
+
+    rc_measure(rc_shape_of(g), before, &s);
+    rounding = of_range * (s.maximum - s.minimum) + of_height * fmax(s.maximum, -s.minimum);
+    for (size_t j = 0; j < g->ny; j++) {
+        double row = NAN; /* the first change of this row, and those of the columns */
+        for (size_t i = 0; i < g->nx; i++) {
+            const double here = before[j * g->nx + i] - g->v[j * g->nx + i];
+            row = isnan(row) ? here : row;
+            column[i] = j == 0 || isnan(column[i]) ? here : column[i];
+            changes.x = changes.x || fabs(here - row) > rounding;
+            changes.y = changes.y || fabs(here - column[i]) > rounding;
+        }
+    }
+    return changes;
 }
 
 static enum rc_status
@@ -40,8 +68,13 @@ remove_form(struct tool *t, struct rc_grid *g, const struct step *step, struct r
     struct rc_form form = ((const struct work *)step->opt->of)->form;
     const char *where = tool_where(t, g);
     double radius;
+    RC_OWNED double *before = NULL;
 
     form.degree += (size_t)step->value;
+    if (rc_repeats(map_repeats(g)) > 0 && !(form.kind == RC_POLYNOMIAL && form.degree == 0)) {
+        before = tool_room(t, rc_grid_nodes(g), sizeof *before, "the heights");
+        memcpy(before, g->v, rc_grid_nodes(g) * sizeof *before);
+    }
     form.robust = args.robust;
     form.threads = t->threads;
     if (rc_detrend_form(rc_shape_of(g), &form, g->v, &radius, err) != RC_OK)
@@ -53,10 +86,12 @@ remove_form(struct tool *t, struct rc_grid *g, const struct step *step, struct r
                               : rc_grid_set(g, "form.radius", NULL, err)) != RC_OK) /* flat */
             return RC_FAIL;
     }
-    return form.kind == RC_POLYNOMIAL && form.degree == 0 ? RC_OK : end_period(t, g, err);
+    if (before != NULL)
+        end_period(t, g, changed_along(t, g, before));
+    return RC_OK;
 }
 
-/* Levelling rows keeps a period along x; removing slopes of rows does not. */
+/* Levelling rows keeps a period; removing slopes of rows keeps it along y only. */
 static enum rc_status
 rows(struct tool *t, struct rc_grid *g, const struct step *step, struct rc_err *err)
 {
@@ -64,7 +99,9 @@ rows(struct tool *t, struct rc_grid *g, const struct step *step, struct rc_err *
 
     if (rc_detrend_rows(rc_shape_of(g), (size_t)degree, args.robust, g->v, err) != RC_OK)
         return RC_FAIL;
-    return degree > 0 ? end_period(t, g, err) : RC_OK;
+    if (degree > 0)
+        end_period(t, g, rc_boundary_of(true, false));
+    return RC_OK;
 }
 
 static enum rc_status
@@ -73,7 +110,7 @@ filter(struct tool *t, struct rc_grid *g, const struct step *step, struct rc_err
     const struct rc_filter what = {.cutoff = step->value,
                                    .high = ((const struct work *)step->opt->of)->high,
                                    .robust = args.robust,
-                                   .periodic = map_says(g, "periodic", "yes"),
+                                   .boundary = map_repeats(g),
                                    .threads = t->threads};
 
     return rc_filter(rc_shape_of(g), &what, g->v, err);
@@ -97,8 +134,7 @@ outliers(struct tool *t, struct rc_grid *g, const struct step *step, struct rc_e
     size_t count, nodes = g->nx * g->ny;
     const char *where = tool_where(t, g);
 
-    if (rc_outliers(rc_shape_of(g), times, map_says(g, "periodic", "yes"), t->threads, g->v, &count,
-                    err) != RC_OK)
+    if (rc_outliers(rc_shape_of(g), times, map_repeats(g), t->threads, g->v, &count, err) != RC_OK)
         return RC_FAIL;
     t->input.missing = true;
     tool_note(t, "%s: %zu of %zu points are outliers", where, count, nodes);
@@ -119,6 +155,11 @@ taper(struct tool *t, struct rc_grid *g, const struct step *step, struct rc_err 
     size_t columns, rows;
     double inside, widest, width = step->value;
 
+    if (rc_repeats(map_repeats(g)) == 1)
+        return rc_err_set(err,
+                          "--taper: the map repeats along one axis already (periodic=%s): solve it "
+                          "with --periodic=%s, or take --mirror",
+                          rc_grid_get(g, "periodic"), rc_grid_get(g, "periodic"));
     rc_measure(&shape, g->v, &was);
     if (rc_taper(&shape, width, g->v, err) != RC_OK)
         return RC_FAIL;
@@ -151,24 +192,30 @@ multiply_key(struct rc_grid *g, const char *key, double times, struct rc_err *er
 static enum rc_status
 mirror(struct tool *t, struct rc_grid *g, const struct step *step, struct rc_err *err)
 {
-    struct rc_shape from = rc_grid_shape(g), to = rc_reflect_shape(&from);
+    static const struct rc_boundary asked[] = {{.x = true}, {.y = true}, {.x = true, .y = true}};
+    const struct rc_boundary was = map_repeats(g);
+    const struct rc_boundary wanted = asked[step->value < 0 ? 2 : (size_t)step->value];
+    const struct rc_boundary along = rc_boundary_of(wanted.x && !was.x, wanted.y && !was.y);
+    struct rc_shape from = rc_grid_shape(g), to = rc_reflect_shape(&from, along);
     double times = (double)(to.nx / from.nx) * (double)(to.ny / from.ny);
     double *v;
 
-    (void)t, (void)step;
     if (rc_grid_get(g, "section") != NULL || strcmp(rc_grid_dunit(g), "m") != 0)
         return rc_err_set(err, "--mirror: the frame is not a map of places: leave it out, with "
                                "rc-pick --channel");
-    if (map_says(g, "periodic", "yes"))
+    if (rc_repeats(along) == 0)
         return rc_err_set(
-            err, "--mirror has no effect, because the map is already periodic: leave it out");
+            err, "--mirror has no effect, because the map is already periodic%s: leave it out",
+            rc_repeats(was) == 2 ? ""
+            : was.x              ? " along x"
+                                 : " along y");
     if (from.nx * from.ny == 1)
         return rc_err_set(err, "--mirror: a single node is not a map");
     if (rc_shape_check(&to, err) != RC_OK)
         return RC_FAIL;
     if ((v = malloc(to.nx * to.ny * sizeof *v)) == NULL)
         return rc_err_set(err, "out of memory for %zu x %zu nodes", to.nx, to.ny);
-    rc_reflect(&from, g->v, v);
+    rc_reflect(&from, g->v, along, v);
     free(g->v);
     g->v = v;
     g->nx = to.nx;
@@ -176,7 +223,8 @@ mirror(struct tool *t, struct rc_grid *g, const struct step *step, struct rc_err
     if (multiply_key(g, "filled", times, err) != RC_OK ||
         multiply_key(g, "outliers", times, err) != RC_OK)
         return RC_FAIL;
-    return rc_grid_set(g, "periodic", "yes", err);
+    map_set_repeats(t, g, rc_boundary_of(was.x || wanted.x, was.y || wanted.y));
+    return RC_OK;
 }
 
 static size_t
@@ -253,11 +301,13 @@ passing(struct tool *t, struct rc_grid *g)
 {
     char step[64];
 
-    snprintf(step, sizeof step, "%s %s --mirror", t->info->name, rc_version());
     for (size_t k = 0; k < args.steps.n; k++) {
         const struct work *work = args.steps.step[k].opt->of;
+        const char *axes = args.steps.step[k].text;
         if (work->run != mirror)
             continue;
+        snprintf(step, sizeof step, "%s %s --mirror%s%s", t->info->name, rc_version(),
+                 axes == NULL ? "" : " ", axes == NULL ? "" : axes);
         tool_must(t, g, mirror(t, g, &args.steps.step[k], &t->err));
         tool_must(t, g, rc_grid_history(g, step, &t->err));
     }
@@ -300,8 +350,9 @@ static const struct opt opts[] = {
     {STEP("fill", .run = fill), .help = "fill missing points smoothly from the points around them"},
     {STEP("taper", .run = taper), .unit = UNIT_M, ABOVE_0, .arg = "W",
      .help = "blend a frame of width W into the mean height, so that the map repeats"},
-    {STEP("mirror", .run = mirror),
-     .help = "add the mirror images about two edges, so that the map repeats"},
+    {STEP("mirror", .run = mirror), .optional = true, .arg = "x|y|xy",
+     .help = "add the mirror images about two edges, or those along one axis, so that the map "
+             "repeats"},
     {.name = "robust", .type = OPT_FLAG, .at = offsetof(struct args, robust), .result = true,
      .needs = RULES({.with = "plane|poly|rows|sphere|cylinder|lowpass|highpass",
                     .because = "it changes forms and filters"}),

@@ -27,7 +27,8 @@ static const struct opt opts[] = {
     {.name = "outliers", .type = OPT_NUMBER, AT(outliers), .min = 0, .max = INFINITY, .above = true,
      .arg = "T", .help = "drop points that differ by T deviations from the median of their neighbours"},
     {.name = "mirror", .type = OPT_FLAG, AT(mirror),
-     .help = "add the mirror images about two edges, and solve the contact as periodic"},
+     .help = "add the mirror images about two edges, and solve the contact as periodic; with "
+             "--periodic=x or y those along this axis"},
     {.group = physics_options, AT(physics)},
     {.name = "nu", .type = OPT_NUMBER, AT(nu), .min = -1, .max = 0.5, .above = true, .arg = "RATIO",
      .against = RULES({.with = "nu1", .because = "--nu1 is the ratio for the stresses too",
@@ -416,7 +417,9 @@ add_preparation(const struct run *run, struct command *c)
     if (*run->outliers != '\0')
         add(c, "--outliers", run->outliers);
     add(c, "--fill", NULL);
-    if (args.mirror)
+    if (args.mirror && rc_repeats(args.physics.boundary) == 1)
+        add(c, "--mirror", args.physics.boundary.x ? "x" : "y");
+    else if (args.mirror)
         add(c, "--mirror", NULL);
     add(c, run->stream ? run->path : "measured.rcg", NULL);
 }

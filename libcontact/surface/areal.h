@@ -25,12 +25,13 @@ enum rc_status rc_material_ratio(const struct rc_relief *relief, struct rc_areal
 enum rc_status rc_texture(const struct rc_relief *relief, struct rc_areal *areal,
                           struct rc_err *err);
 
-/* spectrum.c: a map times a window along each side, after its windowed mean is subtracted. Missing values
- * are 0. */
+/* spectrum.c: a map times a window along each side, after its windowed mean is subtracted. A map that repeats
+ * along one axis has none along this axis. Missing values are 0. */
 struct rc_windowed {
     const struct rc_shape *shape;
     const double *h;
     const struct rc_window *window;
+    struct rc_boundary boundary;
     double *wx;  /* nx numbers: the weights along x, from rc_windowed_lay */
     double mean; /* the windowed mean, likewise                           */
 };

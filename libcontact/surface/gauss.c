@@ -65,7 +65,7 @@ struct way {
 
 struct gauss {
     const struct rc_shape *shape;
-    bool periodic;
+    struct rc_boundary boundary;
     int threads;
     struct way x, y;
     double *mid;        /* each row of the map has x.m numerators, then as many denominators */
@@ -305,7 +305,7 @@ gauss_new(struct gauss *g, const struct rc_shape *shape, const struct rc_filter 
     const double width = sqrt(log(2) / RC_PI) * what->cutoff;
     size_t low, down, up;
 
-    *g = (struct gauss){.shape = shape, .periodic = what->periodic};
+    *g = (struct gauss){.shape = shape, .boundary = what->boundary};
     g->threads = rc_useful_threads(shape, what->threads);
     way_new(&g->x, &g->own, shape->nx, width / shape->dx);
     way_new(&g->y, &g->own, shape->ny, width / shape->dy);
@@ -335,15 +335,15 @@ struct weighted {
     double mean, reach;
 };
 
-/* Fills the padding of a line: from the other end of a periodic one, else with zeros. */
+/* Fills the padding of a line: from its other end if it repeats, else with zeros. */
 static void
-fill_ends(const struct way *way, bool periodic, double *line)
+fill_ends(const struct way *way, bool repeats, double *line)
 {
     ptrdiff_t n = (ptrdiff_t)way->n, pad = (ptrdiff_t)way->pad;
 
     for (ptrdiff_t i = 0; i < pad; i++) {
-        line[n + i] = periodic ? line[i % n] : 0;
-        line[-1 - i] = periodic ? line[n - 1 - i % n] : 0;
+        line[n + i] = repeats ? line[i % n] : 0;
+        line[-1 - i] = repeats ? line[n - 1 - i % n] : 0;
     }
 }
 
@@ -399,8 +399,8 @@ sum_along_x(const struct gauss *g, const struct weighted *of)
         struct room room = room_of(g);
         double *above = g->mid + 2 * j * g->stride, *below = above + g->stride;
         take_row(of, j * nx, nx, room.above, room.below);
-        fill_ends(&g->x, g->periodic, room.above);
-        fill_ends(&g->x, g->periodic, room.below);
+        fill_ends(&g->x, g->boundary.x, room.above);
+        fill_ends(&g->x, g->boundary.x, room.below);
         sum_down_x(g, &room, room.above, above);
         sum_down_x(g, &room, room.below, below);
         memset(above + g->x.m, 0, pad * sizeof *above);
@@ -412,7 +412,7 @@ sum_along_x(const struct gauss *g, const struct weighted *of)
 static void
 sum_down_y(const struct gauss *g)
 {
-    const struct rows mid = {g->mid, g->shape->ny, g->stride, g->periodic};
+    const struct rows mid = {g->mid, g->shape->ny, g->stride, g->boundary.y};
 
 #pragma omp parallel for schedule(static) num_threads(g->threads)
     for (size_t k = 0; k < g->y.m; k += TOGETHER) {
@@ -446,7 +446,7 @@ static void
 finish_rows(const struct gauss *g, const struct weighted *of, bool low, size_t j, size_t first,
             size_t n, double *to)
 {
-    const struct rows mid = {g->mid, g->shape->ny, g->stride, g->periodic};
+    const struct rows mid = {g->mid, g->shape->ny, g->stride, g->boundary.y};
     const struct rows coarse = {g->low, g->y.m, g->stride, false};
     struct room room = room_of(g);
     size_t nx = g->shape->nx, wide = (n + WIDE - 1) / WIDE * WIDE;

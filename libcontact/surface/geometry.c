@@ -49,21 +49,21 @@ rc_mirror(const struct rc_shape *shape, char axis, double *v)
 }
 
 struct rc_shape
-rc_reflect_shape(const struct rc_shape *from)
+rc_reflect_shape(const struct rc_shape *from, struct rc_boundary along)
 {
     struct rc_shape to = *from;
 
-    to.nx *= from->nx > 1 ? 2 : 1;
-    to.ny *= from->ny > 1 ? 2 : 1;
+    to.nx *= along.x && from->nx > 1 ? 2 : 1;
+    to.ny *= along.y && from->ny > 1 ? 2 : 1;
     return to;
 }
 
 /* The image of a node at the edge is its neighbour: the reflection is about the edge of the cells, not about
  * the outermost nodes. So the period is twice the map, and each height has the same weight. */
 void
-rc_reflect(const struct rc_shape *from, const double *v, double *out)
+rc_reflect(const struct rc_shape *from, const double *v, struct rc_boundary along, double *out)
 {
-    struct rc_shape to = rc_reflect_shape(from);
+    struct rc_shape to = rc_reflect_shape(from, along);
 
     for (size_t j = 0; j < to.ny; j++) {
         const double *row = v + (j < from->ny ? j : to.ny - 1 - j) * from->nx;

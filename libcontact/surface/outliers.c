@@ -90,7 +90,7 @@ differ(const double *const row[SIDE], double *d)
 
 struct square {
     const struct rc_shape *shape;
-    bool periodic;
+    struct rc_boundary boundary;
     size_t width;  /* width of a row with its margins */
     double *lines; /* memory for each thread: SIDE such rows */
 };
@@ -100,13 +100,13 @@ static void
 take_row(const struct square *s, const double *h, ptrdiff_t j, double *to)
 {
     ptrdiff_t nx = (ptrdiff_t)s->shape->nx, ny = (ptrdiff_t)s->shape->ny;
-    bool there = s->periodic || (j >= 0 && j < ny);
+    bool there = s->boundary.y || (j >= 0 && j < ny);
     const double *row = h + (there ? (j % ny + ny) % ny : 0) * nx;
 
     for (ptrdiff_t i = 0; i < (ptrdiff_t)s->width; i++) {
         ptrdiff_t k = i - HALF;
         bool inside = k >= 0 && k < nx;
-        if (s->periodic && k < nx + HALF)
+        if (there && s->boundary.x && k < nx + HALF)
             to[i] = row[(k % nx + nx) % nx];
         else
             to[i] = there && inside ? row[k] : NAN;
@@ -136,10 +136,10 @@ find_differences(const struct square *s, const double *h, int threads, double *d
 }
 
 enum rc_status
-rc_outliers(const struct rc_shape *shape, double times, bool periodic, size_t threads, double *h,
-            size_t *count, struct rc_err *err)
+rc_outliers(const struct rc_shape *shape, double times, struct rc_boundary boundary, size_t threads,
+            double *h, size_t *count, struct rc_err *err)
 {
-    struct square s = {shape, periodic, shape->nx + 2 * HALF + LANES, NULL};
+    struct square s = {shape, boundary, shape->nx + 2 * HALF + LANES, NULL};
     int team = rc_useful_threads(shape, threads);
     size_t n = shape->nx * shape->ny;
     struct rc_statistics figures;

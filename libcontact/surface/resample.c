@@ -159,17 +159,17 @@ extend(double beyond, double weight, size_t nodes, double *end[ENDS])
     }
 }
 
-/* The stencil of new node k: the six nodes around it or, at an end of a map that is not periodic,
+/* The stencil of new node k: the six nodes around it or, at an end of an axis that does not repeat,
  * the last six. */
 static struct stencil
-stencil_at(const struct axis *a, size_t k, bool periodic)
+stencil_at(const struct axis *a, size_t k, bool repeats)
 {
     double place = edge(a, (double)k + 0.5) - 0.5, weight[POINTS];
     long n = (long)a->from, first = (long)floor(place) - 2, start = first, last;
     struct stencil s = {{0}, {0}};
 
     keys(place - floor(place), weight);
-    if (!periodic) {
+    if (!repeats) {
         start = start > n - POINTS ? n - POINTS : start;
         start = start < 0 ? 0 : start;
     }
@@ -177,7 +177,7 @@ stencil_at(const struct axis *a, size_t k, bool periodic)
     for (long m = 0; m < POINTS; m++) {
         long node = start + m;
 
-        s.at[m] = (size_t)(periodic ? (node % n + n) % n : node < n ? node : n - 1);
+        s.at[m] = (size_t)(repeats ? (node % n + n) % n : node < n ? node : n - 1);
     }
     for (long m = 0; m < POINTS; m++) {
         long node = first + m;
@@ -186,7 +186,7 @@ stencil_at(const struct axis *a, size_t k, bool periodic)
                               &s.weight[last >= 1 && last < POINTS ? last - 1 : 0],
                               &s.weight[last >= 2 && last < POINTS ? last - 2 : 0]};
 
-        if (periodic || (node >= 0 && node < n))
+        if (repeats || (node >= 0 && node < n))
             s.weight[node - start] += weight[m];
         else if (node < 0)
             extend((double)-node, weight[m], a->from, low);
@@ -198,12 +198,12 @@ stencil_at(const struct axis *a, size_t k, bool periodic)
 
 /* The two nodes next to new node k, weighted by distance; beyond the last node, linear extrapolation. */
 static struct stencil
-between(const struct axis *a, size_t k, bool periodic)
+between(const struct axis *a, size_t k, bool repeats)
 {
     double place = edge(a, (double)k + 0.5) - 0.5, t;
     long n = (long)a->from, first = (long)floor(place);
 
-    if (!periodic) {
+    if (!repeats) {
         first = first > n - 2 ? n - 2 : first;
         first = first < 0 ? 0 : first;
     }
@@ -224,11 +224,11 @@ product(const double *v, size_t nx, const struct stencil *x, const struct stenci
     return sum;
 }
 
-/* The map, its new axes, and whether it is periodic. */
+/* The map, its new axes, and how it continues. */
 struct between_nodes {
     const double *v;
     const struct axis *x, *y;
-    bool periodic;
+    struct rc_boundary boundary;
 };
 
 /* A value with a missing node among its neighbours. */
@@ -243,8 +243,8 @@ beside_hole(const struct between_nodes *b, size_t i, size_t j, const struct sten
 
     if (isnan(own) || !isnan(value))
         return isnan(own) ? NAN : value;
-    lx = between(b->x, i, b->periodic);
-    ly = between(b->y, j, b->periodic);
+    lx = between(b->x, i, b->boundary.x);
+    ly = between(b->y, j, b->boundary.y);
     value = product(b->v, b->x->from, &lx, &ly);
     return isnan(value) ? own : value;
 }
@@ -272,9 +272,9 @@ cubic(const struct between_nodes *b, double *out, struct rc_err *err)
     if (columns == NULL || row == NULL)
         return rc_err_set(err, "out of memory for the weights of %zu columns", nx);
     for (size_t i = 0; i < nx; i++)
-        columns[i] = stencil_at(b->x, i, b->periodic);
+        columns[i] = stencil_at(b->x, i, b->boundary.x);
     for (size_t j = 0; j < b->y->to; j++) {
-        struct stencil s = stencil_at(b->y, j, b->periodic);
+        struct stencil s = stencil_at(b->y, j, b->boundary.y);
 
         row_at(b->v, b->x->from, &s, row);
         for (size_t i = 0; i < nx; i++) {
@@ -324,10 +324,10 @@ rc_resample_shape(const struct rc_shape *from, double dx, double dy, struct rc_s
 }
 
 bool
-rc_resample_covers(const struct rc_shape *from, const struct rc_shape *to)
+rc_resample_covers(const struct rc_shape *from, const struct rc_shape *to, enum rc_map_axis axis)
 {
-    return axis_of(from->nx, from->dx, to->nx, to->dx).whole &&
-           axis_of(from->ny, from->dy, to->ny, to->dy).whole;
+    return axis == RC_X ? axis_of(from->nx, from->dx, to->nx, to->dx).whole
+                        : axis_of(from->ny, from->dy, to->ny, to->dy).whole;
 }
 
 /* ---- from one grid to the other ---- */
@@ -344,14 +344,14 @@ check_inside(const struct axis *a, struct rc_err *err)
 
 /* One axis gets coarser, the other finer: first the coarser one, into an intermediate map. */
 static enum rc_status
-by_way_of(const struct axis *x, const struct axis *y, const double *v, bool periodic, double *out,
-          struct rc_err *err)
+by_way_of(const struct axis *x, const struct axis *y, const double *v, struct rc_boundary boundary,
+          double *out, struct rc_err *err)
 {
     struct axis same_x = {x->from, x->from, 1, true}, same_y = {y->from, y->from, 1, true};
     const struct axis *coarse_x = finer(x) ? &same_x : x, *coarse_y = finer(y) ? &same_y : y;
     struct axis fine_x = finer(x) ? *x : (struct axis){x->to, x->to, 1, true};
     struct axis fine_y = finer(y) ? *y : (struct axis){y->to, y->to, 1, true};
-    struct between_nodes b = {.x = &fine_x, .y = &fine_y, .periodic = periodic};
+    struct between_nodes b = {.x = &fine_x, .y = &fine_y, .boundary = boundary};
     size_t n = 0;
     RC_OWNED double *half = NULL;
 
@@ -366,8 +366,8 @@ by_way_of(const struct axis *x, const struct axis *y, const double *v, bool peri
 }
 
 enum rc_status
-rc_resample(const struct rc_shape *from, const double *v, bool periodic, const struct rc_shape *to,
-            double *out, struct rc_err *err)
+rc_resample(const struct rc_shape *from, const double *v, struct rc_boundary boundary,
+            const struct rc_shape *to, double *out, struct rc_err *err)
 {
     struct axis x, y;
 
@@ -382,6 +382,6 @@ rc_resample(const struct rc_shape *from, const double *v, bool periodic, const s
         return RC_OK;
     }
     if ((finer(&x) || unchanged(&x)) && (finer(&y) || unchanged(&y)))
-        return cubic(&(struct between_nodes){v, &x, &y, periodic}, out, err);
-    return by_way_of(&x, &y, v, periodic, out, err);
+        return cubic(&(struct between_nodes){v, &x, &y, boundary}, out, err);
+    return by_way_of(&x, &y, v, boundary, out, err);
 }

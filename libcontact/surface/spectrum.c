@@ -2,7 +2,7 @@
 /*
  * Power spectral densities, and the Hurst exponent.
  *
- * A map that is not periodic is multiplied by a window, after its windowed mean is subtracted. So the mean
+ * A map is multiplied by a window along its free axes, after its windowed mean is subtracted. So the mean
  * does not leak into the waves. The density is divided by the mean square of the window and by nothing else,
  * so it is unbiased for a statistically homogeneous surface. A factor that made the sum equal Sq^2 would
  * scale all waves. It would depend on long waves, or on a remaining form, near the edges.
@@ -79,6 +79,13 @@ window_of(const struct rc_psd_options *o)
     return NULL;
 }
 
+/* The window along an axis. A map that repeats along both has the given one. */
+static const struct rc_window *
+along(const struct rc_windowed *w, enum rc_map_axis axis)
+{
+    return rc_repeats(w->boundary) == 1 && rc_wraps(w->boundary, axis) ? &windows[0] : w->window;
+}
+
 static double
 weight(const struct rc_window *w, size_t i, size_t n)
 {
@@ -121,7 +128,7 @@ void
 rc_windowed_row(const void *of, size_t j, double *row)
 {
     const struct rc_windowed *w = of;
-    const double *h = w->h + j * w->shape->nx, wy = weight(w->window, j, w->shape->ny);
+    const double *h = w->h + j * w->shape->nx, wy = weight(along(w, RC_Y), j, w->shape->ny);
 
     for (size_t i = 0; i < w->shape->nx; i++)
         row[i] = rc_there(h[i]) ? w->wx[i] * wy * (h[i] - w->mean) : 0;
@@ -134,9 +141,9 @@ rc_windowed_lay(struct rc_windowed *w, double mean)
     const size_t nx = w->shape->nx, ny = w->shape->ny;
 
     for (size_t i = 0; i < nx; i++)
-        w->wx[i] = weight(w->window, i, nx);
+        w->wx[i] = weight(along(w, RC_X), i, nx);
     for (size_t j = 0; j < ny; j++) {
-        const double *h = w->h + j * nx, wy = weight(w->window, j, ny);
+        const double *h = w->h + j * nx, wy = weight(along(w, RC_Y), j, ny);
         double row[3] = {0};
         for (size_t i = 0; i < nx; i++) {
             bool there = rc_there(h[i]);
@@ -172,8 +179,8 @@ lay_window(struct rc_windowed *w, double *factor, double *square, double *alike,
                                      bad, s->nx * s->ny);
     }
     *square = rc_windowed_lay(w, mean);
-    side_figures(w->window, s->nx, &square_x, &alike_x);
-    side_figures(w->window, s->ny, &square_y, &alike_y);
+    side_figures(along(w, RC_X), s->nx, &square_x, &alike_x);
+    side_figures(along(w, RC_Y), s->ny, &square_y, &alike_y);
     *alike = alike_x * alike_y; /* waves that count as one */
     *factor = (s->nx > 1 ? s->dx / (double)s->nx : 1) * (s->ny > 1 ? s->dy / (double)s->ny : 1) /
               (square_x * square_y);
@@ -511,7 +518,8 @@ make(const struct rc_shape *s, const double *h, const struct rc_psd_options *opt
      double *wx, struct rc_psd *psd, struct rc_err *err)
 {
     const struct rc_window *window = window_of(options);
-    struct rc_windowed w = {.shape = s, .h = h, .window = window, .wx = wx};
+    struct rc_windowed w = {
+        .shape = s, .h = h, .window = window, .boundary = options->boundary, .wx = wx};
     struct rings r = rings_of(s);
     enum rc_status status = RC_FAIL;
     double factor = 0, alike = 1;

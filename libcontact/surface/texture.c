@@ -317,7 +317,8 @@ find_direction(const struct rc_relief *r, struct rc_areal *a, struct rc_err *err
     RC_OWNED double *power = rc_alloc(rc_fourier_size(&r->shape), sizeof *power);
     RC_OWNED double *wx = rc_alloc(r->shape.nx, sizeof *wx);
     RC_OWNED double(*sums)[ANGLES] = malloc(PARTS * sizeof *sums);
-    struct rc_windowed w = {.shape = &r->shape, .h = r->h, .window = rc_window_hann, .wx = wx};
+    struct rc_windowed w = {
+        .shape = &r->shape, .h = r->h, .window = rc_window_hann, .boundary = r->boundary, .wx = wx};
     enum rc_status status;
 
     if (power == NULL || wx == NULL || sums == NULL)

@@ -143,7 +143,7 @@ outliers(double *out, struct rc_err *err)
     size_t count = 0;
 
     memcpy(out, holed, sizeof holed);
-    if (or_as_before(rc_outliers(&shape, 2, false, 1, out, &count, err), out, holed) != RC_OK)
+    if (or_as_before(rc_outliers(&shape, 2, RC_FREE, 1, out, &count, err), out, holed) != RC_OK)
         return RC_FAIL;
     out[N] = (double)count;
     return RC_OK;
@@ -176,7 +176,7 @@ resampled(double *out, struct rc_err *err)
 
     if (rc_resample_shape(&shape, 0.8e-6, 2.1e-6, &to, err) != RC_OK)
         return RC_FAIL;
-    return rc_resample(&shape, holed, false, &to, out, err);
+    return rc_resample(&shape, holed, RC_FREE, &to, out, err);
 }
 
 static enum rc_status
@@ -912,7 +912,7 @@ without(double *out, struct rc_err *err)
     rc_synth_punch(&shape, place, 3e-6, 0, 1e-6, out);
     rc_synth_wave(&shape, 1e-7, 5e-6, 6e-6, out);
     rc_resample_means(&shape, rough, &to, out);
-    (void)rc_resample_covers(&shape, &to);
+    (void)rc_resample_covers(&shape, &to, RC_X);
     to = (struct rc_shape){4, 5, shape.dx, shape.dy};
     memcpy(out, rough, sizeof rough);
     if (rc_crop(&shape, rough, 2, 3, &to, out + N, err) != RC_OK ||
@@ -927,8 +927,8 @@ without(double *out, struct rc_err *err)
     if (rc_profile_measure(NX, shape.dx, out, 2, &profile, err) != RC_OK)
         return RC_FAIL;
     rc_taper_frame(&shape, 3e-6, &product, &product);
-    to = rc_reflect_shape(&(struct rc_shape){NX / 2, NY / 2, shape.dx, shape.dy});
-    rc_reflect(&(struct rc_shape){NX / 2, NY / 2, shape.dx, shape.dy}, rough, out);
+    to = rc_reflect_shape(&(struct rc_shape){NX / 2, NY / 2, shape.dx, shape.dy}, RC_PERIODIC);
+    rc_reflect(&(struct rc_shape){NX / 2, NY / 2, shape.dx, shape.dy}, rough, RC_PERIODIC, out);
     rc_measure(&shape, rough, &statistics);
     rc_measure_seam(NULL, &shape, rough, &seam);
     if (rc_stress_check(&shape, &stress, err) != RC_OK || rc_stress_coarser(&shape, &stress) > 1)

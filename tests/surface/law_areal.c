@@ -83,10 +83,10 @@ test_everything_is_there(void **state)
     static double h[NX * NY];
 
     (void)state;
-    for (int turn = 0; turn < 4; turn++) {
+    for (int turn = 0; turn < 8; turn++) {
         struct rc_areal a;
         make(h, turn & 1);
-        a = measured(&shape, h, turn & 2 ? RC_PERIODIC : RC_FREE, 1);
+        a = measured(&shape, h, rc_boundary_of(turn & 2, turn & 4), 1);
         for (size_t k = 0; k < FIGURES; k++)
             if (!isfinite(figure(&a, k)))
                 fail_msg("%s of turn %d: %g", names[k], turn, figure(&a, k));
@@ -103,8 +103,8 @@ test_units_and_datum(void **state)
     const struct rc_shape wide = {NX, NY, 1e3 * shape.dx, 1e3 * shape.dy};
 
     (void)state;
-    for (int turn = 0; turn < 4; turn++) {
-        struct rc_boundary boundary = turn & 2 ? RC_PERIODIC : RC_FREE;
+    for (int turn = 0; turn < 8; turn++) {
+        struct rc_boundary boundary = rc_boundary_of(turn & 2, turn & 4);
         struct rc_areal a, b;
         make(h, turn & 1);
         a = measured(&shape, h, boundary, 2);
@@ -129,8 +129,8 @@ test_turned(void **state)
     const struct rc_shape tall = {NY, NX, shape.dy, shape.dx};
 
     (void)state;
-    for (int turn = 0; turn < 4; turn++) {
-        struct rc_boundary boundary = turn & 2 ? RC_PERIODIC : RC_FREE;
+    for (int turn = 0; turn < 8; turn++) {
+        struct rc_boundary boundary = rc_boundary_of(turn & 2, turn & 4);
         struct rc_areal a, b;
         make(h, turn & 1);
         a = measured(&shape, h, boundary, 2);
@@ -145,9 +145,34 @@ test_turned(void **state)
         check(&a, &b, 1, 1, 1e-9);
         for (size_t k = 0; k < NX * NY; k++)
             g[k % NX * NY + k / NX] = h[k];
-        b = measured(&tall, g, boundary, 2);
+        b = measured(&tall, g, rc_boundary_of(boundary.y, boundary.x), 2);
         b.std = fmod(270 - b.std, 180);
         check(&a, &b, 1, 1, 1e-9);
+    }
+}
+
+/* A map that repeats along y is the same surface from any row on, and with two of its periods. */
+static void
+test_periods(void **state)
+{
+    static double h[NX * NY], g[2 * NX * NY];
+    const struct rc_shape two = {NX, 2 * NY, shape.dx, shape.dy};
+
+    (void)state;
+    for (int turn = 0; turn < 4; turn++) {
+        const struct rc_boundary boundary = rc_boundary_of(turn & 2, true);
+        struct rc_areal a, b;
+        make(h, turn & 1);
+        a = measured(&shape, h, boundary, 2);
+        for (size_t k = 0; k < 2 * NX * NY; k++)
+            g[k] = h[(k + 17 * NX) % (NX * NY)];
+        b = measured(&shape, g, boundary, 2);
+        b.sdq = a.sdq, b.sdr = a.sdr; /* without the steps across the edges */
+        check(&a, &b, 1, 1, 1e-9);
+        b = measured(&two, g, boundary, 2);
+        assert_true(fabs(b.sq / a.sq - 1) < 1e-9 && fabs(b.sku / a.sku - 1) < 1e-9 &&
+                    fabs(b.rms_curvature / a.rms_curvature - 1) < 1e-9);
+        assert_true(fabs(b.sal / a.sal - 1) < 1e-4); /* along other rays */
     }
 }
 
@@ -176,8 +201,8 @@ test_threads(void **state)
     static double h[NX * NY];
 
     (void)state;
-    for (int turn = 0; turn < 4; turn++) {
-        struct rc_boundary boundary = turn & 2 ? RC_PERIODIC : RC_FREE;
+    for (int turn = 0; turn < 8; turn++) {
+        struct rc_boundary boundary = rc_boundary_of(turn & 2, turn & 4);
         const struct rc_shape large = {570, 400, 1.1e-6, 1e-6};
         double *v = malloc(570 * 400 * sizeof *v);
         struct rc_areal a, b;
@@ -198,6 +223,7 @@ main(void)
         cmocka_unit_test(test_everything_is_there),
         cmocka_unit_test(test_units_and_datum),
         cmocka_unit_test(test_turned),
+        cmocka_unit_test(test_periods),
         cmocka_unit_test(test_turned_over),
         cmocka_unit_test(test_threads),
     };

@@ -257,20 +257,21 @@ reflections_repeat(void **state)
     const double pi = 3.14159265358979323846;
 
     (void)state;
-    for (size_t k = 0; k < sizeof shapes / sizeof *shapes; k++) {
-        const struct rc_shape *s = &shapes[k];
-        struct rc_shape to = rc_reflect_shape(s);
+    for (size_t turn = 0; turn < 4 * (sizeof shapes / sizeof *shapes); turn++) {
+        const struct rc_shape *s = &shapes[turn / 4];
+        const struct rc_boundary along = rc_boundary_of(turn & 1, turn & 2);
+        struct rc_shape to = rc_reflect_shape(s, along);
         double *v = malloc(s->nx * s->ny * sizeof *v), *out = malloc(to.nx * to.ny * sizeof *out);
         struct rc_statistics was, is;
         struct rc_seam seam;
 
-        assert_int_equal(to.nx, s->nx == 1 ? 1 : 2 * s->nx);
-        assert_int_equal(to.ny, s->ny == 1 ? 1 : 2 * s->ny);
+        assert_int_equal(to.nx, !along.x || s->nx == 1 ? s->nx : 2 * s->nx);
+        assert_int_equal(to.ny, !along.y || s->ny == 1 ? s->ny : 2 * s->ny);
         assert_true(to.dx == s->dx && to.dy == s->dy);
         for (size_t n = 0; n < s->nx * s->ny; n++)
             v[n] = cos(3 * pi * ((double)(n % s->nx) + 0.5) / (double)s->nx) *
                    cos(2 * pi * ((double)(n / s->nx) + 0.5) / (double)s->ny);
-        rc_reflect(s, v, out);
+        rc_reflect(s, v, along, out);
         for (size_t n = 0; n < to.nx * to.ny; n++) {
             size_t i = n % to.nx, j = n / to.nx;
             double wave = cos(3 * pi * ((double)i + 0.5) / (double)s->nx) *
@@ -278,16 +279,16 @@ reflections_repeat(void **state)
             assert_true(fabs(out[n] - wave) < 1e-13);
             if (i < s->nx && j < s->ny)
                 assert_true(out[n] == v[j * s->nx + i]);
-            if (to.nx > 1)
+            if (along.x && to.nx > 1)
                 assert_true(out[n] == out[j * to.nx + to.nx - 1 - i]);
-            if (to.ny > 1)
+            if (along.y && to.ny > 1)
                 assert_true(out[n] == out[(to.ny - 1 - j) * to.nx + i]);
         }
         rc_measure_seam(NULL, &to, out, &seam);
-        assert_true(!(seam.across[0] > 0) && !(seam.across[1] > 0));
+        assert_true(!(along.x && seam.across[0] > 0) && !(along.y && seam.across[1] > 0));
         for (size_t n = 0; n < s->nx * s->ny; n++)
             v[n] = n % 17 == 3 ? NAN : (double)(n * n % 10007);
-        rc_reflect(s, v, out);
+        rc_reflect(s, v, along, out);
         rc_measure(s, v, &was);
         rc_measure(&to, out, &is);
         assert_int_equal(is.missing, was.missing * (to.nx / s->nx) * (to.ny / s->ny));

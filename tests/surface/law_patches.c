@@ -23,7 +23,7 @@ struct filled {
 struct fill {
     const struct rc_shape *shape;
     const double *p;
-    bool wraps;
+    struct rc_boundary boundary;
     char *seen;
     size_t *stack, n;
 };
@@ -34,8 +34,9 @@ beside(const struct fill *f, size_t k, int side, size_t *at)
 {
     size_t nx = f->shape->nx, ny = f->shape->ny, i = k % nx, j = k / nx;
 
-    if (!f->wraps && ((side == 0 && i == 0) || (side == 1 && i + 1 == nx) ||
-                      (side == 2 && j == 0) || (side == 3 && j + 1 == ny)))
+    if (!f->boundary.x && ((side == 0 && i == 0) || (side == 1 && i + 1 == nx)))
+        return false;
+    if (!f->boundary.y && ((side == 2 && j == 0) || (side == 3 && j + 1 == ny)))
         return false;
     i = side == 0 ? (i + nx - 1) % nx : side == 1 ? (i + 1) % nx : i;
     j = side == 2 ? (j + ny - 1) % ny : side == 3 ? (j + 1) % ny : j;
@@ -88,12 +89,13 @@ by_area(const void *a, const void *b)
 }
 
 static size_t
-fill_all(const struct rc_shape *s, const double *p, bool wraps, struct filled **patches)
+fill_all(const struct rc_shape *s, const double *p, struct rc_boundary boundary,
+         struct filled **patches)
 {
     size_t n = s->nx * s->ny, count = 0;
     struct fill f = {.shape = s,
                      .p = p,
-                     .wraps = wraps,
+                     .boundary = boundary,
                      .seen = calloc(n, 1),
                      .stack = malloc(n * sizeof *f.stack)};
 
@@ -117,13 +119,13 @@ assert_near(double got, double expected)
 }
 
 static void
-check(const struct rc_shape *s, const double *p, bool wraps, size_t threads)
+check(const struct rc_shape *s, const double *p, struct rc_boundary boundary, size_t threads)
 {
     const struct rc_patch_options options = {
-        .boundary = wraps ? RC_PERIODIC : RC_FREE, .each = true, .threads = threads};
+        .boundary = boundary, .each = true, .threads = threads};
     double cell = s->dx * s->dy, perimeter = 0, edges = 0;
     struct filled *filled;
-    size_t count = fill_all(s, p, wraps, &filled), nodes = 0;
+    size_t count = fill_all(s, p, boundary, &filled), nodes = 0;
     struct rc_patches found;
 
     assert_int_equal(rc_patches_find(s, p, &options, &found, NULL), RC_OK);
@@ -163,18 +165,18 @@ test_flood_fill(void **state)
     srand(3);
     for (size_t k = 0; k < sizeof sides / sizeof *sides; k++)
         for (size_t l = 0; l < sizeof parts / sizeof *parts; l++)
-            for (int turn = 0; turn < 4; turn++) {
+            for (int turn = 0; turn < 8; turn++) {
                 const struct rc_shape s = {sides[k][0], sides[k][1], 1.1e-6, 1.1e-6};
                 double *p = malloc(s.nx * s.ny * sizeof *p);
                 for (size_t i = 0; i < s.nx * s.ny; i++)
                     p[i] = rand() < parts[l] * RAND_MAX ? 1e6 + (double)i : 0;
-                check(&s, p, turn & 1, turn & 2 ? 5 : 1);
+                check(&s, p, rc_boundary_of(turn & 1, turn & 4), turn & 2 ? 5 : 1);
                 free(p);
             }
 }
 
-/* A frame around the map is one patch, periodic or not; four corners are one patch if the map is periodic,
- * else four. The arms of a cross join across the edges; two spirals remain two patches. */
+/* A frame around the map is one patch, periodic or not; four corners are one patch if the map is periodic, two
+ * if it repeats along one axis, else four. The arms of a cross join across the edges; two spirals remain two patches. */
 static void
 test_edges(void **state)
 {
@@ -190,6 +192,13 @@ test_edges(void **state)
     assert_int_equal(found.count, 4);
     assert_near(found.perimeter, 4 * 3e-6); /* the border of the map does not count */
     rc_patches_free(&found);
+    for (int axis = 0; axis < 2; axis++) {
+        const struct rc_patch_options one = {.boundary = rc_boundary_of(axis == 0, axis == 1)};
+        assert_int_equal(rc_patches_find(&s, p, &one, &found, NULL), RC_OK);
+        assert_int_equal(found.count, 2);
+        assert_near(found.perimeter, 2 * (axis == 0 ? 2 * 2e-6 + 2 * 1e-6 : 2 * 1e-6 + 2 * 2e-6));
+        rc_patches_free(&found);
+    }
     assert_int_equal(rc_patches_find(&s, p, &periodic, &found, NULL), RC_OK);
     assert_int_equal(found.count, 1);
     assert_near(found.patch[0].area, 4 * 2e-12);

@@ -385,7 +385,7 @@ test_gaussian(void **state)
 
 /* The mean product of pairs at the offset (x, y), in nodes, over Sq^2; y >= 0. */
 static double
-correlation(const struct rc_shape *s, const double *h, bool wraps, long x, size_t y)
+correlation(const struct rc_shape *s, const double *h, struct rc_boundary wraps, long x, size_t y)
 {
     double mean = 0, square_sum = 0, sum = 0, n = 0, pairs = 0;
     const long nx = (long)s->nx;
@@ -401,7 +401,7 @@ correlation(const struct rc_shape *s, const double *h, bool wraps, long x, size_
         size_t j = k / s->nx + y;
         if (!isnan(h[k]))
             square_sum += (h[k] - mean) * (h[k] - mean);
-        if (!wraps && (i < 0 || i >= nx || j >= s->ny))
+        if ((!wraps.x && (i < 0 || i >= nx)) || (!wraps.y && j >= s->ny))
             continue;
         i = (i + nx) % nx;
         j %= s->ny;
@@ -415,7 +415,7 @@ correlation(const struct rc_shape *s, const double *h, bool wraps, long x, size_
 
 /* The offset at which it first falls to 0.2 along a column of whole nodes. */
 static double
-fall(const struct rc_shape *s, const double *h, bool wraps, long x, size_t y)
+fall(const struct rc_shape *s, const double *h, struct rc_boundary wraps, long x, size_t y)
 {
     double before = 1;
 
@@ -437,8 +437,9 @@ test_correlation_of_a_profile(void **state)
         .hurst = 0.7, .rms_height = 1e-8, .rolloff = 30e-6, .seed = 4};
 
     (void)state;
-    for (int turn = 0; turn < 8; turn++) {
-        bool column = turn & 1, holes = turn & 2, wraps = turn & 4;
+    for (int turn = 0; turn < 16; turn++) {
+        const bool column = turn & 1, holes = turn & 2;
+        const struct rc_boundary wraps = rc_boundary_of(turn & 4, turn & 8);
         const struct rc_shape s = {column ? 1 : 149, column ? 149 : 1, 1.1e-6, 1.1e-6};
         double *h = room(&s);
         struct rc_areal a;
@@ -446,7 +447,7 @@ test_correlation_of_a_profile(void **state)
         assert_int_equal(rc_synth_selfaffine(&s, &what, h, NULL), RC_OK);
         for (size_t k = 0; holes && k < 149; k += 5 + k % 3)
             h[k] = NAN;
-        a = measured(&s, h, wraps ? RC_PERIODIC : RC_FREE);
+        a = measured(&s, h, wraps);
         assert_near(a, sal, fall(&s, h, wraps, column ? 0 : 1, column ? 1 : 0), summed);
         assert_true(isnan(a.str) && isnan(a.std));
         free(h);
@@ -461,8 +462,9 @@ test_correlation_of_a_map(void **state)
     double *h = room(&s);
 
     (void)state;
-    for (int turn = 0; turn < 4; turn++) {
-        bool holes = turn & 1, wraps = turn & 2;
+    for (int turn = 0; turn < 8; turn++) {
+        const bool holes = turn & 1;
+        const struct rc_boundary wraps = rc_boundary_of(turn & 2, turn & 4);
         struct rc_areal a;
         for (size_t k = 0; k < s.nx * s.ny; k++) {
             double x = (double)(k % s.nx) - 24, y = (double)(k / s.nx) - 22;
@@ -470,7 +472,7 @@ test_correlation_of_a_map(void **state)
             if (holes && (k * 7919) % 13 == 0)
                 h[k] = NAN;
         }
-        a = measured(&s, h, wraps ? RC_PERIODIC : RC_FREE);
+        a = measured(&s, h, wraps);
         /* with holes it may fall slightly faster beside the axis */
         assert_true(a.sal <= fall(&s, h, wraps, 0, 1) * (1 + summed));
         assert_near(a, sal, fall(&s, h, wraps, 0, 1), holes ? three_digits : summed);

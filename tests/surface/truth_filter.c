@@ -48,13 +48,13 @@ filter(const struct rc_shape *s, struct rc_filter what, double *h)
 
 /* ---- the sums written out ---- */
 
-/* The factor of the weighting function along one side at a distance of `steps` nodes. On a periodic map it is
+/* The factor of the weighting function along one side at a distance of `steps` nodes. If it repeats, this is
  * the sum over all repetitions within its range. */
 static double
-factor(long steps, double d, size_t n, double cutoff, bool periodic)
+factor(long steps, double d, size_t n, double cutoff, bool repeats)
 {
     double a = sqrt(log(2) / exact_pi) * cutoff, w = 0;
-    long far = periodic ? 5 : 0;
+    long far = repeats ? 5 : 0;
 
     for (long p = -far; p <= far; p++) {
         double x = (double)(steps + p * (long)n) * d / a;
@@ -65,16 +65,17 @@ factor(long steps, double d, size_t n, double cutoff, bool periodic)
 
 /* The low-pass of h with weights m (NULL: 1), at every measured point. */
 static double *
-dense(const struct rc_shape *s, double cutoff, bool periodic, const double *h, const double *m)
+dense(const struct rc_shape *s, double cutoff, struct rc_boundary boundary, const double *h,
+      const double *m)
 {
     double *low = new_map(s);
     long nx = (long)s->nx, ny = (long)s->ny;
     double *fx = malloc((size_t)(2 * nx) * sizeof *fx), *fy = malloc((size_t)(2 * ny) * sizeof *fy);
 
     for (long i = 0; i < 2 * nx; i++)
-        fx[i] = factor(i - nx, s->dx, s->nx, cutoff, periodic);
+        fx[i] = factor(i - nx, s->dx, s->nx, cutoff, boundary.x);
     for (long j = 0; j < 2 * ny; j++)
-        fy[j] = factor(j - ny, s->dy, s->ny, cutoff, periodic);
+        fy[j] = factor(j - ny, s->dy, s->ny, cutoff, boundary.y);
     for (long k = 0; k < nx * ny; k++) {
         long double above = 0, below = 0;
         for (long l = 0; l < nx * ny; l++) {
@@ -106,15 +107,15 @@ compare(const struct rc_shape *s, const double *found, const double *expected, d
 
 /* Short and long cut-offs up to the length of the map; from 30 nodes on the filter sums on coarser nodes. */
 static void
-check_dense(const struct rc_shape *s, double cutoff, bool periodic)
+check_dense(const struct rc_shape *s, double cutoff, struct rc_boundary boundary)
 {
     double *h = rough(s), *low = copy_of(s, h), *high = copy_of(s, h), *expected;
     char what[80];
 
-    snprintf(what, sizeof what, "cut-off %g, %s", cutoff, periodic ? "periodic" : "free");
-    expected = dense(s, cutoff, periodic, h, NULL);
-    filter(s, (struct rc_filter){.cutoff = cutoff, .periodic = periodic}, low);
-    filter(s, (struct rc_filter){.cutoff = cutoff, .periodic = periodic, .high = true}, high);
+    snprintf(what, sizeof what, "cut-off %g, %s", cutoff, rc_boundary_word(boundary));
+    expected = dense(s, cutoff, boundary, h, NULL);
+    filter(s, (struct rc_filter){.cutoff = cutoff, .boundary = boundary}, low);
+    filter(s, (struct rc_filter){.cutoff = cutoff, .boundary = boundary, .high = true}, high);
     compare(s, low, expected, summed * 4e-6, what);
     for (size_t k = 0; k < s->nx * s->ny; k++)
         assert_true(isnan(h[k]) || fabs(low[k] + high[k] - h[k]) <= of_sum * 4e-6);
@@ -132,8 +133,10 @@ test_missing_points_and_edges(void **state)
     (void)state;
     srand(31);
     for (size_t k = 0; k < sizeof cutoffs / sizeof *cutoffs; k++) {
-        check_dense(&shape, cutoffs[k], false);
-        check_dense(&shape, cutoffs[k], true);
+        check_dense(&shape, cutoffs[k], RC_FREE);
+        check_dense(&shape, cutoffs[k], RC_PERIODIC);
+        check_dense(&shape, cutoffs[k], rc_boundary_of(true, false));
+        check_dense(&shape, cutoffs[k], rc_boundary_of(false, true));
     }
 }
 
@@ -146,9 +149,9 @@ test_profiles(void **state)
     (void)state;
     srand(32);
     for (size_t k = 0; k < sizeof cutoffs / sizeof *cutoffs; k++)
-        for (int periodic = 0; periodic < 2; periodic++) {
-            check_dense(&row, cutoffs[k], periodic);
-            check_dense(&column, cutoffs[k], periodic);
+        for (int turn = 0; turn < 4; turn++) {
+            check_dense(&row, cutoffs[k], rc_boundary_of(turn & 1, turn & 2));
+            check_dense(&column, cutoffs[k], rc_boundary_of(turn & 1, turn & 2));
         }
 }
 
@@ -199,7 +202,7 @@ test_transmission(void **state)
             wave = copy_of(&s, h);
             if (qy == 0 && qx * cutoffs[c] > 1 - 1e-9 && qx * cutoffs[c] < 1 + 1e-9)
                 assert_true(fabs(gain - 0.5) < rounding);
-            filter(&s, (struct rc_filter){.cutoff = cutoffs[c], .periodic = true}, h);
+            filter(&s, (struct rc_filter){.cutoff = cutoffs[c], .boundary = RC_PERIODIC}, h);
             for (size_t k = 0; k < s.nx * s.ny; k++)
                 if (fabs(h[k] - gain * wave[k]) > 1e-6)
                     fail_msg("cut-off %g, wave %zu: %.9g, not %.9g", cutoffs[c], w, h[k],
@@ -281,13 +284,14 @@ spiky(void)
 static void
 test_robust_is_reweighting(void **state)
 {
-    const double cutoffs[] = {7e-6, 42e-6};
+    const double cutoffs[] = {7e-6, 42e-6, 9e-6, 35e-6};
 
     (void)state;
     srand(34);
-    for (size_t c = 0; c < 2; c++) {
+    for (size_t c = 0; c < 4; c++) {
+        const struct rc_boundary boundary = rc_boundary_of(c == 1 || c == 3, c == 1 || c == 2);
         double *h = spiky(), *low = copy_of(&shape, h), *r = new_map(&shape), *m = new_map(&shape);
-        double *expected = dense(&shape, cutoffs[c], c == 1, h, NULL), reach = 0, before;
+        double *expected = dense(&shape, cutoffs[c], boundary, h, NULL), reach = 0, before;
         do {
             before = reach;
             for (size_t k = 0; k < N; k++)
@@ -298,10 +302,10 @@ test_robust_is_reweighting(void **state)
             for (size_t k = 0; k < N; k++)
                 m[k] = fabs(r[k]) < reach ? pow(1 - r[k] * r[k] / (reach * reach), 2) : 0;
             free(expected);
-            expected = dense(&shape, cutoffs[c], c == 1, h, m);
+            expected = dense(&shape, cutoffs[c], boundary, h, m);
         } while (true);
-        filter(&shape, (struct rc_filter){.cutoff = cutoffs[c], .robust = true, .periodic = c == 1},
-               low);
+        filter(&shape,
+               (struct rc_filter){.cutoff = cutoffs[c], .robust = true, .boundary = boundary}, low);
         compare(&shape, low, expected, 1e-10 * 2e-5, "robust");
         free(h);
         free(low);

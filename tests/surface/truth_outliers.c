@@ -30,7 +30,7 @@ median(double *v, size_t n)
 }
 
 static double
-difference(const struct rc_shape *s, bool periodic, const double *h, long i, long j)
+difference(const struct rc_shape *s, struct rc_boundary boundary, const double *h, long i, long j)
 {
     long nx = (long)s->nx, ny = (long)s->ny;
     double around[24];
@@ -38,10 +38,10 @@ difference(const struct rc_shape *s, bool periodic, const double *h, long i, lon
 
     for (long b = j - 2; b <= j + 2; b++)
         for (long a = i - 2; a <= i + 2; a++) {
-            bool inside = a >= 0 && a < nx && b >= 0 && b < ny;
+            bool inside = (boundary.x || (a >= 0 && a < nx)) && (boundary.y || (b >= 0 && b < ny));
             if (a == i && b == j)
                 continue;
-            if (inside || periodic)
+            if (inside)
                 around[n++] = h[(b + 4 * ny) % ny * nx + (a + 4 * nx) % nx];
         }
     return h[j * nx + i] - median(around, n);
@@ -49,13 +49,13 @@ difference(const struct rc_shape *s, bool periodic, const double *h, long i, lon
 
 /* Removes the outliers of h by sorting; returns their number. */
 static size_t
-by_sorting(const struct rc_shape *s, double times, bool periodic, double *h)
+by_sorting(const struct rc_shape *s, double times, struct rc_boundary boundary, double *h)
 {
     size_t n = s->nx * s->ny, count = 0;
     double *d = new_map(s), *v = new_map(s), middle, limit;
 
     for (size_t k = 0; k < n; k++)
-        v[k] = d[k] = difference(s, periodic, h, (long)(k % s->nx), (long)(k / s->nx));
+        v[k] = d[k] = difference(s, boundary, h, (long)(k % s->nx), (long)(k / s->nx));
     middle = median(v, n);
     for (size_t k = 0; k < n; k++)
         v[k] = fabs(d[k] - middle);
@@ -71,7 +71,8 @@ by_sorting(const struct rc_shape *s, double times, bool periodic, double *h)
 }
 
 static void
-check_outliers(const struct rc_shape *s, double times, bool periodic, int missing, double step)
+check_outliers(const struct rc_shape *s, double times, struct rc_boundary boundary, int missing,
+               double step)
 {
     size_t n = s->nx * s->ny, count, expected;
     double *h = new_map(s), *sorted = new_map(s);
@@ -84,8 +85,8 @@ check_outliers(const struct rc_shape *s, double times, bool periodic, int missin
             h[k] = NAN;
     }
     memcpy(sorted, h, n * sizeof *h);
-    expected = by_sorting(s, times, periodic, sorted);
-    assert_int_equal(rc_outliers(s, times, periodic, 2, h, &count, &err), RC_OK);
+    expected = by_sorting(s, times, boundary, sorted);
+    assert_int_equal(rc_outliers(s, times, boundary, 2, h, &count, &err), RC_OK);
     if (count != expected)
         fail_msg("%zu x %zu, %d %% missing: %zu outliers, not %zu", s->nx, s->ny, missing, count,
                  expected);
@@ -108,10 +109,11 @@ test_as_by_sorting(void **state)
     srand(51);
     for (size_t k = 0; k < sizeof shapes / sizeof *shapes; k++)
         for (int missing = 0; missing <= 90; missing += 30)
-            for (int periodic = 0; periodic < 2; periodic++) {
-                check_outliers(&shapes[k], 3, periodic, missing, 0);
-                check_outliers(&shapes[k], 1, periodic, missing, 0);
-                check_outliers(&shapes[k], 2, periodic, missing, 0.25e-6); /* many alike */
+            for (int turn = 0; turn < 4; turn++) {
+                const struct rc_boundary boundary = rc_boundary_of(turn & 1, turn & 2);
+                check_outliers(&shapes[k], 3, boundary, missing, 0);
+                check_outliers(&shapes[k], 1, boundary, missing, 0);
+                check_outliers(&shapes[k], 2, boundary, missing, 0.25e-6); /* many alike */
             }
 }
 
@@ -130,12 +132,12 @@ test_share_of_noise(void **state)
         double u = (rand() + 1.0) / (RAND_MAX + 2.0), v = (rand() + 1.0) / (RAND_MAX + 2.0);
         h[k] = 1e-7 * sqrt(-2 * log(u)) * cos(2 * exact_pi * v);
     }
-    assert_int_equal(rc_outliers(&s, 3, false, 0, h, &count, &err), RC_OK);
+    assert_int_equal(rc_outliers(&s, 3, RC_FREE, 0, h, &count, &err), RC_OK);
     /* counts scatter by their square root; the median of 24 neighbours adds its own scatter */
     assert_true(fabs((double)count - 0.0027 * (double)n) < 4 * sqrt(0.0027 * (double)n));
     for (size_t k = 0; k < n; k++)
         h[k] = 1e-5 * cos((double)(k % s.nx) / 40) + 1e-7 * chance() + (k % 97 == 3 ? 1e-5 : 0);
-    assert_int_equal(rc_outliers(&s, 20, false, 0, h, &count, &err), RC_OK);
+    assert_int_equal(rc_outliers(&s, 20, RC_FREE, 0, h, &count, &err), RC_OK);
     for (size_t k = 0; k < n; k++)
         assert_true(isnan(h[k]) == (k % 97 == 3));
     free(h);
@@ -220,14 +222,14 @@ test_refusals(void **state)
     refused(rc_taper(&s, 5.1e-6, h, &err), &err, "wider than half the map, 5e-06 m");
     refused(rc_taper(&s, 1.9e-6, h, &err), &err, "narrower than a node, 2e-06 m");
     refused(rc_taper(&s, NAN, h, &err), &err, "narrower than a node");
-    refused(rc_outliers(&s, 0, false, 1, h, &count, &err), &err, "must be above 0");
+    refused(rc_outliers(&s, 0, RC_FREE, 1, h, &count, &err), &err, "must be above 0");
     h[7] = INFINITY;
     refused(rc_taper(&s, 3e-6, h, &err), &err, "1 infinite heights");
-    refused(rc_outliers(&s, 3, false, 1, h, &count, &err), &err, "1 infinite heights");
+    refused(rc_outliers(&s, 3, RC_FREE, 1, h, &count, &err), &err, "1 infinite heights");
     for (size_t k = 0; k < 60; k++)
         h[k] = NAN;
     refused(rc_taper(&s, 3e-6, h, &err), &err, "all 60 heights are missing");
-    assert_int_equal(rc_outliers(&s, 3, false, 1, h, &count, &err), RC_OK);
+    assert_int_equal(rc_outliers(&s, 3, RC_FREE, 1, h, &count, &err), RC_OK);
     assert_int_equal(count, 0);
 }
 

@@ -138,32 +138,35 @@ enum {
     WINDOWS = sizeof windows / sizeof *windows
 };
 
+/* A map that repeats along one axis has no window along it. */
 static double
-weight(size_t k, const struct rc_shape *s, size_t node)
+weight(size_t k, struct rc_boundary boundary, const struct rc_shape *s, size_t node)
 {
+    const bool one = boundary.x != boundary.y;
     double x = ((double)(node % s->nx) + 0.5) / (double)s->nx;
     double y = ((double)(node / s->nx) + 0.5) / (double)s->ny;
 
-    return (s->nx == 1 ? 1 : windows[k].at(x)) * (s->ny == 1 ? 1 : windows[k].at(y));
+    return (s->nx == 1 || (one && boundary.x) ? 1 : windows[k].at(x)) *
+           (s->ny == 1 || (one && boundary.y) ? 1 : windows[k].at(y));
 }
 
 /* Computes for heights under window k: their mean, the mean square about it, and the mean square of the
  * window. */
 static void
-seen_through(size_t k, const struct rc_shape *s, const double *h, double *mean, double *square,
-             double *power)
+seen_through(size_t k, struct rc_boundary boundary, const struct rc_shape *s, const double *h,
+             double *mean, double *square, double *power)
 {
     size_t n = s->nx * s->ny;
     double sum = 0, weights = 0;
 
     *square = *power = 0;
     for (size_t i = 0; i < n; i++) {
-        sum += weight(k, s, i) * h[i];
-        weights += weight(k, s, i);
+        sum += weight(k, boundary, s, i) * h[i];
+        weights += weight(k, boundary, s, i);
     }
     *mean = sum / weights;
     for (size_t i = 0; i < n; i++) {
-        double w = weight(k, s, i);
+        double w = weight(k, boundary, s, i);
         *square += w * w * (h[i] - *mean) * (h[i] - *mean) / (double)n;
         *power += w * w / (double)n;
     }
@@ -189,14 +192,14 @@ test_parseval(void **state)
         for (size_t i = 0; i < s->nx * s->ny; i++)
             h[i] = 4e-6 + 1e-6 * rand() / RAND_MAX + 1e-7 * (double)(i % s->nx);
         rc_measure(s, h, &statistics);
-        for (size_t b = 0; b < 2 * WINDOWS + 2; b++) {
-            const struct rc_psd_options options = {.boundary = b % 2 == 0 ? RC_FREE : RC_PERIODIC,
-                                                   .window = b < 2 * WINDOWS ? windows[b / 2].name
+        for (size_t b = 0; b < 4 * WINDOWS + 4; b++) {
+            const struct rc_psd_options options = {.boundary = rc_boundary_of(b & 1, b & 2),
+                                                   .window = b < 4 * WINDOWS ? windows[b / 4].name
                                                                              : NULL};
-            size_t window = b < 2 * WINDOWS ? b / 2 : b % 2 == 0 ? 1 : 0;
+            size_t window = b < 4 * WINDOWS ? b / 4 : b % 4 == 3 ? 0 : 1;
             struct rc_psd *psd = spectrum(s, h, &options);
             double mean, square, power;
-            seen_through(window, s, h, &mean, &square, &power);
+            seen_through(window, options.boundary, s, h, &mean, &square, &power);
             assert_near(total(psd) / (lx * ly), square / power, parseval);
             assert_near(psd->sum, square / power, parseval);
             assert_near(psd->mean_square, statistics.rms * statistics.rms, parseval);
@@ -221,13 +224,17 @@ test_window(void **state)
         double x = ((double)(k % s.nx) + 0.5) / (double)s.nx;
         h[k] = 1e-6 * rand() / RAND_MAX + 3e-6 * x * x;
     }
-    for (size_t b = 0; b < WINDOWS; b++) {
-        const struct rc_psd_options options = {.window = windows[b].name, .map = map};
+    for (size_t turn = 0; turn < 3 * WINDOWS; turn++) {
+        const size_t b = turn / 3;
+        const struct rc_psd_options options = {.boundary =
+                                                   rc_boundary_of(turn % 3 == 1, turn % 3 == 2),
+                                               .window = windows[b].name,
+                                               .map = map};
         double mean, square, power;
         rc_psd_free(spectrum(&s, h, &options));
-        seen_through(b, &s, h, &mean, &square, &power);
+        seen_through(b, options.boundary, &s, h, &mean, &square, &power);
         if (b == 1)
-            assert_near(power, 9.0 / 64, summed);
+            assert_near(power, turn % 3 == 0 ? 9.0 / 64 : 3.0 / 8, summed);
         for (long ky = -9; ky < 9; ky += 2)
             for (long kx = -12; kx < 12; kx += 3) {
                 double re = 0, im = 0;
@@ -235,8 +242,8 @@ test_window(void **state)
                     double phase = 2 * exact_pi *
                                    ((double)kx * (double)(k % s.nx) / (double)s.nx +
                                     (double)ky * (double)(k / s.nx) / (double)s.ny);
-                    re += weight(b, &s, k) * (h[k] - mean) * cos(phase);
-                    im += weight(b, &s, k) * (h[k] - mean) * sin(phase);
+                    re += weight(b, options.boundary, &s, k) * (h[k] - mean) * cos(phase);
+                    im += weight(b, options.boundary, &s, k) * (h[k] - mean) * sin(phase);
                 }
                 assert_near(map[(size_t)(ky + 9) * s.nx + (size_t)(kx + 12)],
                             (re * re + im * im) * s.dx * s.dy / (double)n / power, 1e-9);

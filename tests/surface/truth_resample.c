@@ -38,12 +38,13 @@ shape_for(const struct rc_shape *from, double dx, double dy)
 }
 
 static double *
-resample(const struct rc_shape *from, const double *v, bool periodic, const struct rc_shape *to)
+resample(const struct rc_shape *from, const double *v, struct rc_boundary boundary,
+         const struct rc_shape *to)
 {
     double *out = new_map(to);
     struct rc_err err;
 
-    if (rc_resample(from, v, periodic, to, out, &err) != RC_OK)
+    if (rc_resample(from, v, boundary, to, out, &err) != RC_OK)
         fail_msg("%s", err.text);
     return out;
 }
@@ -58,7 +59,8 @@ check_shape(struct rc_shape from, double dx, double dy, size_t nx, size_t ny, bo
     assert_int_equal(to.nx, nx);
     assert_int_equal(to.ny, ny);
     assert_true(to.dx == dx && to.dy == dy);
-    assert_int_equal(rc_resample_covers(&from, &to), covers);
+    assert_int_equal(rc_resample_covers(&from, &to, RC_X) && rc_resample_covers(&from, &to, RC_Y),
+                     covers);
 }
 
 static void
@@ -101,7 +103,7 @@ beyond_the_map_is_refused(void **state)
     struct rc_err err;
 
     (void)state;
-    assert_int_equal(rc_resample(&map, v, false, &to, out, &err), RC_FAIL);
+    assert_int_equal(rc_resample(&map, v, RC_FREE, &to, out, &err), RC_FAIL);
     assert_non_null(strstr(err.text, "go beyond the map of 10 old cells"));
 }
 
@@ -113,8 +115,8 @@ the_same_grid_changes_nothing(void **state)
 
     (void)state;
     v[0] = v[33 * 47 - 1] = v[400] = NAN;
-    a = resample(&map, v, false, &map);
-    b = resample(&map, v, true, &close);
+    a = resample(&map, v, RC_FREE, &map);
+    b = resample(&map, v, RC_PERIODIC, &close);
     assert_memory_equal(a, v, 33 * 47 * sizeof *v);
     assert_memory_equal(b, v, 33 * 47 * sizeof *v);
     free(v);
@@ -143,7 +145,7 @@ check_monomial(struct rc_shape from, double dx, double dy, int m, int n, size_t 
     for (size_t k = 0; k < from.nx * from.ny; k++)
         v[k] = power(place(k % from.nx, from.nx, from.dx) / x1, m) *
                power(place(k / from.nx, from.ny, from.dy) / y1, n);
-    out = resample(&from, v, false, &to);
+    out = resample(&from, v, RC_FREE, &to);
     for (size_t k = 0; k < to.nx * to.ny; k++) {
         double x = place(k % to.nx, to.nx, to.dx), y = place(k / to.nx, to.ny, to.dy);
 
@@ -183,14 +185,14 @@ small_maps(void **state)
     const double line[] = {1, 3}, bend[] = {1, 0, 1, 2, 1, 2, 5, 4, 5}; /* x^2 + y^2 + 2 y + 1 */
     const double single[] = {7};
     struct rc_shape to = {8, 1, 0.25, 1};
-    double *out = resample(&two, line, false, &to);
+    double *out = resample(&two, line, RC_FREE, &to);
 
     (void)state;
     for (size_t i = 0; i < 8; i++)
         assert_true(fabs(out[i] - (2 + 2 * place(i, 8, 0.25))) <= rounding);
     free(out);
     to = (struct rc_shape){6, 9, 0.5, 1.0 / 3};
-    out = resample(&three, bend, false, &to);
+    out = resample(&three, bend, RC_FREE, &to);
     for (size_t k = 0; k < 54; k++) {
         double x = place(k % 6, 6, 0.5), y = place(k / 6, 9, 1.0 / 3);
 
@@ -198,31 +200,32 @@ small_maps(void **state)
     }
     free(out);
     to = (struct rc_shape){3, 2, 1.0 / 3, 0.5};
-    out = resample(&one, single, false, &to);
+    out = resample(&one, single, RC_FREE, &to);
     for (size_t k = 0; k < 6; k++)
         assert_true(out[k] == 7);
     free(out);
 }
 
-/* A map in a 3 x 3 array of its copies gives the same result as a periodic map. */
+/* A map with copies of itself on both sides along the axes that repeat gives the same result as one that
+ * repeats along them. */
 static void
-periodic_maps_wrap(void **state)
+check_copies(size_t across, size_t down)
 {
-    const struct rc_shape map = {11, 8, 1, 1.3};
-    const struct rc_shape nine = {33, 24, 1, 1.3};
-    struct rc_shape to = {22, 24, 0.5, 1.3 / 3}, tos = {66, 72, 0.5, 1.3 / 3};
-    double *v = random_map(&map, 5), *tiled = new_map(&nine), *a, *b;
+    const struct rc_boundary boundary = rc_boundary_of(across > 1, down > 1);
+    const struct rc_shape map = {11, 8, 1, 1.3}, many = {across * 11, down * 8, 1, 1.3};
+    const struct rc_shape to = {22, 24, 0.5, 1.3 / 3}, tos = {across * 22, down * 24, 0.5, 1.3 / 3};
+    double *v = random_map(&map, 5), *tiled = new_map(&many), *a, *b;
 
-    (void)state;
     v[3 * 11 + 1] = NAN;
     v[7 * 11 + 10] = NAN;
-    for (size_t k = 0; k < 33 * 24; k++)
-        tiled[k] = v[k / 33 % 8 * 11 + k % 33 % 11];
-    a = resample(&map, v, true, &to);
-    b = resample(&nine, tiled, false, &tos);
-    for (size_t j = 0; j < 24; j++)
-        for (size_t i = 0; i < 22; i++) {
-            double expected = b[(j + 24) * 66 + i + 22], got = a[j * 22 + i];
+    for (size_t k = 0; k < many.nx * many.ny; k++)
+        tiled[k] = v[k / many.nx % 8 * 11 + k % many.nx % 11];
+    a = resample(&map, v, boundary, &to);
+    b = resample(&many, tiled, RC_FREE, &tos);
+    for (size_t j = 0; j < to.ny; j++)
+        for (size_t i = 0; i < to.nx; i++) {
+            double expected = b[(j + down / 2 * to.ny) * tos.nx + i + across / 2 * to.nx],
+                   got = a[j * to.nx + i];
 
             assert_true(isnan(expected) ? isnan(got) : fabs(got - expected) <= rounding);
         }
@@ -230,6 +233,15 @@ periodic_maps_wrap(void **state)
     free(tiled);
     free(a);
     free(b);
+}
+
+static void
+periodic_maps_wrap(void **state)
+{
+    (void)state;
+    check_copies(3, 3);
+    check_copies(1, 3);
+    check_copies(3, 1);
 }
 
 /* The error of a cosine falls with the fourth power of the spacing. */
@@ -241,7 +253,7 @@ cosine_error(size_t n)
 
     for (size_t i = 0; i < n; i++)
         v[i] = cos(2 * exact_pi * place(i, n, map.dx) / 16);
-    out = resample(&map, v, true, &to);
+    out = resample(&map, v, RC_PERIODIC, &to);
     for (size_t i = 0; i < 4 * n; i++)
         worst = larger(worst, fabs(out[i] - cos(2 * exact_pi * place(i, 4 * n, to.dx) / 16)));
     free(v);
@@ -276,7 +288,7 @@ holes_stay_what_they_are(void **state)
         v[k] = 3 * place(k % 21, 21, 1) - 2 * place(k / 21, 19, 1);
     for (size_t k = 0; k < 6; k++)
         v[holes[k]] = NAN;
-    out = resample(&map, v, false, &to);
+    out = resample(&map, v, RC_FREE, &to);
     for (size_t j = 0; j < to.ny; j++)
         for (size_t i = 0; i < to.nx; i++) {
             double own = v[j / 3 * 21 + i / 3], got = out[j * to.nx + i];
@@ -315,7 +327,7 @@ check_means(struct rc_shape from, double dx, double dy, double part_missing)
     for (size_t k = 0; k < from.nx * from.ny; k++)
         if (gone[k] + 0.3 < part_missing)
             v[k] = NAN;
-    out = resample(&from, v, false, &to);
+    out = resample(&from, v, RC_FREE, &to);
     for (size_t k = 0; k < to.nx * to.ny; k++) {
         double x = place(k % to.nx, to.nx, to.dx), y = place(k / to.nx, to.ny, to.dy);
         double sum = 0, area = 0;
@@ -365,7 +377,7 @@ half_is_enough(void **state)
 {
     const struct rc_shape map = {4, 2, 1, 1}, to = {2, 1, 2, 2};
     const double v[] = {NAN, 3, NAN, NAN, 1, NAN, 8, NAN};
-    double *out = resample(&map, v, false, &to);
+    double *out = resample(&map, v, RC_FREE, &to);
 
     (void)state;
     assert_true(out[0] == 2);
@@ -382,7 +394,7 @@ whole_maps_keep_their_integral(void **state)
 
     (void)state;
     for (size_t k = 0; k < 3; k++) {
-        double *out = resample(&map, v, false, &to[k]);
+        double *out = resample(&map, v, RC_FREE, &to[k]);
 
         assert_true(fabs(rc_sum(out, to[k].nx * to[k].ny) * to[k].dx * to[k].dy / whole - 1) <=
                     summed);
@@ -405,7 +417,7 @@ one_axis_each_way(void **state)
 
         for (size_t n = 0; n < 480; n++)
             v[n] = 0.7 * place(n % 24, 24, 1) - 0.4 * place(n / 24, 20, 1);
-        out = resample(&map, v, false, &to[k]);
+        out = resample(&map, v, RC_FREE, &to[k]);
         for (size_t n = 0; n < to[k].nx * to[k].ny; n++) {
             double x = place(n % to[k].nx, to[k].nx, to[k].dx);
             double y = place(n / to[k].nx, to[k].ny, to[k].dy);

@@ -63,7 +63,7 @@ nothing "$(figure rms robust.rcg)" 1e-7 "  --robust neither"
 claim "--rows bow subtracts the bow of each row" bash -c 'rc-synth sphere --radius 2.385mm --nx 33 --ny 47 --dx 1.1um --dy 1um | rc-detrend --rows bow -o bow.rcg'
 nothing "$(figure rms bow.rcg)" 1e-7 "  leaves nothing of a paraboloid"
 claim "offsets of rows keep a period" bash -c 'rc-synth wave --nx 16 --dx 1um --wavelength 8um --amplitude 1nm | rc-detrend --rows offset | rc-info | grep -q "periodic.*yes"'
-claim "  slopes of rows do not" warns 'a periodic surface is not periodic without its form' bash -c 'rc-synth wave --nx 16 --dx 1um --wavelength 8um --amplitude 1nm | rc-detrend --rows tilt -o w.rcg'
+claim "  slopes of rows end that along x" warns 'a periodic surface is not periodic along x without its form: it gets periodic=y' bash -c 'rc-synth wave --nx 16 --dx 1um --wavelength 8um --amplitude 1nm | rc-detrend --rows tilt -o w.rcg'
 refuses 2 '--rows offst: it must be one of offset|tilt|bow' "no such level" "rc-detrend --rows offst lines.rcg -o x.rcg"
 
 # ---- their order ----

@@ -94,6 +94,8 @@ add_steps(struct line *line, const struct steps *steps)
 {
     for (size_t k = 0; k < steps->n; k++) {
         add(line, " --", steps->step[k].opt->name);
+        if (steps->step[k].opt->optional && steps->step[k].text == NULL)
+            continue;
         if (steps->step[k].opt->type == OPT_TEXTS ||
             (steps->step[k].opt->arg != NULL && strchr(steps->step[k].opt->arg, '|') != NULL))
             add(line, " ", steps->step[k].text);

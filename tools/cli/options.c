@@ -380,6 +380,13 @@ word_set(struct tool *t, const struct opt *o, const char *text)
     }
 }
 
+/* A step that takes one of some words. */
+static bool
+takes_word(const struct opt *o)
+{
+    return o->type == OPT_STEP && o->arg != NULL && strchr(o->arg, '|') != NULL;
+}
+
 static void
 add_step(struct tool *t, const struct opt *o, struct steps *steps, const char *text)
 {
@@ -388,8 +395,8 @@ add_step(struct tool *t, const struct opt *o, struct steps *steps, const char *t
 
     if (steps->n == most)
         tool_usage(t, "more than %zu steps: use two commands", most);
-    if (o->type == OPT_STEP && o->arg != NULL && strchr(o->arg, '|') != NULL)
-        value = option_word_index(o, choice(t, o, text), strlen(text));
+    if (takes_word(o))
+        value = text == NULL ? -1 : option_word_index(o, choice(t, o, text), strlen(text));
     else if (o->type == OPT_STEP && o->arg != NULL)
         value = o->unit == UNIT_NONE && !o->real ? whole(t, o, text) : number(t, o, text);
     steps->step[steps->n++] = (struct step){.opt = o, .value = value, .text = text};
@@ -560,7 +567,7 @@ could_be_argument(const struct opt *o, const char *word)
 
     if (o->type == OPT_TEXT)
         return *word != '-';
-    if (o->type == OPT_CHOICE)
+    if (o->type == OPT_CHOICE || takes_word(o))
         return option_word_index(o, word, strlen(word)) >= 0;
     return unit_number(word, o->unit, &value, NULL) == RC_OK;
 }
@@ -691,7 +698,8 @@ options_read(struct tool *t, int argc, char **argv)
                 t->writes = WRITES_TEXT;
             text = optional_argument_of(&t->option.row[what - OWN], argc, argv);
             if (text != NULL || !t->option.row[what - OWN].optional ||
-                t->option.row[what - OWN].type == OPT_CHOICE)
+                t->option.row[what - OWN].type == OPT_CHOICE ||
+                t->option.row[what - OWN].type == OPT_STEP)
                 set_value(t, &t->option.row[what - OWN], tool_value(t, &t->option.row[what - OWN]),
                           text);
         } else {

@@ -49,7 +49,7 @@ enum opt_type {
     OPT_NUMBERS, /* struct numbers; n = 0 for .word, if the option has such a word */
     /* Appended to a struct steps: options whose order on the line matters. With .arg it takes a whole number
      * or, with a unit or .real, a number. If '|' separates words in .arg it takes one; the value is its
-     * index. */
+     * index, or -1 if it is optional and omitted. */
     OPT_STEP,
     OPT_TEXTS, /* appended too, in the same order; the argument is kept as text */
 };

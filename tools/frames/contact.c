@@ -143,6 +143,24 @@ map_repeats(const struct rc_grid *g)
                                 .y = both || map_says(g, "periodic", "y")};
 }
 
+void
+map_set_repeats(struct tool *t, struct rc_grid *g, struct rc_boundary repeats)
+{
+    tool_set(t, g, "periodic", rc_repeats_word(repeats));
+}
+
+const char *
+map_end_period(struct tool *t, struct rc_grid *g, struct rc_boundary ends)
+{
+    const struct rc_boundary was = map_repeats(g);
+    const struct rc_boundary is = rc_boundary_of(was.x && !ends.x, was.y && !ends.y);
+
+    if (rc_same_boundary(was, is))
+        return NULL;
+    map_set_repeats(t, g, is);
+    return is.x ? " along y" : is.y ? " along x" : "";
+}
+
 struct rc_boundary
 map_boundary(const struct rc_grid *g)
 {

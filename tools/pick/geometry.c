@@ -154,17 +154,27 @@ remove_keys(struct rc_grid *g, const char *const *name, struct rc_err *err)
     return status;
 }
 
-/* The map is no longer a whole period. */
-static enum rc_status
-forget_period(struct tool *t, struct rc_grid *g, struct rc_err *err)
+/* The boundary of a result, without that of its surface. */
+static struct rc_boundary
+own_boundary(const struct rc_grid *g)
 {
-    if (map_says(g, "boundary", "periodic") && rc_grid_set(g, "boundary", NULL, err) != RC_OK)
-        return RC_FAIL;
-    if (!map_says(g, "periodic", "yes"))
-        return RC_OK;
-    tool_warn(t, "%s: a part of a periodic map is not periodic: it gets periodic=no",
-              tool_where(t, g));
-    return rc_grid_set(g, "periodic", "no", err);
+    return rc_grid_get(g, "boundary") == NULL ? RC_FREE : map_boundary(g);
+}
+
+/* The map is no longer a whole period along these axes. */
+static void
+forget_period(struct tool *t, struct rc_grid *g, struct rc_boundary cut)
+{
+    const struct rc_boundary own = own_boundary(g);
+    const char *along = map_end_period(t, g, cut);
+
+    if ((own.x && cut.x) || (own.y && cut.y)) {
+        tool_set(t, g, "boundary", NULL);
+        tool_set(t, g, "datum", NULL);
+    }
+    if (along != NULL)
+        tool_warn(t, "%s: a part of a periodic map is not periodic%s: it gets periodic=%s",
+                  tool_where(t, g), along, rc_grid_get(g, "periodic"));
 }
 
 /* ---- steps ---- */
@@ -209,8 +219,7 @@ crop(struct tool *t, struct rc_grid *g, const struct request *r, struct rc_err *
         return RC_OK;
     g->nx = to.nx;
     g->ny = to.ny;
-    if (forget_period(t, g, err) != RC_OK)
-        return RC_FAIL;
+    forget_period(t, g, rc_boundary_of(to.nx < from.nx, to.ny < from.ny));
     return remove_keys(g, (const char *const[]){"filled", "outliers", "load", "taper", NULL}, err);
 }
 
@@ -234,27 +243,31 @@ static enum rc_status
 resample(struct tool *t, struct rc_grid *g, const struct request *r, struct rc_err *err)
 {
     struct rc_shape from = rc_grid_shape(g), to;
-    bool periodic = map_says(g, "periodic", "yes") || map_says(g, "boundary", "periodic"), covers,
-         same;
+    const struct rc_boundary surface = map_repeats(g), own = own_boundary(g);
+    const struct rc_boundary round = rc_boundary_of(surface.x || own.x, surface.y || own.y);
+    struct rc_boundary cut;
+    bool covers, same;
     struct rc_grid *map;
 
     if (new_shape(&from, r, &to, err) != RC_OK)
         return RC_FAIL;
-    covers = rc_resample_covers(&from, &to);
+    cut = rc_boundary_of(!rc_resample_covers(&from, &to, RC_X),
+                         !rc_resample_covers(&from, &to, RC_Y));
+    covers = rc_repeats(cut) == 0;
     same = covers && from.nx == to.nx && from.ny == to.ny;
     if (same && from.dx == to.dx && from.dy == to.dy)
         return RC_OK;
     if ((map = rc_grid_new(&to, g->channel, g->unit, err)) == NULL)
         return RC_FAIL;
-    if (rc_resample(&from, g->v, periodic, &to, map->v, err) != RC_OK) {
+    if (rc_resample(&from, g->v, round, &to, map->v, err) != RC_OK) {
         rc_grid_free(map);
         return RC_FAIL;
     }
     for (size_t k = 0; strcmp(g->channel, CONTACT_CHANNEL) == 0 && k < to.nx * to.ny; k++)
         map->v[k] = map->v[k] < 0.5 ? 0 : 1; /* 1 if most of the cell is in contact */
     replace(g, map);
-    if ((!covers && forget_period(t, g, err) != RC_OK) ||
-        (!same && remove_keys(g, (const char *const[]){"filled", "outliers", NULL}, err) != RC_OK))
+    forget_period(t, g, cut);
+    if ((!same && remove_keys(g, (const char *const[]){"filled", "outliers", NULL}, err) != RC_OK))
         return RC_FAIL;
     if (covers && to.nx <= from.nx && to.ny <= from.ny)
         return RC_OK;
@@ -273,24 +286,28 @@ mirror(struct tool *t, struct rc_grid *g, const struct request *r, struct rc_err
 static enum rc_status
 rotate(struct tool *t, struct rc_grid *g, const struct request *r, struct rc_err *err)
 {
+    const struct rc_boundary surface = map_repeats(g), own = own_boundary(g);
     struct rc_shape from = rc_grid_shape(g), to = rc_rotate_shape(&from, (size_t)r->v[0]);
     struct rc_grid *map;
 
-    (void)t;
     if ((map = rc_grid_new(&to, g->channel, g->unit, err)) == NULL)
         return RC_FAIL;
     rc_rotate(&from, g->v, (size_t)r->v[0], map->v);
     replace(g, map);
+    if (r->v[0] == 2) /* half a turn */
+        return RC_OK;
+    if (rc_repeats(surface) == 1)
+        map_set_repeats(t, g, rc_boundary_of(surface.y, surface.x));
+    if (rc_repeats(own) == 1)
+        tool_set(t, g, "boundary", rc_boundary_word(rc_boundary_of(own.y, own.x)));
     return RC_OK;
 }
 
 /* ---- the table ---- */
 
 static const struct geometry steps[] = {
-    {"crop", false, read_crop, crop},
-    {"resample", false, read_resample, resample},
-    {"mirror", true, read_mirror, mirror},
-    {"rotate", true, read_rotate, rotate},
+    {"crop", false, read_crop, crop},          {"resample", false, read_resample, resample},
+    {"mirror", true, read_mirror, mirror},     {"rotate", true, read_rotate, rotate},
 };
 
 static const struct geometry *

@@ -275,6 +275,7 @@ static void
 warn_of_seam(struct tool *t, const struct physics *a, const struct rc_grid *g)
 {
     static const char *const line[] = {"column", "row"};
+    const bool one = rc_repeats(a->boundary) == 1;
     struct rc_seam seam;
 
     rc_measure_seam(ranks_of(t), rc_shape_of(g), g->v, &seam);
@@ -284,11 +285,14 @@ warn_of_seam(struct tool *t, const struct physics *a, const struct rc_grid *g)
             tool_warn(t,
                       "%s: the edges do not meet: from the last %s to the first the heights jump "
                       "by %s (RMS), %.3g times the steps inside: rc-detrend --plane removes a "
-                      "tilt, --mirror makes a periodic map of %s the area from mirror images; or "
+                      "tilt, --mirror%s makes a periodic map of %s the area from mirror images; or "
                       "solve it without --periodic",
                       tool_where(t, g), line[side], shown_in_unit(seam.across[side], "m"),
                       seam.across[side] / seam.inside[side],
-                      g->nx > 1 && g->ny > 1 ? "4 times" : "twice");
+                      !one        ? ""
+                      : side == 0 ? "=x"
+                                  : "=y",
+                      !one && g->nx > 1 && g->ny > 1 ? "4 times" : "twice");
 }
 
 double
