@@ -26,6 +26,7 @@ static const struct opt opts[] = {
     STEP("resample", "DX[,DY]|NXxNY", "to other spacings, or numbers of nodes"),
     STEP("mirror", "x|y", "left to right, or top to bottom"),
     STEP("rotate", "90|180|270", "counterclockwise"),
+    STEP("extrude", "N", "a profile becomes a map of N equal rows, which repeats along y (a column: along x)"),
     {.name = "set", .type = OPT_TEXTS, .at = offsetof(struct args, steps), .result = true,
      .arg = "KEY=VALUE",
      .help = "set a key of every frame, KEY= removes it; may be repeated"},
@@ -153,7 +154,7 @@ settle(struct tool *t)
         args.wanted.number.n == 0)
         tool_usage(
             t, "nothing to do: give --channel, --depth or --case, or --set KEY=VALUE, or --crop, "
-               "--resample, --mirror or --rotate");
+               "--resample, --mirror, --rotate or --extrude");
     for (size_t k = 0; k < args.steps.n; k++)
         if (pick_geometry(&args.steps.step[k]))
             pick_geometry_settle(t, &args.steps.step[k]);

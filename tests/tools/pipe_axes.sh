@@ -1,7 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 # A surface may repeat along one axis (key periodic=x or y). A tool that cuts, fits or filters it asks each axis:
 # a turned map gives the turned result, three copies of a map give in their middle the map that repeats, and a
-# step that ends the period along one axis keeps that along the other.
+# step that ends the period along one axis keeps that along the other. rc-pick --extrude makes such a map of a
+# profile.
 . "$(dirname "$0")/../pipe.sh"
 
 says_key() { # PATTERN FILE: a header line matches it
@@ -122,3 +123,37 @@ near "$(rc-info --json --patches p.rcg | head -n 1 | grep -o '"patches": {"count
 rc-synth wave --nx 40 --ny 30 --dx 1um --amplitude 10nm --wavelength 0,10um | rc-pick --set periodic=y -o whole.rcg
 rc-info --psd-map psd.rcg whole.rcg >out.txt
 claim "a spectrum has no window along the axis that repeats" test "$(rc-export --format xyz psd.rcg | awk '!/^#/ && NF && $3 > 1e-30 { print $2 }' | sort -u | wc -l)" = 2
+
+# ---- a profile becomes a map ----
+
+rc-synth selfaffine --nx 128 --ny 1 --dx 1um --hurst 0.8 --rms-height 20nm --rolloff 40um --short-cut 8um --seed 7 | rc-pick --set periodic=no -o profile.rcg
+rc-pick --extrude 6 profile.rcg -o ridges.rcg
+rc-pick --rotate 90 profile.rcg | rc-pick --extrude 6 -o turned.rcg
+claim "--extrude makes equal rows" test "$(rc-export --format csv ridges.rcg | grep -v '^[#"]' | sort -u | wc -l) $(rc-export --format csv ridges.rcg | grep -vc '^[#"]')" = "1 6"
+claim "  those of the profile" cmp <(rc-export --format csv profile.rcg | grep -v '^[#"]') <(rc-export --format csv ridges.rcg | grep -v '^[#"]' | head -n 1)
+claim "  as far apart as its nodes" says_key dy=1e-06 ridges.rcg
+claim "  which repeat along y" says_key periodic=y ridges.rcg
+claim "  or along x, of a column" bash -c 'says_key periodic=x turned.rcg && says_key nx=6 turned.rcg'
+claim "  a periodic profile along both" bash -c 'rc-pick --set periodic=yes --extrude 6 profile.rcg -o p6.rcg && says_key periodic=yes p6.rcg'
+claim "  rows at another distance" bash -c 'rc-pick --extrude 6 --set dy=3um profile.rcg -o p6.rcg && says_key dy=3e-06 p6.rcg'
+claim "a free solve of it proposes --periodic=y" warns 'the surface is periodic along y, .*add --periodic=y' rc-solve --load 1mN --estar 100GPa ridges.rcg -o p6.rcg
+for n in 1 6; do
+    rc-pick --extrude "$n" profile.rcg | rc-solve --quiet --tol 1e-9 --periodic=y --load 1000N/m --estar 100GPa --report "r$n.json" -o p6.rcg
+done
+rc-solve --quiet --tol 1e-9 --periodic=x --load 1000N/m --estar 100GPa --report rx.json -o p6.rcg turned.rcg
+for name in max_pressure approach load_per_metre; do
+    near "$(field "$name" r6.json)" "$(field "$name" r1.json)" 1e-7 "$name of six rows is that of one"
+    near "$(field "$name" rx.json)" "$(field "$name" r1.json)" 1e-7 "  and of a turned map"
+done
+claim "a form of an extruded profile varies along x only, and the rows still repeat" bash -c '
+    rc-detrend --quiet --poly 3 ridges.rcg -o flat.rcg 2>err && [ ! -s err ] && says_key periodic=y flat.rcg'
+claim "  it is that of the profile" bash -c '
+    rc-detrend --poly 3 profile.rcg | rc-pick --extrude 6 - -o want.rcg && rc-add --quiet --subtract want.rcg flat.rcg | rc-info --json >d.json'
+between 0 "$(field rms d.json)" 1e-15 "    to rounding"
+refuses 1 'extrude 6: the map has 40 rows and 48 columns: choose one of them by --crop' "a map is no profile" "rc-pick --extrude 6 y.rcg"
+refuses 1 'extrude 6: only heights become a map: choose them by --channel height' "nor a pressure" "rc-pick --extrude 6 p6.rcg"
+refuses 1 'extrude 6: a single node is no profile' "nor a node" "rc-pick --crop 3,0,1,1 --extrude 6 profile.rcg"
+for bad in 0 -1 1.5 3um ''; do
+    refuses 2 "rc-pick: --extrude $bad: a number of rows is expected, at least 1" "--extrude '$bad'" "rc-pick --extrude '$bad' profile.rcg"
+done
+refuses 1 'more than this machine can address|need at least|out of memory' "more rows than memory has" "rc-pick --extrude 999999999999999 profile.rcg"

@@ -303,11 +303,51 @@ rotate(struct tool *t, struct rc_grid *g, const struct request *r, struct rc_err
     return RC_OK;
 }
 
+static enum rc_status
+read_extrude(const char *text, struct request *r, struct rc_err *err)
+{
+    r->n = 1;
+    return read_count(text, text + strlen(text), &r->v[0])
+               ? RC_OK
+               : rc_err_set(err, "a number of rows is expected, at least 1");
+}
+
+/* Repeats a profile along the other axis. Counts of points and results that belong to the profile are not
+ * those of the map. */
+static enum rc_status
+extrude(struct tool *t, struct rc_grid *g, const struct request *r, struct rc_err *err)
+{
+    static const char *const gone[] = {"filled",   "outliers", "load", "taper",
+                                       "boundary", "datum",    NULL};
+    const struct rc_boundary surface = map_repeats(g);
+    const bool down = g->ny == 1;
+    struct rc_shape to = rc_grid_shape(g);
+    struct rc_grid *map;
+
+    if (strcmp(g->channel, "height") != 0)
+        return rc_err_set(err, "only heights become a map: choose them by --channel height");
+    if (g->nx > 1 && g->ny > 1)
+        return rc_err_set(err, "the map has %zu rows and %zu columns: choose one of them by --crop",
+                          g->ny, g->nx);
+    if (g->nx == 1 && g->ny == 1)
+        return rc_err_set(err, "a single node is no profile");
+    *(down ? &to.ny : &to.nx) = unit_size(r->v[0]);
+    if (rc_shape_check(&to, err) != RC_OK ||
+        (map = rc_grid_new(&to, g->channel, g->unit, err)) == NULL)
+        return RC_FAIL;
+    for (size_t k = 0; k < to.nx * to.ny; k++)
+        map->v[k] = g->v[down ? k % to.nx : k / to.nx];
+    replace(g, map);
+    map_set_repeats(t, g, rc_boundary_of(surface.x || !down, surface.y || down));
+    return remove_keys(g, gone, err);
+}
+
 /* ---- the table ---- */
 
 static const struct geometry steps[] = {
     {"crop", false, read_crop, crop},          {"resample", false, read_resample, resample},
     {"mirror", true, read_mirror, mirror},     {"rotate", true, read_rotate, rotate},
+    {"extrude", false, read_extrude, extrude},
 };
 
 static const struct geometry *
