@@ -283,9 +283,31 @@ failed(struct tool *t, const struct rc_grid *g, const struct step *step, const s
     tool_refuse(t, g, "%s", err->text);
 }
 
+/* Ends the tool if mirror images would give the frames of a case different sizes. */
+static void
+demand_one_period(struct tool *t, const struct rc_grid *g)
+{
+    static struct rc_boundary first;
+    static size_t number; /* number of the current case; 0: none yet */
+    const struct rc_boundary own = map_repeats(g);
+
+    if (rc_grid_case(g) != number) {
+        number = rc_grid_case(g);
+        first = own;
+    }
+    for (size_t k = 0; k < args.steps.n && !rc_same_boundary(own, first); k++)
+        if (((const struct work *)args.steps.step[k].opt->of)->run == mirror)
+            tool_refuse(t, g,
+                        "--mirror: this frame has periodic=%s, and the one before it in the case "
+                        "periodic=%s: set the key of both with rc-pick --set periodic=%s",
+                        rc_repeats_word(own), rc_repeats_word(first),
+                        rc_repeats_word(strcmp(g->channel, "height") == 0 ? own : first));
+}
+
 static void
 detrend(struct tool *t, struct rc_grid *g)
 {
+    demand_one_period(t, g);
     for (size_t k = 0; k < args.steps.n; k++) {
         const struct step *step = &args.steps.step[k];
         const struct work *work = step->opt->of;
@@ -301,6 +323,7 @@ passing(struct tool *t, struct rc_grid *g)
 {
     char step[64];
 
+    demand_one_period(t, g);
     for (size_t k = 0; k < args.steps.n; k++) {
         const struct work *work = args.steps.step[k].opt->of;
         const char *axes = args.steps.step[k].text;

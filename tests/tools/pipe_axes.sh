@@ -70,6 +70,18 @@ claim "  of twice the area" test "$(rc-info --json mx.rcg | grep -o '"nx": 96, "
 claim "  the history has the axis" says 'rc-detrend [0-9.]* --mirror y$' cat my.rcg
 claim "  both in turn are --mirror" bash -c 'rc-detrend --mirror x --mirror=y none.rcg | rc-pick --set history.x=1 -o a.rcg && rc-detrend --mirror none.rcg | rc-pick --set history.x=1 -o b.rcg && cmp <(rc-export --format csv a.rcg | grep -v ^#) <(rc-export --format csv b.rcg | grep -v ^#) && says_key periodic=yes a.rcg'
 refuses 1 '--mirror has no effect, because the map is already periodic along y: leave it out' "images along y of a map that repeats along y" "rc-detrend --mirror=y y.rcg"
+rc-pick --set channel=hardness --set unit=Pa y.rcg -o hardness.rcg
+both() { { head -c -9 "$1"; head -c -9 "$2"; printf 'RCGEND 2\n'; }; }
+both y.rcg hardness.rcg >both.rcg
+claim "a map of hardness is mirrored with its height" bash -c 'rc-detrend --mirror both.rcg | rc-info --json >two.json && [ "$(grep -c "\"nx\": 96, \"ny\": 40" two.json)" = 2 ]'
+rc-pick --set periodic= hardness.rcg -o keyless.rcg
+both y.rcg keyless.rcg >both.rcg
+refuses 1 '.hardness.: --mirror: this frame has periodic=no, and the one before it in the case periodic=y: set the key of both with rc-pick --set periodic=y' \
+    "one that repeats along another axis is refused" "rc-detrend --mirror both.rcg"
+both keyless.rcg y.rcg >both.rcg
+refuses 1 '.height.: --mirror: this frame has periodic=y, and the one before it in the case periodic=no: set the key of both with rc-pick --set periodic=y' \
+    "  also before the height" "rc-detrend --mirror both.rcg"
+claim "  other steps do not ask" rc-detrend --lowpass 9um both.rcg -o after.rcg
 refuses 2 '--mirror=z|--mirror z: it must be one of x|y|xy' "a third axis" "rc-detrend --mirror=z y.rcg"
 solve='rc-solve --mean-pressure 1MPa --estar 100GPa --periodic=y --output pressure -o p.rcg'
 slope='rc-synth sphere --radius 1mm --place 0,20um --like rough.rcg'
