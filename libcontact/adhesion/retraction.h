@@ -19,11 +19,12 @@ enum {
 /* A state of the retraction, over the length and E*. */
 struct rc_retraction_state {
     double c, load, attraction;
-    double radius;   /* radius of a circle with the area of the contact */
+    double punch;    /* stiffness of a flat punch with the area of the contact */
+    double crack;    /* part of the force that opens a crack around the contact */
     double mean_gap; /* mean gap over the map */
     double slope,
         rate; /* slopes of load and attraction over c on the step to it; after a jump, the slopes
-                 before it */
+                 before it. For the first state `slope` is an expected one */
     int kept; /* index among the kept states */
 };
 
@@ -39,15 +40,17 @@ struct rc_retraction_step {
     double load, end, way, slope;
 };
 
-/* The law; `parted`: the mean gap without attraction. */
 struct rc_retraction_law {
-    double work, range, parted;
+    double range;
+    double parted; /* the mean gap without attraction */
+    bool lines; /* whole lines of nodes may separate at once: the load is a saw on fine grids too */
 };
 
 /* States in the order of the retraction; the fine stage begins at `base`. */
 struct rc_retraction_path {
     struct rc_retraction_state base, prior, last, before, lowest, after;
     bool has_base, has_prior, has_before, has_after;
+    bool shrunk; /* in a part of the step to `after` the attraction changes by a part only */
 };
 
 /* What the length of the next step depends on. */
@@ -117,8 +120,8 @@ struct rc_retraction {
     struct rc_retraction_found found;
 };
 
-/* Lengths are over the length of the grid, the work over this length and E*. */
-void rc_retraction_begin(struct rc_retraction *r, double work, double range, double parted);
+/* Lengths are over the length of the grid, forces over its square and E*. */
+void rc_retraction_begin(struct rc_retraction *r, const struct rc_retraction_law *law);
 /* Takes a state and sets its `slope` and `kept`. Returns true if there is a next state; otherwise `found` is
  * complete. */
 bool rc_retraction_next(struct rc_retraction *r, struct rc_retraction_state here);

@@ -167,6 +167,22 @@ rc_whole_scales(const struct rc_shape *shape, const struct rc_pair *pair, double
     return status;
 }
 
+/* With a short datum a load that covers the padded map displaces it away from the load. */
+static enum rc_status
+datum_suffices(const struct rc_whole *whole, struct rc_err *err)
+{
+    const struct rc_shape *g = &whole->grid;
+
+    if (rc_repeats(whole->boundary) != 1 || whole->mean > 0)
+        return RC_OK;
+    return rc_err_set(
+        err,
+        "datum %g m: with adhesion it must not be so far below the length of the map across the "
+        "axis that repeats: take a datum of %g m, which changes neither pressures nor gaps",
+        whole->boundary.datum,
+        (whole->boundary.x ? g->dy * (double)g->ny : g->dx * (double)g->nx) / 2);
+}
+
 struct rc_whole *
 rc_whole_new(const struct rc_shape *shape, const struct rc_operator_options *o, struct rc_err *err)
 {
@@ -190,7 +206,7 @@ rc_whole_new(const struct rc_shape *shape, const struct rc_operator_options *o, 
         struct extremes seen = {INFINITY, 0};
         w->whole.grid = grid_of(shape, o->boundary, halves[k]);
         w->whole.threads = rc_useful_threads(&w->whole.grid, o->threads);
-        if (plan(w, o->threads, &seen, err) != RC_OK)
+        if (plan(w, o->threads, &seen, err) != RC_OK || datum_suffices(&w->whole, err) != RC_OK)
             return NULL;
         w->whole.most = rc_has_mean(o->boundary) ? seen.most : most_of(w);
         if (seen.least > 0)

@@ -73,12 +73,14 @@ errors_are_known(void **state)
     size_t n = 0, nodes = 48;
 
     (void)state;
-    for (size_t k = 0; k < 48; k++) {
-        bool dome = k % 2 == 1;
-        struct rc_boundary boundary = dome ? RC_FREE : RC_PERIODIC;
+    for (size_t k = 0; k < 72; k++) {
+        bool mixed = k >= 48, dome = k % 2 == 1 || mixed;
+        struct rc_boundary boundary = mixed  ? rc_boundary_of(k % 2 == 0, k % 2 == 1)
+                                      : dome ? RC_FREE
+                                             : RC_PERIODIC;
         struct rc_shape shape = rough(nodes, 100 + k, dome);
         double strength = k / 2 % 2 ? 0.1 : 0.05, ell = ells[k / 4 % 3];
-        double approach = dome ? 0.02 * (double)nodes * (double)(k / 12 % 3)
+        double approach = dome ? 0.02 * (double)nodes * (double)((mixed ? k / 8 : k / 12) % 3)
                                : depth(nodes) * (0.3 + 0.25 * (double)(k / 12 % 3));
         struct rc_adhesion_problem problem =
             law_of(boundary, strength, ell, k / 2 % 3 == 0 ? tols[0] : tols[1]);
@@ -747,8 +749,9 @@ sums_agree(void **state)
     static double gap[MOST], u[MOST], s[MOST], ku[MOST];
 
     (void)state;
-    for (int dome = 0; dome < 2; dome++) {
-        struct rc_boundary boundary = dome ? RC_FREE : RC_PERIODIC;
+    for (int axes = 0; axes < 4; axes++) {
+        const bool dome = axes < 3;
+        struct rc_boundary boundary = rc_boundary_of(axes % 2 == 1, axes / 2 == 1);
         struct rc_shape shape = rough(n, 5, dome);
         struct rc_adhesion_solver *a = adhesion_new(shape, h, law_of(boundary, 0.1, 3, 1e-9));
         const struct rc_adhesion_state *f = adhesion_to_approach(a, dome ? 0.5 : 0.5 * depth(n));

@@ -375,6 +375,46 @@ traction(bool compact, double work, double range, double g, double *slope)
     return x > 0 ? 3 * work / range * x * x : 0;
 }
 
+/* The integral of K0 from 0 to z, odd in z: K0(z) is that of exp(-z cosh t) over t > 0, and the trapezoidal
+ * rule converges exponentially. */
+static double
+k0_integral(double z)
+{
+    const double step = 0.05;
+    double sum = 0;
+
+    for (int k = 0; k <= 800; k++) {
+        double c = cosh(k * step);
+        sum -= (k == 0 ? 0.5 : 1) * step * expm1(-fabs(z) * c) / c;
+    }
+    return z < 0 ? -sum : sum;
+}
+
+/* The integral of ln(|x|/datum). */
+static double
+log_integral(double x, double datum)
+{
+    return x == 0 ? 0 : x * log(fabs(x) / datum) - x;
+}
+
+/* The displacement i columns and j rows away from a unit pressure on a node. Along y the map repeats: the
+ * pressure is the sum of the ny waves of the map. Along x it is constant in a cell. Without a wave the
+ * displacement is 0 at the distance nx dx. */
+static double
+influence_of_waves(size_t nx, size_t ny, double dx, double dy, size_t i, size_t j)
+{
+    const double from = ((double)i - 0.5) * dx, to = ((double)i + 0.5) * dx,
+                 datum = (double)nx * dx;
+    double sum = -2 / exact_pi * (log_integral(to, datum) - log_integral(from, datum));
+
+    for (size_t m = 1; m < ny; m++) {
+        double q = 2 * exact_pi * (double)(m <= ny / 2 ? m : ny - m) / ((double)ny * dy);
+        sum += 2 / (exact_pi * q) * (k0_integral(q * to) - k0_integral(q * from)) *
+               cos(2 * exact_pi * (double)(m * j % ny) / (double)ny);
+    }
+    return sum / (double)ny / estar;
+}
+
 /* Finds the pressures at the shift c, starting from the present ones; false: it did not converge. */
 static bool
 newton(const double *h, bool compact, double work, double range, double c, double *p)
@@ -435,7 +475,10 @@ same_as_newton(struct rc_boundary boundary, bool compact, double ell)
         for (size_t j = 0; j < NODES; j++) {
             size_t a = (size_t)abs((int)(i % NX) - (int)(j % NX));
             size_t b = (size_t)abs((int)(i / NX) - (int)(j / NX));
-            dense.K[i][j] = dense_influence(&shape, boundary, estar, a, b);
+            dense.K[i][j] = rc_repeats(boundary) != 1
+                                ? dense_influence(&shape, boundary, estar, a, b)
+                            : boundary.y ? influence_of_waves(NX, NY, shape.dx, shape.dy, a, b)
+                                         : influence_of_waves(NY, NX, shape.dy, shape.dx, b, a);
         }
     for (size_t j = 0; j < NODES; j++)
         sum += dense.K[0][j] / NODES;
@@ -479,6 +522,8 @@ pressures_by_newton(void **state)
     same_as_newton(RC_PERIODIC, false, 5);
     same_as_newton(RC_FREE, true, 5);
     same_as_newton(RC_PERIODIC, true, 5);
+    same_as_newton(rc_boundary_of(true, false), false, 5);
+    same_as_newton(rc_boundary_of(false, true), true, 5);
 }
 
 int
