@@ -55,6 +55,25 @@ status=$?
 claim "a load below pull-off separates the bodies, with exit status 3" test "$status $(column separated 2 s.tsv)" = "3 yes"
 claim "  a message says so" bash -c "rc-solve --estar 2MPa --adhesion 50mJ/m2,jkr --load 0.2mN,-0.5mN ball.rcg -o s.rcg 2>said; grep -q 'the bodies have separated, because no state carries this load' said"
 
+# ---- a cylinder: the map repeats along its axis ----
+
+rc-synth wave --nx 128 --ny 3 --dx 2um --amplitude 1fm --wavelength 256um -o long.rcg
+rc-synth wave --nx 3 --ny 128 --dx 2um --amplitude 1fm --wavelength 0.256mm -o tall.rcg
+roller="$soft --cylinder 1mm --adhesion 50mJ/m2"
+$roller,jkr --periodic=y --approach 0 --pull-off --report y.tsv long.rcg -o y.rcg
+$roller,jkr --periodic=x --approach 0 --pull-off --report x.tsv tall.rcg -o x.rcg
+limit=$(awk 'BEGIN { printf "%.12g", -0.75 * (4 * 3.14159265358979 * 2e6 * 0.05 ^ 2 * 1e-3) ^ (1 / 3) }')
+near "$(column load_per_metre 2 y.tsv)" "$limit" 0.02 "a cylinder comes off at 3/4 (4 pi E* w^2 R)^(1/3) per metre"
+near "$(column load_per_metre 2 x.tsv)" "$(column load_per_metre 2 y.tsv)" 1e-5 "  along the other axis too"
+near "$(column cohesive_nodes 1 y.tsv)" 4 1e-9 "the default range is twice as long there"
+near "$(column tabor 1 y.tsv)" "$(awk -v r="$(column adhesion_range 1 y.tsv)" 'BEGIN { printf "%.12g", (1e-3 * (0.05 / 2e6) ^ 2) ^ (1 / 3) / r }')" 1e-9 "Tabor's number is that of the cylinder"
+claim "a cohesive length of 2 nodes is too short there" warns "the cohesive length, .*, is 2 of the spacing: .*take a spacing of 1 um" rc-solve --estar 2MPa --cylinder 1mm --periodic=y --adhesion 50mJ/m2,exponential,316.2278nm --approach 0 long.rcg -o w.rcg
+$roller,jkr --periodic=y --load 0 --report d1.tsv long.rcg -o d1.rcg
+$roller,jkr --periodic=y --datum 1mm --load 0 --report d2.tsv long.rcg -o d2.rcg
+near "$(column contact_area 1 d2.tsv)" "$(column contact_area 1 d1.tsv)" 1e-9 "under a load the datum does not change the contact"
+refuses 1 "datum 2e-05 m: with adhesion it must not be so far below the length of the map" "a datum that is too short is refused by name" \
+    'rc-solve --estar 2MPa --cylinder 1mm --periodic=y --datum 20um --adhesion 50mJ/m2,jkr --approach 0 long.rcg -o w.rcg'
+
 # ---- a list with a large step ----
 
 rc-synth wave --nx 128 --ny 1 --dx 7.8125um --amplitude 5um --wavelength 1mm -o wave.rcg

@@ -10,8 +10,9 @@
 
 static const double resolved = 1.5;   /* nodes in the cohesive length: with fewer the grid pins
                                          the edge of the contact */
-static const double enough = 2;       /* nodes that the warning recommends */
-static const double faint = 0.01;     /* fraction of the largest traction */
+static const double enough_nodes = 2; /* nodes that the warning recommends */
+static const double of_lines = 2; /* times as many where whole lines of nodes separate at once */
+static const double faint = 0.01; /* fraction of the largest traction */
 static const double too_strong = 0.1; /* fraction of E*: above it a solid is not linear elastic */
 
 static struct {
@@ -151,10 +152,11 @@ warn_of_grid(struct run *run, const char *where)
 {
     const struct rc_grid *g = run->g;
     const struct rc_adhesion_scales *s = &own.scales;
-    double spacing = fmax(g->dx, g->dy);
+    const double times = rc_repeats(run->physics->boundary) == 1 ? of_lines : 1,
+                 enough = times * enough_nodes, spacing = fmax(g->dx, g->dy);
     char length[SHOWN_NUMBER], range[SHOWN_NUMBER];
 
-    if (s->cohesive_nodes >= resolved)
+    if (s->cohesive_nodes >= times * resolved)
         return;
     /* at constant work the cohesive length grows with the square of the range */
     tool_warn(&run->d.t,
@@ -166,14 +168,14 @@ warn_of_grid(struct run *run, const char *where)
               shown_in_unit_to(range, s->range * sqrt(enough / s->cohesive_nodes), "m"));
 }
 
-/* Tabor's number for the sphere of --radius on these bodies. */
+/* Tabor's number for the sphere of --radius or the cylinder of --cylinder on these bodies. */
 static double
 tabor(const struct run *run)
 {
     const struct physics *p = run->physics;
     double w = own.law.problem.work / p->surface_estar;
 
-    return cbrt(p->radius * w * w) / own.scales.range;
+    return cbrt((isnan(p->radius) ? p->cylinder : p->radius) * w * w) / own.scales.range;
 }
 
 /* Warns if Tabor's number is below 3. The law jkr takes the shortest range that the grid resolves, and JKR
@@ -318,7 +320,7 @@ state(const struct run *run)
              own.scales.law, shown_in_unit(own.law.problem.work, "J/m2"),
              shown_in_unit(own.scales.range, "m"), shown_in_unit(own.scales.strength, "Pa"),
              own.scales.cohesive_nodes,
-             isnan(run->physics->radius) ? "; Tabor's number needs --radius" : "");
+             isnan(tabor(run)) ? "; Tabor's number needs --radius or --cylinder" : "");
     return text;
 }
 
