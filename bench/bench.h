@@ -13,6 +13,12 @@
 #include <stdlib.h>
 #include <string.h>
 
+/* Boundaries as initializers. */
+/* clang-format off */
+#define FREE {.x = false}
+#define PERIODIC {.x = true, .y = true}
+/* clang-format on */
+
 /* A part: its name on the command line, and the function that prints it. */
 struct part {
     const char *name;

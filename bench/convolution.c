@@ -83,18 +83,17 @@ duel(struct work a, struct work b, double least[2])
 static void
 peak_bytes(const struct rc_engine *e, const struct rc_sum *sum)
 {
-    char m[32], boundary[32], tol[32];
+    char m[32], tol[32];
     int status;
     pid_t child;
 
     snprintf(m, sizeof m, "%zu", sum->shape.nx);
-    snprintf(boundary, sizeof boundary, "%d", (int)sum->boundary);
     snprintf(tol, sizeof tol, "%g", sum->tol);
     fflush(stdout);
     child = fork();
     if (child == 0) {
-        execl("/proc/self/exe", "bench-convolution", "peak", e->info.name, m, boundary, tol,
-              (char *)NULL);
+        execl("/proc/self/exe", "bench-convolution", "peak", e->info.name, m,
+              rc_boundary_word(sum->boundary), tol, (char *)NULL);
         _exit(1);
     }
     waitpid(child, &status, 0);
@@ -127,7 +126,7 @@ peak_child(char **argv)
     double before;
     void *plan;
 
-    sum.boundary = (struct rc_boundary)atoi(argv[4]);
+    sum.boundary = strcmp(argv[4], rc_boundary_word(RC_FREE)) == 0 ? RC_FREE : RC_PERIODIC;
     sum.tol = atof(argv[5]);
     for (size_t k = 0; k < n; k++)
         u[k] = p[k] = 1;
@@ -151,9 +150,10 @@ against_fftw(void)
     printf("%6s %-9s %10s %10s %8s %12s %12s %s\n", "M", "boundary", "ours ms", "FFTW ms", "ratio",
            "our plan ms", "its plan ms", "bytes a node beyond p and u");
     for (size_t m = 512; m <= 2048; m *= 2)
-        for (int boundary = 0; boundary < 2; boundary++) {
+        for (int periodic = 0; periodic < 2; periodic++) {
+            const struct rc_boundary boundary = periodic ? RC_PERIODIC : RC_FREE;
             struct rc_sum sum = square(m);
-            size_t padded = rc_repeats(boundary) == 0 ? 2 * m : m;
+            size_t padded = periodic ? m : 2 * m;
             double *p = must(rc_alloc(m * m, sizeof *p)), *u = must(rc_alloc(m * m, sizeof *u));
             struct pair its;
             struct sum_work sum_work;
@@ -162,7 +162,7 @@ against_fftw(void)
             struct rc_err err;
             void *plan;
 
-            sum.boundary = (boundary == 0 ? RC_FREE : RC_PERIODIC);
+            sum.boundary = boundary;
             for (size_t k = 0; k < m * m; k++)
                 p[k] = uniform(&seed);
             plan_time = now();
@@ -269,11 +269,11 @@ sizes(void)
             const char *name;
             double tol;
             struct rc_boundary boundary;
-        } columns[] = {{"direct", 0, RC_FREE},
-                       {"fft", 0, RC_FREE},
-                       {"fft", 1e-4, RC_FREE},
-                       {"fft", 0, RC_PERIODIC},
-                       {"mlms", 1e-6, RC_FREE}};
+        } columns[] = {{"direct", 0, FREE},
+                       {"fft", 0, FREE},
+                       {"fft", 1e-4, FREE},
+                       {"fft", 0, PERIODIC},
+                       {"mlms", 1e-6, FREE}};
         double *p = must(rc_alloc(m * m, sizeof *p)), *u = must(rc_alloc(m * m, sizeof *u));
         uint64_t seed = 1;
 

@@ -2,7 +2,7 @@
 /*
  * The cost of a contact:
  *
- *     bench-solve [-n SIZE,SIZE...] [-t TOL] [-m METHOD] [table] [estimate] [growth] [whole]
+ *     bench-solve [-n SIZE,SIZE...] [-t TOL] [-m METHOD] [table] [estimate] [growth] [whole] [axes]
  *
  * table     convolution equivalents, iterations and seconds to a true relative L1 error of the pressure
  *           (default 1e-4), coarse levels included, and the cost of the certified solution to this tolerance
@@ -11,6 +11,8 @@
  * growth    work against size on periodic surfaces with shortest waves of 2 nodes, with and without a
  *           roll-off, and of 8 nodes: equivalents to the true error, and of the certified solution
  * whole     seconds of certified solutions, compared with those of a convolution on the same grid
+ * axes      work against size on maps that repeat along no, one or both axes, rough in both directions or
+ *           extruded along y: as growth, with the processor seconds of the plans and of the iteration
  *
  * Surfaces of the first two: periodic self-affine (Hurst 0.8, cut at 8 nodes, rolled off at an eighth of the
  * map). The other is a sphere with such roughness on the free half-space. The reference is the same solver at
@@ -18,6 +20,7 @@
  */
 #include "bench.h"
 
+#include <time.h>
 #include <unistd.h>
 
 struct surface {
@@ -29,11 +32,11 @@ struct surface {
 };
 
 static const struct surface surfaces[] = {
-    {"periodic", RC_PERIODIC, 0.004, 0},  {"periodic", RC_PERIODIC, 0.04, 0},
-    {"periodic", RC_PERIODIC, 0.18, 0},   {"periodic", RC_PERIODIC, 0.28, 0},
-    {"periodic", RC_PERIODIC, 0.5, 0},    {"periodic", RC_PERIODIC, 1.2, 0},
-    {"sphere", RC_FREE, 0.004, 0},        {"sphere", RC_FREE, 0.1, 0},
-    {"periodic, H", RC_PERIODIC, 0.1, 3}, {"sphere, H", RC_FREE, 0.1, 1.2},
+    {"periodic", PERIODIC, 0.004, 0},  {"periodic", PERIODIC, 0.04, 0},
+    {"periodic", PERIODIC, 0.18, 0},   {"periodic", PERIODIC, 0.28, 0},
+    {"periodic", PERIODIC, 0.5, 0},    {"periodic", PERIODIC, 1.2, 0},
+    {"sphere", FREE, 0.004, 0},        {"sphere", FREE, 0.1, 0},
+    {"periodic, H", PERIODIC, 0.1, 3}, {"sphere, H", FREE, 0.1, 1.2},
 };
 
 enum {
@@ -336,6 +339,79 @@ whole(void)
             }
 }
 
+/* ---- maps that repeat along one axis ---- */
+
+/* Rough with a shortest wave of 8 nodes, and of equal rows if it is extruded. */
+static void
+rough(struct rc_shape shape, bool extruded, double *h)
+{
+    struct rc_shape own = {shape.nx, extruded ? 1 : shape.ny, shape.dx, shape.dy};
+    struct rc_selfaffine roughness = {.hurst = 0.8,
+                                      .rms_slope = 0.1,
+                                      .short_cut = 8 * shape.dx,
+                                      .rolloff = (double)shape.nx * shape.dx / 4,
+                                      .seed = 5};
+    struct rc_err err;
+
+    must_be(rc_synth_selfaffine(&own, &roughness, h, &err), &err);
+    for (size_t j = 1; j < shape.ny && extruded; j++)
+        memcpy(h + j * shape.nx, h, shape.nx * sizeof *h);
+}
+
+static void
+axes(void)
+{
+    static const struct {
+        const char *name;
+        struct rc_boundary boundary;
+    } kinds[] = {{"free", {.x = false}},
+                 {"x", {.x = true}},
+                 {"y", {.y = true}},
+                 {"xy", {.x = true, .y = true}}};
+
+    printf("Hurst 0.8, %s, true error %.0e, %zu threads\n", method, wanted, threads);
+    printf("%-9s %8s %6s %7s %8s | %4s %6s | %4s %6s %8s %8s %8s %8s\n", "rough", "pressure",
+           "nodes", "repeats", "contact", "its", "equiv", "its", "equiv", "plans, s", "steps, s",
+           "estimate", "true");
+    for (int extruded = 0; extruded < 2; extruded++)
+        for (size_t k = 0; k < sizeof pressures / sizeof *pressures; k++)
+            for (size_t i = 0; i < count; i++)
+                for (size_t b = 0; b < sizeof kinds / sizeof *kinds; b++) {
+                    size_t m = sizes[i], its;
+                    struct rc_shape shape = {m, m, 1e-6, 1e-6};
+                    double *h = map_new(m * m), *p, reached, plans, steps;
+                    struct rc_problem problem = {.boundary = kinds[b].boundary,
+                                                 .pair.estar = 1e9,
+                                                 .load =
+                                                     pressures[k] * 1e8 * (double)(m * m) * 1e-12,
+                                                 .tol = wanted,
+                                                 .threads = threads};
+                    struct rc_contact exact;
+                    struct rc_solver *s;
+
+                    rough(shape, extruded, h);
+                    p = truth(shape, h, problem, 1e-3 * wanted, &exact);
+                    reached = work_to(p, shape, h, problem, &its);
+                    problem.method = method;
+                    plans = (double)clock();
+                    s = solver_new(shape, h, problem);
+                    steps = (double)clock();
+                    plans = (steps - plans) / CLOCKS_PER_SEC;
+                    solver_run(s);
+                    steps = ((double)clock() - steps) / CLOCKS_PER_SEC;
+                    printf("%-9s %8g %6zu %7s %7.1f%% | %4zu %6.1f | %4zu %6.1f %8.3f %8.3f %8.1e "
+                           "%8.1e\n",
+                           extruded ? "along x" : "both", pressures[k], m, kinds[b].name,
+                           100 * exact.contact_fraction, its, reached,
+                           solver_progress(s).iterations, rc_solver_convolutions(s), plans, steps,
+                           solver_progress(s).error, error_l1(m * m, rc_solver_pressure(s), p));
+                    fflush(stdout);
+                    rc_solver_free(s);
+                    free(p);
+                    free(h);
+                }
+}
+
 static void
 tables(void)
 {
@@ -356,7 +432,8 @@ main(int argc, char **argv)
     static const struct part parts[] = {{"table", tables, false},
                                         {"estimate", estimates, true},
                                         {"growth", growth, true},
-                                        {"whole", whole, true}};
+                                        {"whole", whole, true},
+                                        {"axes", axes, true}};
 
     threads = threads_wanted();
     for (int option; (option = getopt(argc, argv, "n:t:m:")) != -1;)

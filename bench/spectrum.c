@@ -28,9 +28,9 @@ struct row {
 
 /* clang-format off */
 static const struct row rows[] = {
-    {"disc", RC_FREE, 0},         {"rough", RC_FREE, 0.02},     {"rough", RC_FREE, 0.2},
-    {"disc", RC_PERIODIC, 0},     {"rough", RC_PERIODIC, 0.004}, {"rough", RC_PERIODIC, 0.18},
-    {"rough", RC_PERIODIC, 0.8},
+    {"disc", FREE, 0},         {"rough", FREE, 0.02},     {"rough", FREE, 0.2},
+    {"disc", PERIODIC, 0},     {"rough", PERIODIC, 0.004}, {"rough", PERIODIC, 0.18},
+    {"rough", PERIODIC, 0.8},
 };
 /* clang-format on */
 

@@ -357,7 +357,7 @@ sizes(void)
         {"all eleven, friction", {.wanted = (1u << RC_STRESSES) - 1, .mu = 0.15}, 5},
         {"section, six, Mises", {.wanted = (2u << RC_MISES) - 1, .section = 'y'}, 5},
         {"40 spacings deep, tol 1e-4", {.wanted = (2u << RC_MISES) - 1, .tol = 1e-4}, 40},
-        {"periodic, six, Mises", {.wanted = (2u << RC_MISES) - 1, .boundary = RC_PERIODIC}, 5},
+        {"periodic, six, Mises", {.wanted = (2u << RC_MISES) - 1, .boundary = PERIODIC}, 5},
     };
 
     printf("sizes: milliseconds a slice, and the same in convolutions (free) of the deflection, "

@@ -28,7 +28,7 @@ problem_of(const double *thickness, size_t increments)
     return (struct rc_yield_problem){
         .contact = {.boundary = RC_PERIODIC,
                     .pair = {.one = {.e = 1, .nu = 0.3}, .two = {.e = INFINITY}}},
-        .yield = {.stress = 0.04, .modulus = 0.01},
+        .law = {.stress = 0.04, .modulus = 0.01},
         .slabs = SLABS,
         .thickness = thickness,
         .increments = increments};
