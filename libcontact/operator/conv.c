@@ -140,7 +140,8 @@ static const struct rc_engine *
 choose(const struct rc_sum *sum, const struct rc_conv_options *o, const char **reason)
 {
     if (rc_repeats(sum->boundary) > 0) {
-        *reason = "the boundary is periodic";
+        *reason = rc_has_mean(sum->boundary) ? "the map repeats along one axis"
+                                             : "the boundary is periodic";
         return &rc_engine_fft;
     }
     if (sum->ranks != NULL) {

@@ -191,6 +191,14 @@ share(struct rc_fft *f, const struct rc_ranks *ranks, enum rc_precision precisio
     return RC_OK;
 }
 
+enum rc_status
+rc_boundary_check(struct rc_boundary boundary, struct rc_err *err)
+{
+    if (rc_repeats(boundary) == 1 && !(boundary.datum >= 0 && boundary.datum < INFINITY))
+        return rc_err_set(err, "datum %g m: it must be positive and finite", boundary.datum);
+    return RC_OK;
+}
+
 /* With a frame the plan makes no spectra itself. */
 static struct rc_fft *
 fft_new(const struct rc_ranks *ranks, struct rc_fft *lender, const struct rc_shape *s,
@@ -246,7 +254,7 @@ rc_fft_new(const struct rc_ranks *ranks, struct rc_fft *lender, const struct rc_
            struct rc_boundary boundary, enum rc_precision precision, size_t threads,
            struct rc_err *err)
 {
-    if (rc_shape_check(s, err) != RC_OK)
+    if (rc_shape_check(s, err) != RC_OK || rc_boundary_check(boundary, err) != RC_OK)
         return NULL;
     if (s->nx > (size_t)1 << 28 || s->ny > (size_t)1 << 28)
         return rc_err_null(err, "%zu x %zu nodes: a side is too long for a Fourier transform",

@@ -22,6 +22,9 @@ enum rc_precision {
 struct rc_fft;
 struct rc_spectrum; /* transform of a kernel: a quarter of its values, real */
 
+/* RC_FAIL if its datum is not 0, for the default, or positive and finite. */
+enum rc_status rc_boundary_check(struct rc_boundary boundary, struct rc_err *err);
+
 /* `shape` is that of the whole map. Where ranks share the map (NULL: none), maps and rows are those held
  * here, row 0 is the first of them. Spectra have the columns that this rank multiplies. The plan works in the
  * memory of `lender`, another plan that outlives it; the two never run at the same time. If `lender` is NULL
