@@ -224,7 +224,8 @@ struct rc_problem {
     struct rc_pair pair;
     /* total normal force, N, > 0; with an approach a guess, or 0 */
     double load;
-    /* m, > 0: approach from first touch, for which the load is found; 0: the load is given */
+    /* m, > 0: approach from first touch, for which the load is found; 0: the load is given. If
+     * one axis repeats it needs a datum of at least a quarter of the other one */
     double approach;
     /* upper bound of the pressure, Pa; 0 or INFINITY: none */
     double hardness;
@@ -294,7 +295,8 @@ struct rc_contact {
     /* m, mean of max(gap, 0) over the whole map */
     double mean_gap;
     /* J, of both bodies: the integral of p u / 2. On a periodic map without the energy of the
-     * mean pressure, which depends on the thickness of the bodies */
+     * mean pressure, which depends on the thickness of the bodies. If one axis repeats it is
+     * that within the distance `datum` */
     double elastic_energy;
     /* m: the largest violation of gap >= 0 where p = 0, gap = 0 where elastic, gap <= 0 at the
      * hardness, from a fresh convolution */
@@ -400,15 +402,15 @@ RC_API enum rc_status rc_solver_keep_shape(struct rc_solver *solver,
 RC_API void rc_contact_apart(const struct rc_ranks *ranks, const struct rc_shape *shape,
                              const double *h, double *gap, struct rc_contact *contact);
 /* d load / d approach, N/m, at the solution, after rc_solver_result: the increase of the load of the elastic
- * nodes while no node joins or leaves. NAN when none is elastic, and where a periodic surface is in complete
- * contact. Takes 10 to 20 convolutions; RC_FAIL when memory is short. */
+ * nodes while no node joins or leaves. NAN when none is elastic, where a periodic surface is in complete
+ * contact, and where the datum lies so near that the approach does not grow with the load. Takes 10 to 20 convolutions; RC_FAIL when memory is short. */
 RC_API enum rc_status rc_solver_stiffness(struct rc_solver *solver, double *stiffness,
                                           struct rc_err *err);
 /* Conductance of heat or electric current from one body to the other, by Barber's analogy (Proc. R. Soc. A
  * 459 (2003) 53). For conductivities k1, k2 of the bodies it is 2 S/(E* (1/k1 + 1/k2)). S is the stiffness if
  * all nodes in contact, also those at the hardness, moved together. It is the flow over the difference of the
- * potentials far away. On a periodic map the potentials are the means over each surface.
- * Only the contact conducts, and it has no film. */
+ * potentials far away. On a periodic map the potentials are the means over each surface. If one axis repeats,
+ * they are those at the distance `datum` in either body. Only the contact conducts, and it has no film. */
 struct rc_conductance {
     /* N/m: S; equals rc_solver_stiffness if no node is at the hardness */
     double stiffness;
@@ -418,7 +420,7 @@ struct rc_conductance {
     double lower;
 };
 /* Call it at the solution, after rc_solver_result. NAN for layered bodies, to which the analogy does not
- * apply, and where a periodic surface is in complete contact. Takes 10 to 20 convolutions; RC_FAIL when a
+ * apply, and where rc_solver_stiffness would be NAN for its nodes. Takes 10 to 20 convolutions; RC_FAIL when a
  * conductivity is not positive and finite, and when memory is short. */
 RC_API enum rc_status rc_solver_conductance(struct rc_solver *solver, double k1, double k2,
                                             struct rc_conductance *conductance, struct rc_err *err);

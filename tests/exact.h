@@ -79,6 +79,18 @@ hertz_displacement(struct hertz h, double estar, double r)
            ((2 * a * a - r * r) * asin(a / r) + r * a * sqrt(1 - a * a / (r * r)));
 }
 
+/* Cylinder of composite radius R under a load per length (Johnson 1985, sections 4.2 and 5.6): half width, peak
+ * pressure, and the approach of a point at the distance `datum`. */
+static inline struct hertz
+hertz_line(double load, double radius, double estar, double datum)
+{
+    double a = sqrt(4 * load * radius / (exact_pi * estar));
+
+    return (struct hertz){.a = a,
+                          .p0 = 2 * load / (exact_pi * a),
+                          .approach = load / (exact_pi * estar) * (2 * log(2 * datum / a) + 1)};
+}
+
 /* Stresses on the axis (Johnson eq. 3.45). */
 static inline double
 hertz_axis_szz(struct hertz h, double z)

@@ -29,6 +29,7 @@ struct own {
     bool positive;                  /* the spectrum of their kernel is positive on any map  */
     double estar;                   /* E* of the pair, for waves as short as the roughness */
     double bends;                   /* m: the length over which stiff coatings bend         */
+    double far;                     /* m/(N/m): what the datum adds for a line load         */
     struct rc_conv *conv;           /* K p in double precision; NULL: none                  */
     struct rc_fft *fft;             /* single precision, lengths in units of sqrt(dx dy) */
     struct rc_fft *framed;          /* the same with the frame; NULL: no frame              */
@@ -73,7 +74,7 @@ norm(const struct own *s)
         return most * fmax(a, b) / RC_PI;
     if (rc_repeats(s->op.boundary) == 1) {
         double w = s->op.boundary.x ? b : a, period = s->op.boundary.x ? a : b;
-        return most * fmax(period, 2 * w * (fabs(log(2 * s->op.boundary.datum / w)) + 1)) / RC_PI;
+        return most * fmax(period, 2 * w * (log(2 * s->op.boundary.datum / w) + 1)) / RC_PI;
     }
     return most * 2 * (a * asinh(b / a) + b * asinh(a / b)) / RC_PI;
 }
@@ -421,6 +422,8 @@ plan(struct own *s, const struct rc_shape *shape, const struct rc_operator_optio
                                  .edges = !s->positive && rc_has_mean(o->boundary),
                                  .mean_free = !rc_has_mean(o->boundary)};
     s->op.shape = rc_rows_shape(&s->op.rows, shape);
+    s->op.rise =
+        s->far * (o->boundary.x ? shape->dy / (double)shape->nx : shape->dx / (double)shape->ny);
     s->op.norm = s->bare.norm = norm(s);
     s->op.diagonal = s->bare.diagonal = diagonal(s);
     boundary = unit_boundary(s->op.boundary, length);
@@ -464,23 +467,44 @@ make_room(struct own *s, const struct rc_operator_options *o, struct rc_err *err
                          "out of memory for the displacements of %zu nodes", n);
 }
 
+/* A line load of 1 N/m displaces by -2 ln(x / datum) / (pi E*), where E* is that of the longest waves. Returns
+ * what `datum` adds to the displacement of a kernel with `own`. */
+static double
+far_of(const struct rc_solids *bodies, double datum, struct rc_boundary own)
+{
+    const struct rc_surface surface = {bodies, 1, 1};
+    const struct rc_kernel kernel = rc_surface_kernel(&surface);
+    const double q = 1e-20 / own.datum;
+
+    if (rc_repeats(own) != 1 || datum == 0)
+        return 0;
+    return q / RC_PI * log(datum / own.datum) *
+           (own.x ? kernel.symbol(kernel.of, 0, q) : kernel.symbol(kernel.of, q, 0));
+}
+
 struct rc_operator *
 rc_operator_new(const struct rc_shape *shape, const struct rc_operator_options *o,
                 struct rc_err *err)
 {
-    struct rc_conv_options options = conv_options(o);
+    struct rc_operator_options own = *o;
     RC_OWN(rc_operator, op) = NULL;
+    struct rc_conv_options options;
     struct own *s;
 
     if (rc_shape_check(shape, err) != RC_OK || (s = own_new(o->ranks, err)) == NULL)
         return NULL;
+    own.boundary.datum = 0;
+    own.boundary = rc_boundary_on(shape, own.boundary);
+    options = conv_options(&own);
     op = &s->op;
     s->bodies = &s->own;
     s->positive = rc_pair_positive(o->pair);
     s->bends = bending_length(shape, o->pair);
     if (rc_solids_new(&s->own, o->pair, o->along, o->ranks, err) != RC_OK ||
-        (s->conv = rc_conv_new_of(s->bodies, shape, &options, err)) == NULL ||
-        plan(s, shape, o, err) != RC_OK)
+        (s->conv = rc_conv_new_of(s->bodies, shape, &options, err)) == NULL)
+        return NULL;
+    s->far = far_of(s->bodies, o->boundary.datum, own.boundary);
+    if (plan(s, shape, &own, err) != RC_OK)
         return NULL;
     op->exact = true;
     op->estar = rc_pair_modulus(o->pair);
@@ -508,6 +532,7 @@ rc_operator_coarse(const struct rc_operator *op, const struct rc_ranks *ranks,
     s->bodies = fine->bodies;
     s->positive = fine->positive;
     s->bends = fine->bends;
+    s->far = fine->far;
     if (plan(s, shape, &o, err) != RC_OK)
         return NULL;
     coarse->estar = op->estar;

@@ -99,13 +99,29 @@ check_yield(struct rc_solver *s, double approach, double depth, struct rc_err *e
     rc_iterate_count(s, 1);
     for (size_t k = 0; k < n; k++)
         last = fmax(last, u[k] - s->posed.h[k]);
-    last = rc_ranks_most(s->posed.rows.ranks, last);
+    last = rc_ranks_most(s->posed.rows.ranks, last) + s->op->rise * s->posed.bounds.full;
     if (approach >= last)
         return rc_err_set(
             err,
             "approach %.9g m: at %.9g m and a load of %.9g N every node is at its hardness, "
             "and the load cannot increase further; give a smaller approach or the load",
             approach, last, s->posed.bounds.full * s->posed.cell);
+    return RC_OK;
+}
+
+/* RC_FAIL where a larger load may decrease the approach. A rigid body that touches a strip of the width w
+ * moves towards a line at a distance of more than w/4, and away from a nearer one. */
+static enum rc_status
+check_datum(const struct rc_solver *s, struct rc_err *err)
+{
+    const double width = s->op->boundary.datum, datum = s->posed.boundary.datum;
+
+    if (rc_repeats(s->posed.boundary) == 1 && datum > 0 && datum < width / 4)
+        return rc_err_set(
+            err,
+            "datum %g m: an approach that grows with the load needs one of at least a "
+            "quarter of the map, %g m; give a larger datum or the load",
+            datum, width / 4);
     return RC_OK;
 }
 
@@ -117,6 +133,8 @@ check_approach(struct rc_solver *s, double approach, struct rc_err *err)
     bool bounded = rc_bounded(&s->posed.bounds);
     double total[RC_SUMS], full;
 
+    if (check_datum(s, err) != RC_OK)
+        return RC_FAIL;
     if (s->tilt != NULL || (!s->op->mean_free && !bounded))
         return RC_OK;
     rc_reduce_blocks(s, depth_block, s, total);

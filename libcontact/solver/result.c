@@ -122,6 +122,7 @@ spread_block(void *at, size_t first, size_t n, double *sums)
     const struct rc_box box = rc_box(s, 0);
     const double shift = s->it.shift, mean_h = f->mean_h, mean_u = f->mean_u;
     const bool own = s->op->soft.plus > 0 || s->op->soft.row > 0;
+    const double rise = s->op->rise * s->load.sum;
     double sum[RC_SUMS] = {0};
 
     for (size_t k = first; k < first + n; k++) {
@@ -133,10 +134,10 @@ spread_block(void *at, size_t first, size_t n, double *sums)
         sum[SPREAD_H] += h * h;
         sum[SPREAD_U] += around * around;
         sum[OPEN] += open;
-        sum[ENERGY] += p * u;
+        sum[ENERGY] += p * (u + rise);
         sum[RC_MOST] = worst > sum[RC_MOST] ? worst : sum[RC_MOST];
         if (f->displacement != NULL)
-            f->displacement[k] = u;
+            f->displacement[k] = u + rise;
         if (f->gap != NULL)
             f->gap[k] = g;
     }

@@ -54,7 +54,7 @@ choose(const char *name, struct rc_err *err)
 static enum rc_status
 check(const struct rc_shape *s, const struct rc_problem *problem, struct rc_err *err)
 {
-    if (rc_shape_check(s, err) != RC_OK)
+    if (rc_shape_check(s, err) != RC_OK || rc_boundary_check(problem->boundary, err) != RC_OK)
         return RC_FAIL;
     if (rc_pair_check(&problem->pair, err) != RC_OK)
         return RC_FAIL;

@@ -364,7 +364,7 @@ enum rc_status rc_tilt_end(struct rc_solver *solver, enum rc_status status);
 double rc_tilt_goal(const struct rc_solver *solver);
 /* The error of p, from the error of the contact at this tilt and from its moment. */
 double rc_tilt_error(struct rc_solver *solver, double contact);
-/* The shift, from the position of first touch of a rigid body. */
+/* The shift, from the position of first touch of a rigid body, and for the datum of the problem. */
 double rc_tilt_approach(const struct rc_solver *solver);
 /* Slope of the counter body along an axis. */
 double rc_tilt_slope(const struct rc_solver *solver, size_t axis);

@@ -205,6 +205,16 @@ fix_and_solve(struct system *c, bool touching, double sum[3])
     return moving;
 }
 
+/* The stiffness, N/m, for the datum of the problem, from that for the datum of K. NAN where the datum lies among
+ * the nodes that move, so that the approach does not grow with the load. */
+static double
+to_datum(const struct rc_solver *s, double stiffness)
+{
+    const double compliance = 1 / stiffness + s->op->rise / s->posed.cell;
+
+    return s->op->rise == 0 ? stiffness : compliance > 0 ? 1 / compliance : NAN;
+}
+
 /* The stiffness of the elastic nodes, or of all nodes in contact, N/m. NAN without such nodes, and if they
  * are all nodes of a periodic map, whose mean displacement is undefined. */
 static double
@@ -215,7 +225,7 @@ stiffness_of(struct system *c, bool touching)
     if (fix_and_solve(c, touching, sum) == 0)
         return NAN;
     /* a pressure t of one unit displaces by one unit of the rows of the operator */
-    return sum[0] * c->s->posed.cell / c->s->op->unit;
+    return to_datum(c->s, sum[0] * c->s->posed.cell / c->s->op->unit);
 }
 
 static bool
@@ -313,7 +323,7 @@ bound_below(struct rc_solver *s, const float *t, double *bound, struct rc_err *e
     rc_operator_apply(s->op, p, u);
     rc_iterate_count(s, 1);
     rc_reduce_blocks(s, energy_block, &b, total);
-    *bound = total[0] * total[0] / total[1] * s->posed.cell / (1 + s->op->error);
+    *bound = to_datum(s, total[0] * total[0] / total[1] * s->posed.cell / (1 + s->op->error));
     return RC_OK;
 }
 

@@ -424,7 +424,8 @@ stand(const struct rc_solver *s)
 double
 rc_tilt_approach(const struct rc_solver *s)
 {
-    return s->it.shift + (s->tilt == NULL || isnan(s->tilt->touch) ? 0 : s->tilt->touch);
+    return s->it.shift + s->op->rise * s->load.sum +
+           (s->tilt == NULL || isnan(s->tilt->touch) ? 0 : s->tilt->touch);
 }
 
 /* ---- the moment and its derivative ---- */
