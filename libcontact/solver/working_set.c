@@ -515,7 +515,9 @@ size_block(void *at, size_t first, size_t n, double *sums)
  * error. The smallest was 0.63 (one elastic node) and 0.89 (three). With a diagonal term E' A E is nearly
  * exact. For 1200 small maps the norm was 0.9998 to 1.8 of the error, half of them below 1.02. Where D
  * differs by node, by a factor of 2 to 100 or from 0 on, it was 0.51 to 2 of the error of 400 small maps. It
- * was below 1 for a tenth of them. Where rows move, it was at least 0.82 of the error of 667 small maps. */
+ * was below 1 for a tenth of them. Where rows move, it was at least 0.82 of the error of 667 small maps. Maps
+ * that repeat along one axis may hold few waves, too. For 17000 such maps, rough or of nearly equal rows, bare
+ * or coated, the norm was 0.957 of the error or more, and 0.92 with five elastic nodes. */
 static double
 caution(const struct rc_solver *s)
 {
@@ -527,7 +529,11 @@ caution(const struct rc_solver *s)
         return 1.05 + 2 / fmax((double)s->it.elastic, 1);
     if (s->op->soft.row > 0)
         return 1.5;
-    return s->op->soft.part != NULL ? 3 : s->op->soft.plus > 0 ? 1.01 : 1;
+    if (s->op->soft.part != NULL)
+        return 3;
+    if (rc_repeats(s->posed.boundary) == 1)
+        return 1.05 + 0.5 / fmax((double)s->it.elastic, 1);
+    return s->op->soft.plus > 0 ? 1.01 : 1;
 }
 
 double
