@@ -28,12 +28,15 @@ steels="--mu 0.3 --conductivity 45W/mK,16W/mK --diffusivity 12mm2/s,4mm2/s"
 limits="--nu 0.3 --bending-limit 60MPa --torsion-limit 37MPa"
 rows="free|rc-solve --estar 1GPa --mean-pressure 2MPa h2048.rcg
 periodic, 1e-8|rc-solve --periodic --estar 1GPa --mean-pressure 5MPa --tol 1e-8 h2048.rcg
+along y|rc-solve --periodic=y --estar 1GPa --mean-pressure 2MPa h2048.rcg
+along x|rc-solve --periodic=x --estar 1GPa --mean-pressure 2MPa h1024.rcg
 approach|rc-solve --estar 1GPa --approach 1um h1024.rcg
 loads|rc-solve --periodic --estar 1GPa --mean-pressure 1MPa:9MPa:5 h1024.rcg
 tilt|rc-solve --estar 1GPa --mean-pressure 2MPa --tilt free h1024.rcg
 direct|rc-solve --kernel direct --estar 1GPa --mean-pressure 2MPa h512.rcg
 mlms|rc-solve --kernel mlms --estar 1GPa --mean-pressure 2MPa h1024.rcg
 layer|rc-solve --layer 3um,3GPa,0.3 $metal --mean-pressure 2MPa h1024.rcg
+layer, along y|rc-solve --periodic=y --layer 3um,3GPa,0.3 $metal --mean-pressure 2MPa h1024.rcg
 hardness, history|rc-solve --periodic --estar 1GPa --mean-pressure 2MPa,5MPa,1MPa,0 --hardness 40MPa --history h1024.rcg
 conductance|rc-solve --periodic --estar 1GPa --mean-pressure 5MPa --conductivity 45W/mK,16W/mK h1024.rcg
 profile|rc-solve --periodic --estar 1GPa --mean-pressure 2MPa --tol 1e-8 profile.rcg

@@ -21,6 +21,10 @@ forecast() {
 forecast "a load" 1 "rc-solve --periodic --estar 1GPa --mean-pressure 5MPa rough.rcg"
 forecast "loads, each with its stiffness" 1 "rc-solve --periodic --estar 1GPa --mean-pressure 2MPa,5MPa rough.rcg"
 forecast "an approach" 1 "rc-solve --periodic --estar 1GPa --approach 0.3um rough.rcg"
+forecast "a map that repeats along y, its stiffness and conductance" 1 \
+    "rc-solve --periodic=y --estar 1GPa --mean-pressure 5MPa --conductivity 45W/mK,16W/mK rough.rcg"
+forecast "an approach on a map that repeats along x" 1 "rc-solve --periodic=x --estar 1GPa --approach 0.3um rough.rcg"
+forecast "a coated body on it" 1 "rc-solve --periodic=x $body --layer 3um,3GPa,0.3 --mean-pressure 2MPa rough.rcg"
 forecast "a free tilt" 1 "rc-solve --estar 1GPa --mean-pressure 5MPa --tilt free rough.rcg"
 forecast "a coated body" 1 "rc-solve $body --layer 3um,3GPa,0.3 --mean-pressure 2MPa rough.rcg"
 forecast "relaxation, a point" 1 "rc-solve --relaxation 1MPa,4MPa:1ms,2MPa:30ms --nu1 0.4 --E2 rigid --load 1mN --time 1ms:1s:log:4 rough.rcg"
