@@ -131,7 +131,7 @@ check_arguments(struct slip_run *run)
 int
 main(int argc, char **argv)
 {
-    static const char *const reads[] = {"boundary", "estar", "e1",       "nu",
+    static const char *const reads[] = {"boundary", "datum", "estar",    "e1", "nu",
                                         "e2",       "nu2",   "window_x", NULL};
     static struct slip_run run = {
         .d = {.args = &args.drive, .output = &args.output, .list = slip_frames, .reads = reads}};

@@ -456,14 +456,13 @@ add_counter(struct run *run, const struct rc_grid *g)
 
     if (!map_boundary(g).x)
         tool_refuse(t, g,
-                    "--motion sliding needs a map that is periodic along x, on which body 2 can pass "
-                    "for ever: run "
-                    "rc-solve --periodic");
+                    "--motion sliding needs a map that is periodic along x, on which body 2 can "
+                    "pass for ever: run rc-solve --periodic, or --periodic=x");
     if (run->law.part != NULL)
         tool_refuse(t, g, "--motion sliding with a map of the wear coefficient is not implemented");
     if (rc_grid_get(g, "hardness") != NULL || rc_grid_get(g, "hardness_map") != NULL)
         tool_refuse(t, g, "--motion sliding with a hardness is not implemented");
-    physics_counter_beside(t, args.counter, run->counter, g, map_boundary(g));
+    physics_counter_beside(t, args.counter, run->counter, g, RC_PERIODIC);
     run->law.h2 = run->counter->v;
     rc_measure(rc_shape_of(g), run->counter->v, &other);
     run->relief += other.maximum - other.minimum;
@@ -806,7 +805,7 @@ main(int argc, char **argv)
                                         "steps",
                                         "convolutions",
                                         NULL};
-    static const char *const reads[] = {"boundary", "estar",    "layers",    "e2",
+    static const char *const reads[] = {"boundary", "datum",    "estar",     "layers", "e2",
                                         "nu2",      "hardness", "coat_left", NULL};
     static struct run run = {.d = {.args = &args.drive,
                                    .output = &args.output,

@@ -927,7 +927,8 @@ progress(const struct rc_model *m, struct rc_loops *l)
     l->tol = d->asked.tol;
 }
 
-/* The bytes are those on 512 x 512 nodes, counted in maps of doubles. */
+/* The bytes are those on 512 x 512 nodes, counted in maps of doubles: on a free map, and what is less where both
+ * axes repeat. */
 static enum rc_status
 plan(const struct rc_model *m, const struct rc_point *most, struct rc_expected *expected,
      struct rc_err *err)
@@ -942,7 +943,8 @@ plan(const struct rc_model *m, const struct rc_point *most, struct rc_expected *
                         (1 + below / 2);
     const double maps = (o->path    ? 53
                          : o->force ? 72
-                                    : 67) +
+                                    : 67) -
+                        rc_by_padding(o->law.boundary, 0, 12) +
                         (f->shear.beta != 0 && !o->law.uncoupled ? 2 : 0);
     double each;
 
@@ -990,10 +992,9 @@ make(struct rolling *f, struct rc_err *err)
         rc_model_same_boundary(&f->base, o->boundary, err) != RC_OK)
         return RC_FAIL;
     if (o->boundary.x && !f->problem.path)
-        return rc_err_set(
-            err,
-            "steady rolling on a map that is periodic along x has no leading edge, where free surface "
-            "comes in: take a boundary that is free along x");
+        return rc_err_set(err, "steady rolling on a map that is periodic along x has no leading "
+                               "edge, where free surface "
+                               "comes in: take a boundary that is free along x");
     f->n = f->base.shape.nx * f->base.shape.ny;
     o->tol = o->tol > 0 ? o->tol : usual_tol[f->problem.path];
     f->p = rc_store_zeros(&f->base.own, f->n, sizeof *f->p);

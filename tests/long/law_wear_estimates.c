@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Random worn maps, then some with a coefficient of each node, some on a track that wears, and pairs that
- * slide over each other. They are compared with a run with a tolerance ten times smaller and contacts a
+/* Random worn maps, then some with a coefficient of each node, some on a track that wears, pairs that slide
+ * over each other, and maps that repeat along one axis. They are compared with a run with a tolerance ten times smaller and contacts a
  * thousand times more accurate. The estimated errors of the worn depth and of the pressure are not below the
  * differences.
  *
@@ -18,7 +18,9 @@ enum {
     WITH_MAPS = 60, /* more */
     ON_TRACK = 60,
     SLIDING = 60,
-    ALL = RUNS + WITH_MAPS + ON_TRACK + SLIDING,
+    LINES = 60,
+    PLANES = RUNS + WITH_MAPS + ON_TRACK + SLIDING,
+    ALL = PLANES + LINES,
     OUTPUTS = 4,
     MOST = 48 * 48
 };
@@ -74,8 +76,9 @@ draw_parts(struct random_run *r, uint64_t *seed)
 static struct random_run
 draw(uint64_t seed)
 {
-    const bool maps = seed > RUNS && seed <= RUNS + WITH_MAPS, slides = seed > ALL - SLIDING,
-               track = seed > RUNS + WITH_MAPS && !slides;
+    const bool maps = seed > RUNS && seed <= RUNS + WITH_MAPS,
+               slides = seed > PLANES - SLIDING && seed <= PLANES, line = seed > PLANES,
+               track = seed > RUNS + WITH_MAPS && !slides && !line, along_x = seed % 2 == 0;
     struct random_run r = {.k = 1e-15, .of_body = {1, 0}};
     size_t side = 24 + 8 * (size_t)(4 * uniform(&seed));
     struct rc_selfaffine rough = {
@@ -85,6 +88,8 @@ draw(uint64_t seed)
 
     r.s = (struct rc_shape){side, side, node, node};
     r.boundary = (uniform(&seed) < 0.6 && !ball) || slides ? RC_PERIODIC : RC_FREE;
+    if (line)
+        r.boundary = rc_boundary_of(along_x, !along_x);
     r.tol = pow(10, -1 - uniform(&seed));
     r.h = calloc(side * side, sizeof *r.h);
     rough.short_cut = node * (2 + 6 * uniform(&seed));
@@ -99,6 +104,8 @@ draw(uint64_t seed)
         x = ((double)(k % side) - (double)side / 2) * node;
         y = ((double)(k / side) - (double)side / 2) * node;
         r.h[k] *= steep / slope;
+        if (line && ball)
+            *(along_x ? &x : &y) = 0;
         if (ball)
             r.h[k] -= (x * x + y * y) / (2 * 100 * node);
     }

@@ -47,9 +47,11 @@ report "rc-solve --relaxation" "rc-solve --relaxation 1GPa,9GPa:1ms --nu1 0.49 -
 report "rc-solve --speed" "rc-solve --relaxation 1MPa,9MPa:1ms --nu1 0.5 --E2 rigid --periodic --mean-pressure 0.1MPa --speed 1mm/s \
     --threads 1 --quiet --report \$r -o s.rcg rough.rcg"
 report rc-slip "rc-slip --mu 0.3 --threads 1 --quiet --tangential 0.1mN --report \$r -o q.rcg one.rcg"
+report "rc-slip --periodic=y" "rc-slip --mu 0.3 --threads 1 --quiet --tangential 1uN --report \$r -o q.rcg line.rcg"
 rc-solve $body --load 2uN -o rolls.rcg ball.rcg
 report "rc-slip --steady" "rc-slip --mu 0.3 --threads 1 --quiet --creep 1e-3,0 --steady --report \$r -o q.rcg rolls.rcg"
 report rc-wear "rc-wear --coefficient 1e-6mm3/Nm --distance 1m --threads 1 --quiet --report \$r -o w.rcg one.rcg"
+report "rc-wear --periodic=y" "rc-wear --coefficient 1e-6mm3/Nm --distance 1m --threads 1 --quiet --report \$r -o w.rcg line.rcg"
 report rc-heat "rc-heat --mu 0.3 --speed 1 --conductivity 45,45 --diffusivity 1e-5,1e-5 --threads 1 --quiet --report \$r -o h.rcg one.rcg"
 report rc-stress "rc-stress --depths 0,1um --threads 1 --quiet --report \$r -o s.rcg one.rcg"
 report rc-fatigue "rc-fatigue --bending-limit 6MPa --torsion-limit 4MPa --pass x --depths 1um,2um --threads 1 --quiet --report \$r -o s.rcg one.rcg"

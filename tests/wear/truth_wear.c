@@ -162,8 +162,8 @@ static const double times[TIMES] = {0.1, 0.25, 0.5, 1, 2};
 static const double on_disc[TIMES] = {0.41210, 0.24875, 0.13259, 0.044623, 0.0056115};
 static const double on_strip[TIMES] = {0.43244, 0.28019, 0.16419, 0.065626, 0.011534};
 
-/* A punch of all nodes nearer than `radius` to the middle. `half`: a in nodes, that its area has. Each way
- * between two times takes `parts` distances of the list. */
+/* A punch of all nodes nearer than `radius` to the middle, or to a line along the axis that repeats. `half`: a
+ * in nodes, that its area has. Each way between two times takes `parts` distances of the list. */
 static void
 punch(const struct rc_shape *s, double radius, double half, struct rc_boundary boundary,
       const double *want, double tol, int parts)
@@ -176,6 +176,8 @@ punch(const struct rc_shape *s, double radius, double half, struct rc_boundary b
     for (size_t k = 0; k < n; k++) {
         double x = (double)(k % s->nx) - (double)(s->nx - 1) / 2;
         double y = (double)(k / s->nx) - (double)(s->ny - 1) / 2;
+        if (rc_repeats(boundary) == 1)
+            *(boundary.x ? &x : &y) = 0;
         h[k] = hypot(x, y) < radius ? 0 : -1000 * node;
         in += h[k] == 0;
     }
@@ -208,6 +210,10 @@ punches_become_even(void **state)
         const int parts = q == 0 ? 1 : 4;
         punch(&(struct rc_shape){36, 36, node, node}, 16.3, 0, RC_FREE, on_disc, tol, parts);
         punch(&(struct rc_shape){1280, 1, node, node}, 20, 20, RC_PERIODIC, on_strip, tol, parts);
+        punch(&(struct rc_shape){44, 1, node, 7 * node}, 20, 20, rc_boundary_of(false, true),
+              on_strip, tol, parts);
+        punch(&(struct rc_shape){3, 44, node, node}, 20, 20, rc_boundary_of(true, false), on_strip,
+              tol, parts);
     }
 }
 
@@ -245,6 +251,46 @@ a_ball_is_cut(void **state)
     }
     assert_true(even < 0.02);
     end(&r);
+}
+
+/* The scar of a cylinder has the section of a cut of the volume V per length, 2 a = (12 R V)^(1/3). The pressure
+ * is even, and that of any line is P/(2 a). The cylinder is along y, then along x. */
+static void
+a_cylinder_is_cut(void **state)
+{
+    enum {
+        SIDE = 64,
+        ROWS = 3
+    };
+    const double radius = 200, hertz_half = 4, a = 24;                     /* nodes */
+    const double load = exact_pi * hertz_half * hertz_half / (4 * radius), /* over E* and a node */
+        volume = 8 * pow(a, 3) / (12 * radius);
+    static double h[SIDE * ROWS];
+
+    (void)state;
+    for (int turned = 0; turned < 2; turned++) {
+        const struct rc_shape s = turned ? (struct rc_shape){ROWS, SIDE, node, node}
+                                         : (struct rc_shape){SIDE, ROWS, node, node};
+        double even = 0, found;
+        struct run r;
+
+        for (size_t k = 0; k < SIDE * ROWS; k++) {
+            const double x = (double)(turned ? k / ROWS : k % SIDE) - (SIDE - 1) / 2.0;
+            h[k] = -node * x * x / (2 * radius);
+        }
+        r = start(&s, h, rc_boundary_of(turned, !turned), 0);
+        (void)slide(&r, load * estar / SIDE, volume / load);
+        found = rc_model_number(r.m, "contact_fraction") * SIDE / 2;
+        assert_true(fabs(found / a - 1) < 1 / a);
+        for (size_t k = 0; k < SIDE * ROWS; k++) {
+            const double x = (double)(turned ? k / ROWS : k % SIDE) - (SIDE - 1) / 2.0;
+            if (fabs(x) < 0.8 * a)
+                even = fmax(even, fabs(r.p[k] * 2 * a / (load * estar) - 1));
+        }
+        if (!(even < 0.03))
+            fail_msg("half width %g nodes, pressure off by %.3f", found, even);
+        end(&r);
+    }
 }
 
 /* Steep roughness hardly deforms: it becomes min(h, cut), and the worn volume gives the cut. At long
@@ -364,6 +410,53 @@ a_ball_cuts_a_groove(void **state)
     rc_model_free(cut_groove(48, 13.6, 1, 0, (double *[]){p, ball, track}));
     rc_model_free(cut_groove(48, 13.6, 1, -1, (double *[]){again, ball, track}));
     assert_memory_equal(p, again, sizeof *p * 48 * 48); /* a track that does not wear is none */
+}
+
+/* A roller along y slides along x: its track sinks evenly, and the pressure stays. A roller along x slides along
+ * itself: each row of a track as long as the period loses as much as the same points of both bodies. */
+static void
+a_roller_on_a_track(void **state)
+{
+    enum {
+        SIDE = 48,
+        ROWS = 4
+    };
+    static double h[SIDE * ROWS], p[3][SIDE * ROWS];
+
+    (void)state;
+    for (int turned = 0; turned < 2; turned++) {
+        const struct rc_shape s = turned ? (struct rc_shape){ROWS, SIDE, node, node}
+                                         : (struct rc_shape){SIDE, ROWS, node, node};
+        const struct rc_problem contact = {.boundary = rc_boundary_of(turned, !turned),
+                                           .pair.estar = estar,
+                                           .tol = 1e-6,
+                                           .threads = 1};
+        double most = 0;
+
+        for (size_t k = 0; k < SIDE * ROWS; k++) {
+            const double x = (double)(turned ? k / ROWS : k % SIDE) - (SIDE - 1) / 2.0;
+            h[k] = -node * x * x / 400;
+        }
+        for (int q = 0; q < 3; q++) { /* before, on the track, at the same points */
+            const struct rc_wear_problem law = {
+                .k = {0, k_wear}, .estar = estar, .tol = 0.01, .track = q < 2 ? ROWS * node : 0};
+            struct rc_err err = {""};
+            struct rc_point to = {0};
+            struct rc_model *m =
+                rc_wear_new(rc_elastic_new(&s, h, &contact, NULL, &err), h, &law, &err);
+            rc_point_set(&to, RC_LOAD, 0.3 * estar * node * node * ROWS);
+            rc_point_set(&to, RC_DISTANCE, q == 0 ? 0 : 20 * unit);
+            if (m == NULL || rc_model_run(m, &to, &err) == RC_FAIL ||
+                rc_model_look(m, NULL, &err) != RC_OK ||
+                rc_model_frame(m, "pressure", p[q], &err) != RC_OK)
+                fail_msg("%s", err.text);
+            rc_model_free(m);
+        }
+        for (size_t k = 0; k < SIDE * ROWS; k++)
+            most = fmax(most, p[0][k]);
+        for (size_t k = 0; k < SIDE * ROWS; k++)
+            assert_true(fabs(p[1][k] - p[turned ? 2 : 0][k]) < (turned ? 0.02 : 1e-4) * most);
+    }
 }
 
 /* Where the last valleys close, a contact puts several times the mean pressure on a few nodes, within its
@@ -521,10 +614,11 @@ slide_over(struct rc_model *m, double mean, double distance, double *wear)
 }
 
 static struct rc_model *
-pair_that_slides(const struct rc_shape *s, const double *h, struct rc_wear_problem law)
+pair_that_slides(const struct rc_shape *s, struct rc_boundary boundary, const double *h,
+                 struct rc_wear_problem law)
 {
     const struct rc_problem contact = {
-        .boundary = RC_PERIODIC, .pair.estar = estar, .tol = law.tol / 100, .threads = 1};
+        .boundary = boundary, .pair.estar = estar, .tol = law.tol / 100, .threads = 1};
     struct rc_err err = {""};
     struct rc_model *m;
 
@@ -573,7 +667,7 @@ waves_of_each_body_decay(void **state)
             h[0][k] += wave[w][0] == 0 ? wave_at(w, k) : 0;
         }
     m = pair_that_slides(
-        &s, h[0],
+        &s, RC_PERIODIC, h[0],
         (struct rc_wear_problem){
             .k = {k_wear / 4, 3 * k_wear / 4}, .tol = 0.05, .two_bodies = true, .h2 = h[1]});
     for (double at = 1; at < 200; at *= 10) {
@@ -607,23 +701,28 @@ a_smooth_body_is_a_track(void **state)
 
     (void)state;
     assert_int_equal(rc_synth_selfaffine(&s, &rough, h, NULL), RC_OK);
-    m[0] = pair_that_slides(&s, h, law);
-    law.two_bodies = false;
-    law.track = SIDE * node;
-    m[1] = pair_that_slides(&s, h, law);
-    for (double at = 3; at < 200; at *= 5) {
-        double off = 0, sum = 0, most = 0;
-        for (int q = 0; q < 2; q++)
-            most += slide_over(m[q], 0.01 * estar, at, wear[q])->wear_error;
-        for (size_t k = N; k < 2 * N; k++) {
-            off += fabs(wear[0][k] - wear[1][k]);
-            sum += wear[1][k];
+    for (int ends = 0; ends < 2; ends++) { /* the maps repeat along y, or end there */
+        const struct rc_boundary boundary = rc_boundary_of(true, !ends);
+        law.two_bodies = true;
+        law.track = 0;
+        m[0] = pair_that_slides(&s, boundary, h, law);
+        law.two_bodies = false;
+        law.track = SIDE * node;
+        m[1] = pair_that_slides(&s, boundary, h, law);
+        for (double at = 3; at < 200; at *= 5) {
+            double off = 0, sum = 0, most = 0;
+            for (int q = 0; q < 2; q++)
+                most += slide_over(m[q], 0.01 * estar, at, wear[q])->wear_error;
+            for (size_t k = N; k < 2 * N; k++) {
+                off += fabs(wear[0][k] - wear[1][k]);
+                sum += wear[1][k];
+            }
+            if (!(off <= most * sum && off < 0.03 * sum))
+                fail_msg("at %g nodes: error %.2g, %.2g estimated", at, off / sum, most);
         }
-        if (!(off <= most * sum && off < 0.03 * sum))
-            fail_msg("at %g nodes: error %.2g, %.2g estimated", at, off / sum, most);
+        rc_model_free(m[0]);
+        rc_model_free(m[1]);
     }
-    rc_model_free(m[0]);
-    rc_model_free(m[1]);
 }
 
 /* A given energy wears each node by the coefficient times it, on any way to a number of cycles; the
@@ -699,6 +798,8 @@ main(void)
         cmocka_unit_test(waves_decay),
         cmocka_unit_test(punches_become_even),
         cmocka_unit_test(a_ball_is_cut),
+        cmocka_unit_test(a_cylinder_is_cut),
+        cmocka_unit_test(a_roller_on_a_track),
         cmocka_unit_test(roughness_is_cut),
         cmocka_unit_test(valleys_close_evenly),
         cmocka_unit_test(a_ball_cuts_a_groove),

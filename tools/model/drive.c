@@ -308,7 +308,10 @@ put_row(struct drive *d, const struct rc_model *m, const struct rc_point *at)
         return;
     }
     report_map(r, d->course.g, d->course.number);
-    report_text(r, "boundary", boundary_of(d, d->course.g));
+    if (d->boundary != NULL)
+        report_text(r, "boundary", d->boundary);
+    else
+        boundary_report(r, d->course.g, map_boundary(d->course.g));
     report_count(r, "threads", d->t.threads, NULL);
     if (d->calls.columns != NULL)
         d->calls.columns(d, m);

@@ -456,7 +456,7 @@ physics_counter_beside(struct tool *t, const char *name, const struct rc_grid *o
     if ((boundary.x && other->nx != g->nx) || (boundary.y && other->ny != g->ny))
         tool_refuse(
             t, g,
-            "with --periodic both surfaces must have the same period: this one has %zu x %zu "
-            "nodes, --counter %s has %zu x %zu",
+            "both surfaces must have the same period: this one has %zu x %zu nodes, --counter %s "
+            "has %zu x %zu",
             g->nx, g->ny, name, other->nx, other->ny);
 }
