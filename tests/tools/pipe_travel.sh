@@ -118,3 +118,28 @@ refuses 1 'take positions from -6.8e-05 to 6.8e-05 m' "a window that leaves the 
     "rc-pick --set periodic=no track.rcg | $solve --travel 70um --window 64x48"
 refuses 1 'does not cover the contact: take a longer map' "a counter surface that is too short" \
     "rc-pick --set periodic=no other.rcg -o short.rcg; $solve --travel 0 --counter short.rcg track.rcg"
+
+# ---- a roller along y, on a map that repeats along y ----
+
+roll="rc-solve --quiet --periodic=y --cylinder 2mm --load 1N/m --estar 1GPa --tol 1e-8"
+rc-synth selfaffine --nx 128 --ny 24 --dx 1um --hurst 0.8 --rms-height 5nm --short-cut 8um --seed 5 | rc-pick --set periodic=y -o raceway.rcg
+claim "a roller travels in a window with the rows of the map" bash -c "
+    $roll --travel=-4um:4um:5 --window 96x24 --report roller.json -o roller.rcg raceway.rcg"
+claim "  which repeats along y" says 'periodic=y.*boundary=periodic-y.*datum=9.6e-05' bash -c "rc-info roller.rcg | tr '\\n' ' '"
+claim "rc-pick cuts the window of the last position" bash -c "
+    rc-pick --crop 20,0,96,24 --set periodic=y raceway.rcg | $roll --report still.json -o still.rcg"
+claim "  where the pressure is that of a contact of its own" awk '
+    { d = $1 - $2; off += d < 0 ? -d : d; sum += $2 } END { exit !(NR == 96 * 24 && sum > 0 && off < 1e-6 * sum) }' \
+    <(paste <(rc-pick --case 5 --channel pressure roller.rcg | rc-export --format xyz | awk '!/^#/ { print $3 }') \
+        <(rc-pick --channel pressure still.rcg | rc-export --format xyz | awk '!/^#/ { print $3 }'))
+refuses 1 'window 96x12: with --periodic=y it has the rows of the map: take 96x24' "a window of other rows" \
+    "$roll --travel 0 --window 96x12 raceway.rcg"
+refuses 2 '--window does not work with --periodic=x, because a window is not a period' "a window across the seam" \
+    "${roll/--periodic=y --cylinder/--periodic=x --radius} --travel 0 --window 96x24 raceway.rcg"
+refuses 2 '--window does not work with --periodic, because' "  of both axes" \
+    "${roll/--periodic=y --cylinder/--periodic --radius} --travel 0 --window 96x24 raceway.rcg"
+refuses 2 '--travel does not work with --cylinder and --periodic=x' "a roller along its axis" \
+    "${roll/--periodic=y/--periodic=x} --travel 0 raceway.rcg"
+rc-pick --crop 0,0,120,12 raceway.rcg -o fewer.rcg
+refuses 1 'both surfaces must have the same period' "a counter surface of another period" \
+    "$roll --travel 0 --counter fewer.rcg raceway.rcg"

@@ -36,9 +36,11 @@ make(double *h, size_t nx, size_t ny, double height, uint64_t seed)
 }
 
 static struct rc_model *
-travelling(struct rc_shape s, double tol, const struct rc_travel_problem *problem)
+travelling_on(struct rc_shape s, struct rc_boundary boundary, double tol,
+              const struct rc_travel_problem *problem)
 {
-    const struct rc_problem contact = {.pair.estar = estar, .tol = tol, .threads = 1};
+    const struct rc_problem contact = {
+        .boundary = boundary, .pair.estar = estar, .tol = tol, .threads = 1};
     static const double flat[NX * NY];
     struct rc_err err = {""};
     struct rc_model *m =
@@ -47,6 +49,12 @@ travelling(struct rc_shape s, double tol, const struct rc_travel_problem *proble
     if (m == NULL)
         fail_msg("%s", err.text);
     return m;
+}
+
+static struct rc_model *
+travelling(struct rc_shape s, double tol, const struct rc_travel_problem *problem)
+{
+    return travelling_on(s, RC_FREE, tol, problem);
 }
 
 /* Moves to a position given in nodes. Returns the convolutions. */
@@ -75,10 +83,11 @@ sag(double *h, size_t nx, size_t ny, double middle)
 
 /* The contact of these heights: compares its pressure, and the height of body 2. */
 static void
-compare(struct rc_model *m, struct rc_shape s, const double *h, double tol)
+compare_on(struct rc_model *m, struct rc_shape s, struct rc_boundary boundary, const double *h,
+           double tol)
 {
     const struct rc_problem contact = {
-        .pair.estar = estar, .load = load, .tol = 1e-9, .threads = 1};
+        .boundary = boundary, .pair.estar = estar, .load = load, .tol = 1e-9, .threads = 1};
     const size_t n = s.nx * s.ny;
     struct solved is = solve(s, h, contact);
     double *p = malloc(n * sizeof *p), off = 0, sum = 0, top = -INFINITY;
@@ -97,6 +106,12 @@ compare(struct rc_model *m, struct rc_shape s, const double *h, double tol)
         fail_msg("height %g, not %g", rc_travel_result(m)->height, top - is.c.approach);
     free(p);
     solved_free(&is);
+}
+
+static void
+compare(struct rc_model *m, struct rc_shape s, const double *h, double tol)
+{
+    compare_on(m, s, RC_FREE, h, tol);
 }
 
 /* ---- tests ---- */
@@ -122,6 +137,45 @@ ball_in_a_window(void **state)
         compare(m, s, h, 1e-7);
     }
     rc_model_free(m);
+}
+
+/* On maps that repeat along one axis: a roller along y in a window and on the whole map, between nodes too,
+ * and a ball on a map that repeats along x, over its seam. */
+static void
+rollers_and_balls(void **state)
+{
+    static const double to[] = {0, 1, 2, 0.5, -7.25, 30, 31.5};
+    static double h1[64 * NY], h[64 * NY];
+
+    (void)state;
+    for (size_t k = 0; k < 64 * NY; k++)
+        h1[k] = rough[k / 64 * NX + k % 64];
+    for (int which = 0; which < 3; which++) {
+        const bool roller = which < 2, window = which == 0;
+        const struct rc_boundary boundary = rc_boundary_of(!roller, roller);
+        const struct rc_shape map = {window ? NX : 64, NY, node, node},
+                              s = {window ? W : 64, NY, node, node};
+        const struct rc_travel_problem problem = {.track = map,
+                                                  .h1 = window ? rough : h1,
+                                                  .repeats = which != 1,
+                                                  .radius = radius,
+                                                  .cylinder = roller};
+        struct rc_model *m = travelling_on(s, boundary, 1e-9, &problem);
+
+        for (size_t q = 0; q < (which == 1 ? 5 : 7); q++) {
+            const double from = window ? floor(to[q] + (NX - W) / 2 + 0.5) : 0;
+            move(m, to[q]);
+            for (size_t k = 0; k < s.nx * NY; k++) {
+                const size_t i = ((size_t)from + k % s.nx) % map.nx, j = k / s.nx;
+                double x = ((double)(k % s.nx) + from - ((double)map.nx - 1) / 2 - to[q]) * node;
+                double y = ((double)j - (NY - 1) / 2.0) * node;
+                x = roller ? x : remainder(x, 64 * node);
+                h[k] = problem.h1[j * map.nx + i] - (x * x + (roller ? 0 : y * y)) / (2 * radius);
+            }
+            compare_on(m, s, boundary, h, 1e-7);
+        }
+        rc_model_free(m);
+    }
 }
 
 /* Maps and windows of odd and even numbers of columns and rows: the ball is where it is without a window, in
@@ -424,10 +478,15 @@ int
 main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(ball_in_a_window),    cmocka_unit_test(windows_of_all_sizes),
-        cmocka_unit_test(middle_of_a_surface), cmocka_unit_test(surface_over_the_map),
-        cmocka_unit_test(between_nodes),       cmocka_unit_test(inclined_plane),
-        cmocka_unit_test(convolutions),        cmocka_unit_test(refused),
+        cmocka_unit_test(ball_in_a_window),
+        cmocka_unit_test(rollers_and_balls),
+        cmocka_unit_test(windows_of_all_sizes),
+        cmocka_unit_test(middle_of_a_surface),
+        cmocka_unit_test(surface_over_the_map),
+        cmocka_unit_test(between_nodes),
+        cmocka_unit_test(inclined_plane),
+        cmocka_unit_test(convolutions),
+        cmocka_unit_test(refused),
         cmocka_unit_test(cold_start),
     };
 

@@ -52,8 +52,7 @@ static const struct opt options[] = {
      .help = "how far body 2 moves for each metre of the contact: 1 (default) slides, 0 rolls"},
     {.name = "window", .type = OPT_TEXT, .base = &args.window, .result = true, .arg = "WxH",
      .needs = RULES({.with = "travel"}),
-     .against = RULES({.with = "yield", .because = "the plastic strain belongs to the whole map"},
-                      {.with = "periodic", .because = "a window is not a period"}),
+     .against = RULES({.with = "yield", .because = "the plastic strain belongs to the whole map"}),
      .help = "with --travel, solve so many nodes around the contact (default: the whole map)"},
     {.name = "passes", .type = OPT_COUNT, .base = &args.passes, .min = 1, .max = 1e6, .result = true,
      .points = true, .arg = "N",
@@ -104,6 +103,11 @@ read(struct run *run)
                       "cylinder would travel along its axis: take --periodic=y");
     if (ranks_of(t) != NULL)
         tool_usage(t, "--travel does not work with several processes: take one");
+    if (args.window != NULL && run->physics->boundary.x)
+        tool_usage(t,
+                   "--window does not work with --periodic%s, because a window is not a period: "
+                   "leave out one of them, or take --periodic=y",
+                   run->physics->boundary.y ? "" : "=x");
     if (args.window != NULL)
         read_window(run, args.window);
     if (args.counter != NULL)
@@ -125,6 +129,10 @@ window_of(struct run *run, const struct rc_grid *g)
     if (own.window[0] > g->nx || own.window[1] > g->ny)
         tool_refuse(&run->d.t, g, "--window %s is larger than the map of %zu x %zu nodes",
                     args.window, g->nx, g->ny);
+    if (run->physics->boundary.y && own.window[0] > 0 && own.window[1] != g->ny)
+        tool_refuse(&run->d.t, g,
+                    "--window %s: with --periodic=y it has the rows of the map: take %zux%zu",
+                    args.window, own.window[0], g->ny);
     if (own.window[0] > 0) {
         of.nx = own.window[0];
         of.ny = own.window[1];
@@ -132,7 +140,8 @@ window_of(struct run *run, const struct rc_grid *g)
     to = tool_frame_like(&run->d.t, &of, NULL, g->channel, g->unit);
     memset(to->v, 0, rc_grid_nodes(to) * sizeof *to->v);
     if (own.window[0] > 0)
-        tool_set(&run->d.t, to, "periodic", NULL);
+        tool_set(&run->d.t, to, "periodic",
+                 run->physics->boundary.y && map_repeats(g).y ? "y" : NULL);
     return to;
 }
 
