@@ -12,10 +12,11 @@
  * A is smooth, and is computed from a Chebyshev series. The integral is a trapezoidal rule on N points, which
  * is a Fourier transform. Its error is the field of the nearest image, at the distance R = N d - x.
  *
- * The field decreases as exp(-Q x). If it is not 0 at R, the transform takes S(q) [1 - w(q)] for S(q), where
- * w(q) = erfc((q - b)/s)/2, s = 12/R, b = 6 s. The other part, S(q) w(q), is integrated by Gauss's rule, on
- * intervals as wide as their distance from q = 0. So S may vary on any scale of length. For Q = 0 and even S
- * the integral has no limit where S(q) = a/q for q -> 0. With [q < c] = 1 for q < c and 0 otherwise,
+ * The field decreases as exp(-Q x), and nodes where this is below rounding get 0. If it is not 0 at R, the
+ * transform takes S(q) [1 - w(q)] for S(q), where w(q) = erfc((q - b)/s)/2, s = 12/R, b = 6 s. The other
+ * part, S(q) w(q), is integrated by Gauss's rule, on intervals as wide as their distance from q = 0. So S may
+ * vary on any scale of length. For Q = 0 and even S the integral has no limit where S(q) = a/q for q -> 0.
+ * With [q < c] = 1 for q < c and 0 otherwise,
  *
  *     integral from 0 to infinity of (cos(q x) - [q < c]) dq/q = -ln(x/datum),     c = exp(-gamma)/datum,
  *
@@ -33,7 +34,7 @@
 
 enum {
     LEAST = 128, /* points of the transform, so that waves with w(q) > 0 are below pi/d   */
-    POINTS = 32, /* of the Chebyshev series: its error is below (2 + sqrt 3)^-32          */
+    POINTS = 24, /* of the Chebyshev series: its error is below (2 + sqrt 3)^-24          */
     TERMS = 28,  /* of an alternating sum, see weights()                                  */
     GAUSS = RC_GAUSS_MOST,
     ANEW = 32, /* nodes after which cosines are computed anew; between, they are rotated */
@@ -56,6 +57,7 @@ struct line {
     size_t count, function[RC_LINE_MOST]; /* f in the source */
     bool odd[RC_LINE_MOST];
     double *out[RC_LINE_MOST];
+    size_t n;                          /* nodes whose field is not 0                     */
     size_t points;                     /* N                                              */
     double far;                        /* distance of the last node, at least a cell, m  */
     double s;                          /* of w, rad/m; 0: all waves are in the transform */
@@ -174,9 +176,9 @@ transform(const struct line *l, size_t f, const double *q, double *v)
     size_t n = l->points;
 
     for (size_t k = 0; k <= n / 2; k++) {
-        double half = q[k] * l->at->cell / 2;
-        v[k] = v[k] * sinc(half) * (1 - window(l, q[k])) +
-               sin(half) * series(l->tail[f], !l->odd[f], 2 * half / RC_PI);
+        double half = q[k] * l->at->cell / 2, sine = sin(half);
+        v[k] *= (half == 0 ? 1 : sine / half) * (1 - window(l, q[k]));
+        v[k] += sine * series(l->tail[f], !l->odd[f], 2 * half / RC_PI);
         v[k] /= (double)n;
     }
     /* real parts from the beginning, imaginary parts from the end: of sines minus the amplitude */
@@ -188,7 +190,7 @@ transform(const struct line *l, size_t f, const double *q, double *v)
         v[0] = v[n / 2] = 0;
     gsl_fft_halfcomplex_radix2_backward(v, 1, n);
     for (size_t i = 0; i < l->at->n; i++)
-        l->out[f][i] = v[i * l->at->step];
+        l->out[f][i] = i < l->n ? v[i * l->at->step] : 0;
 }
 
 static enum rc_status
@@ -325,7 +327,7 @@ add_waves(const struct line *l, const struct waves *w, const double constant[])
     double h = (double)l->at->step * l->at->cell;
 
     turn_to(w, h, w->to_c, w->to_s);
-    for (size_t i = 0; i < l->at->n; i++) {
+    for (size_t i = 0; i < l->n; i++) {
         if (i % ANEW == 0)
             turn_to(w, (double)i * h, w->c, w->s);
         else
@@ -358,8 +360,9 @@ enum rc_status
 rc_line_coefficients(const struct rc_line_source *source, const struct rc_line_at *at,
                      double *const out[], struct rc_err *err)
 {
-    double cells = (double)(at->n - 1) * (double)at->step, reach;
-    struct line l = {.source = source, .at = at, .points = LEAST};
+    const double shown = images / (at->wave * at->cell) / (double)at->step;
+    struct line l = {.source = source, .at = at, .points = LEAST, .n = at->n};
+    double cells, reach;
 
     for (size_t f = 0; f < source->count; f++)
         if (out[f] != NULL) {
@@ -369,6 +372,9 @@ rc_line_coefficients(const struct rc_line_source *source, const struct rc_line_a
         }
     if (l.count == 0)
         return RC_OK;
+    if (shown + 2 < (double)at->n)
+        l.n = (size_t)shown + 2;
+    cells = (double)(l.n - 1) * (double)at->step;
     while ((double)l.points < 2 * cells && l.points <= SIZE_MAX / 4)
         l.points *= 2;
     l.far = fmax(cells, 1) * at->cell;
