@@ -195,13 +195,13 @@ frame_of(size_t side, size_t other, double bends)
     return n / unit * unit;
 }
 
-/* `bends` is in m. A map that repeats across an axis is no strip along it. */
+/* `bends` is in m. */
 static struct rc_frame
 frame_around(const struct rc_shape *s, struct rc_boundary boundary, double bends)
 {
     return (struct rc_frame){
-        boundary.x ? 0 : frame_of(s->nx, boundary.y ? s->nx : s->ny, bends / s->dx),
-        boundary.y ? 0 : frame_of(s->ny, boundary.x ? s->ny : s->nx, bends / s->dy)};
+        boundary.x ? 0 : frame_of(s->nx, s->ny, bends / s->dx),
+        boundary.y ? 0 : frame_of(s->ny, s->nx, bends / s->dy)};
 }
 
 static double
