@@ -39,6 +39,7 @@
 #define RC_RUBBING_PASSES 2  /* seconds of a contact of two rough bodies */
 #define RC_ROLLING_STEP 25   /* a step of a path                                     */
 #define RC_ROLLING_STEADY 90 /* a steady state to 1e-2; half more for each decade    */
+#define RC_ROLLING_LINE 50   /* the same on a map that repeats along y               */
 #define RC_ROLLING_FORCE 150 /* the same, with a given force                         */
 /* Leakage: seconds and bytes of a node with fluid of 512 x 512; the seconds grow as n^(1/7). The bytes are
  * those of maps that are eliminated whole, and of larger ones. */

@@ -22,10 +22,11 @@ struct rc_friction_solver *rc_friction_solver_new(const struct rc_shape *shape,
  * RC_FAIL when a pressure is negative or not finite. */
 enum rc_status rc_friction_solver_set_pressure(struct rc_friction_solver *slip, const double *p,
                                                const double *gap, struct rc_err *err);
-/* Force (N) or displacement (m) at the end of the increment, along x and y; call after its pressure is set.
- * RC_FAIL, with both numbers, when friction cannot carry the force (the bodies slide), or under a displacement
- * with a datum within the contact; the increment is then unchanged. With a displacement, nodes that come into contact start as without a gap. Separated bodies have
- * no history: slip and displacement are 0, and count from the next touch. */
+/* Force (N) or displacement (m) at the end of the increment, along x and y; call after its pressure is
+ * set. RC_FAIL, with both numbers, when friction cannot carry the force (the bodies slide), or under a
+ * displacement with a datum within the contact; the increment is then unchanged. With a displacement,
+ * nodes that come into contact start as without a gap. Separated bodies have no history: slip and
+ * displacement are 0, and count from the next touch. */
 enum rc_status rc_friction_solver_set_force(struct rc_friction_solver *slip, double fx, double fy,
                                             struct rc_err *err);
 enum rc_status rc_friction_solver_set_displacement(struct rc_friction_solver *slip, double dx,

@@ -927,8 +927,8 @@ progress(const struct rc_model *m, struct rc_loops *l)
     l->tol = d->asked.tol;
 }
 
-/* The bytes are those on 512 x 512 nodes, counted in maps of doubles: on a free map, and what is less where both
- * axes repeat. */
+/* The bytes are those on 512 x 512 nodes, counted in maps of doubles: on a free map, and what is less
+ * where both axes repeat. */
 static enum rc_status
 plan(const struct rc_model *m, const struct rc_point *most, struct rc_expected *expected,
      struct rc_err *err)
@@ -937,9 +937,10 @@ plan(const struct rc_model *m, const struct rc_point *most, struct rc_expected *
     const struct rc_rolling_problem *o = &f->problem;
     const struct rc_point inner = rc_point_for(m->inner, most);
     const double below = fmax(log10(1e-2 / o->law.tol), 0);
-    const double work = (o->path    ? RC_ROLLING_STEP
-                         : o->force ? RC_ROLLING_FORCE
-                                    : RC_ROLLING_STEADY) *
+    const double work = (o->path             ? RC_ROLLING_STEP
+                         : o->force          ? RC_ROLLING_FORCE
+                         : o->law.boundary.y ? RC_ROLLING_LINE
+                                             : RC_ROLLING_STEADY) *
                         (1 + below / 2);
     const double maps = (o->path    ? 53
                          : o->force ? 72

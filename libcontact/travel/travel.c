@@ -4,10 +4,10 @@
  *
  *     h(x, y; X) = h1(x, y) + h2(x - r X, y) - ((x - X)^2 + y^2)/(2 R)
  *
- * with the heights h1 of body 1, which stays, h2 of body 2, and a ball of radius R (without y^2: a cylinder). The roughness of body 2
- * travels r times as far as the contact: r = 1 while it slides, 0 while it rolls. The contact is solved on
- * the whole map of body 1, or in a window of it that goes along by whole nodes. h1 is therefore never
- * interpolated; h2 is, by cubic polynomials, where r X is not a whole number of nodes.
+ * with the heights h1 of body 1, which stays, h2 of body 2, and a ball of radius R (without y^2: a cylinder).
+ * The roughness of body 2 travels r times as far as the contact: r = 1 while it slides, 0 while it rolls. The
+ * contact is solved on the whole map of body 1, or in a window of it that goes along by whole nodes. h1 is
+ * therefore never interpolated; h2 is, by cubic polynomials, where r X is not a whole number of nodes.
  *
  * A short step starts from 2 p(n) - p(n-1), both carried with body 1. On rough balls this takes 4.5
  * convolutions, and a start from coarser grids 6; after longer steps the coarser grids are as good.

@@ -19,6 +19,24 @@ enum {
 };
 static const double bound = 1e-9;
 
+/* The motion of the surfaces along each other by a pressure, x then y; 0 for bodies that are alike. */
+static void
+push_by(const struct rc_shape *s, struct rc_boundary boundary, const struct line_pair *pair,
+        const double *p, double *to)
+{
+    const size_t n = s->nx * s->ny;
+
+    for (size_t k = 0; k < 2 * n; k++) {
+        const size_t at = k % n;
+        const enum line what = (k < n) == boundary.x ? LINE_PUSH_ALONG : LINE_PUSH_ACROSS;
+        to[k] = 0;
+        for (size_t from = 0; from < n && pair->beta != 0; from++)
+            to[k] -= p[from] * line_at(what, s, boundary, pair,
+                                       (double)(at % s->nx) - (double)(from % s->nx),
+                                       (double)(at / s->nx) - (double)(from / s->nx));
+    }
+}
+
 static void
 another_method_finds_the_same(struct rc_boundary boundary)
 {
@@ -33,6 +51,10 @@ another_method_finds_the_same(struct rc_boundary boundary)
         size_t n = shape.nx * shape.ny;
         double nu = problem % 3 == 0 ? 0 : 0.5 * slip_noise(&seed), kap = nu / (1 - nu);
         bool given = problem % 4 == 3;
+        /* a body on a rigid one, which its pressure moves along it */
+        const bool alone = rc_repeats(boundary) == 1 && problem % 2 == 1;
+        const struct line_pair pair = {kap, alone ? (1 - 2 * nu) / (2 * (1 - nu)) : 0,
+                                       rc_boundary_on(&shape, boundary).datum};
         struct rc_friction_law what = {.boundary = boundary,
                                        .pair.estar = 1,
                                        .nu = nu,
@@ -44,11 +66,16 @@ another_method_finds_the_same(struct rc_boundary boundary)
         struct dense d = {.n = 0};
         double q[2 * DENSE_MOST] = {0}, delta[2] = {0, 0}, origin[2 * DENSE_MOST] = {0};
 
+        if (alone) {
+            rc_friction_solver_free(slip);
+            what.pair = (struct rc_pair){.one = {.e = 1 - nu * nu, .nu = nu}};
+            slip = rc_friction_solver_new(&shape, &what, &err);
+        }
         assert_non_null(slip);
         matrix_of(&d, &shape, boundary, kap);
         for (int increment = 0; increment < 3; increment++) {
             double p[DENSE_MOST], limit = 0, load[2], angle = 6.3 * slip_noise(&seed), size = 0,
-                                  far = 0;
+                                  far = 0, pushed[2 * DENSE_MOST];
             struct rc_friction_increment figures;
             enum rc_status status;
             for (size_t k = 0; k < n; k++) {
@@ -58,7 +85,9 @@ another_method_finds_the_same(struct rc_boundary boundary)
                 d.g[k] = fmin(what.mu * p[k], what.tau_max > 0 ? what.tau_max : INFINITY);
                 limit += d.g[k];
             }
-            memcpy(d.w, origin, sizeof origin);
+            push_by(&shape, boundary, &pair, p, pushed);
+            for (size_t k = 0; k < 2 * n; k++)
+                d.w[k] = origin[k] - pushed[k];
             for (int c = 0; c < 2; c++)
                 load[c] =
                     (0.1 + 0.85 * slip_noise(&seed)) * limit * (c == 0 ? cos(angle) : sin(angle));
@@ -92,7 +121,7 @@ another_method_finds_the_same(struct rc_boundary boundary)
                     moved = larger(moved, fabs(figures.displacement[c] - delta[c]) /
                                               hypot(delta[0], delta[1]));
             for (size_t k = 0; k < 2 * n; k++) {
-                origin[k] = -delta[k >= n];
+                origin[k] = pushed[k] - delta[k >= n];
                 for (size_t j = 0; j < 2 * n; j++)
                     origin[k] += d.t[k][j] * q[j];
             }

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Line contact, on maps that repeat along one axis: partial slip of Cattaneo and Mindlin across the line and
- * along it, with the displacement under the datum, and its loop. The superposition of Ciavarella and Jaeger
- * holds to rounding. Dissimilar bodies under a load alone stick in the part of Spence. Rows that are equal are
- * one row, and a turned map gives the turned result. */
+/* Line contact, on maps that repeat along one axis: partial slip of Cattaneo and Mindlin across the line
+ * and along it, with the displacement under the datum, and its loop. The superposition of Ciavarella and
+ * Jaeger holds to rounding. Dissimilar bodies under a load alone stick in the part of Spence. Rows that
+ * are equal are one row, and a turned map gives the turned result. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -14,7 +14,8 @@
 
 static const double mu = 0.3;
 
-/* A cylinder whose contact is 2 a wide, on a map that is 2.4 a wide. E* = 1, and P, F are forces per metre. */
+/* A cylinder whose contact is 2 a wide, on a map that is 2.4 a wide. E* = 1, and P, F are forces per
+ * metre. */
 struct line {
     size_t nodes, rows;
     double dx, dy; /* across the line, and along it */

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Random worn maps, then some with a coefficient of each node, some on a track that wears, pairs that slide
- * over each other, and maps that repeat along one axis. They are compared with a run with a tolerance ten times smaller and contacts a
- * thousand times more accurate. The estimated errors of the worn depth and of the pressure are not below the
- * differences.
+/* Random worn maps, then some with a coefficient of each node, some on a track that wears, pairs that
+ * slide over each other, and maps that repeat along one axis. They are compared with a run with a
+ * tolerance ten times smaller and contacts a thousand times more accurate. The estimated errors of the
+ * worn depth and of the pressure are not below the differences.
  *
  *     law_wear_estimates [FIRST LAST]        runs (default all) */
 #include <setjmp.h>

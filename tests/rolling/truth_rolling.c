@@ -93,9 +93,10 @@ test_carter(void **state)
     free(p);
 }
 
-/* The same on a map that repeats along y, with bodies of nu 0.3: a roller of any length, and without the error
- * of its ends. Along y the surfaces are 1/(1 - nu) times as soft, in antiplane shear. Equal rows are one row, the
- * force that a creepage needs finds it again, and a spin has no middle. Rows: 5 is odd on the coarser grids. */
+/* The same on a map that repeats along y, with bodies of nu 0.3: a roller of any length, and without the
+ * error of its ends. Along y the surfaces are 1/(1 - nu) times as soft, in antiplane shear. Equal rows are
+ * one row, the force that a creepage needs finds it again, and a spin has no middle. Rows: 5 is odd on the
+ * coarser grids. */
 static void
 test_carter_of_a_roller(void **state)
 {

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* A path of rolling with spin on a map that repeats along one axis or both is that of dense matrices, which
- * know nothing of transforms and of faces, with distances from the nearest middle. It does not depend on where
- * the map begins. A contact that reaches half a period from its middle is refused with spin, and has no moment
- * without. */
+/* A path of rolling with spin on a map that repeats along one axis or both is that of dense matrices,
+ * which know nothing of transforms and of faces, with distances from the nearest middle. It does not
+ * depend on where the map begins. A contact that reaches half a period from its middle is refused with
+ * spin, and has no moment without. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>

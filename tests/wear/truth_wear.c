@@ -162,8 +162,8 @@ static const double times[TIMES] = {0.1, 0.25, 0.5, 1, 2};
 static const double on_disc[TIMES] = {0.41210, 0.24875, 0.13259, 0.044623, 0.0056115};
 static const double on_strip[TIMES] = {0.43244, 0.28019, 0.16419, 0.065626, 0.011534};
 
-/* A punch of all nodes nearer than `radius` to the middle, or to a line along the axis that repeats. `half`: a
- * in nodes, that its area has. Each way between two times takes `parts` distances of the list. */
+/* A punch of all nodes nearer than `radius` to the middle, or to a line along the axis that repeats.
+ * `half`: a in nodes, that its area has. Each way between two times takes `parts` distances of the list. */
 static void
 punch(const struct rc_shape *s, double radius, double half, struct rc_boundary boundary,
       const double *want, double tol, int parts)
@@ -253,8 +253,8 @@ a_ball_is_cut(void **state)
     end(&r);
 }
 
-/* The scar of a cylinder has the section of a cut of the volume V per length, 2 a = (12 R V)^(1/3). The pressure
- * is even, and that of any line is P/(2 a). The cylinder is along y, then along x. */
+/* The scar of a cylinder has the section of a cut of the volume V per length, 2 a = (12 R V)^(1/3). The
+ * pressure is even, and that of any line is P/(2 a). The cylinder is along y, then along x. */
 static void
 a_cylinder_is_cut(void **state)
 {
@@ -412,8 +412,8 @@ a_ball_cuts_a_groove(void **state)
     assert_memory_equal(p, again, sizeof *p * 48 * 48); /* a track that does not wear is none */
 }
 
-/* A roller along y slides along x: its track sinks evenly, and the pressure stays. A roller along x slides along
- * itself: each row of a track as long as the period loses as much as the same points of both bodies. */
+/* A roller along y slides along x: its track sinks evenly, and the pressure stays. A roller along x slides
+ * along itself: each row of a track as long as the period loses as much as the same points of both bodies. */
 static void
 a_roller_on_a_track(void **state)
 {

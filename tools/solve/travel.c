@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
  * --travel: the contact travels along x over the map, a case a position. A ball (--radius), a roller
- * (--cylinder) or the surface of --counter is pressed on the whole map, or on a window that goes along. With --yield the plastic strain
- * stays in body 1, and --passes repeats the positions.
+ * (--cylinder) or the surface of --counter is pressed on the whole map, or on a window that goes along. With
+ * --yield the plastic strain stays in body 1, and --passes repeats the positions.
  */
 #include "solve.h"
 
