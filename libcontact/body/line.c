@@ -21,9 +21,12 @@
  *     integral from 0 to infinity of (cos(q x) - [q < c]) dq/q = -ln(x/datum),     c = exp(-gamma)/datum,
  *
  * where gamma is Euler's constant: [q < c] a d/pi/q is subtracted from the integrand.
+ *
+ * Where C is 0 at half of a period of N nodes, S(q) sinc(q d/2) + A(q) itself is the transform of the period.
  */
 #include "line.h"
 
+#include <assert.h>
 #include <gsl/gsl_fft_halfcomplex.h>
 #include <math.h>
 #include <stdlib.h>
@@ -37,9 +40,11 @@ enum {
     POINTS = 24, /* of the Chebyshev series: its error is below (2 + sqrt 3)^-24          */
     TERMS = 28,  /* of an alternating sum, see weights()                                  */
     GAUSS = RC_GAUSS_MOST,
-    ANEW = 32, /* nodes after which cosines are computed anew; between, they are rotated */
-    LANES = 8, /* partial sums, for wide registers                                       */
-    BLOCK = 64 /* waves of a body computed together                                      */
+    ANEW = 32,  /* nodes after which cosines are computed anew; between, they are rotated */
+    LANES = 8,  /* partial sums, for wide registers                                       */
+    LONGER = 8, /* of the transform, see points_for() */
+    WAVES = 32, /* waves whose series are summed together                                */
+    BLOCK = 64  /* waves of a body computed together                                      */
 };
 
 static const double images = 37; /* of Q R: exp(-37) is below rounding */
@@ -58,11 +63,13 @@ struct line {
     bool odd[RC_LINE_MOST];
     double *out[RC_LINE_MOST];
     size_t n;                          /* nodes whose field is not 0                     */
-    size_t points;                     /* N                                              */
+    size_t points, waves;              /* N; waves 2 pi k/(N d), k = 0, 1, ... that are not 0 */
+    double last;                       /* the largest q that is not 0, rad/m             */
     double far;                        /* distance of the last node, at least a cell, m  */
     double s;                          /* of w, rad/m; 0: all waves are in the transform */
-    double largest;                    /* symbol at the waves of the transform           */
+    double largest[RC_LINE_MOST];      /* symbol at the waves of the transform           */
     double tail[RC_LINE_MOST][POINTS]; /* Chebyshev series                               */
+    int terms[RC_LINE_MOST]; /* of the series, an even number: the others are negligible */
 };
 
 /* Symbols at n wave numbers; those of function f to v + f stride. */
@@ -74,6 +81,25 @@ symbols(const struct line *l, size_t n, size_t stride, const double *q, double *
     for (size_t f = 0; f < l->count; f++)
         to[l->function[f]] = v + f * stride;
     l->source->symbols(l->source->of, n, q, to);
+}
+
+/* The waves of the transform. Arrays have room for WAVES more. */
+struct comb {
+    double *q, *t;         /* rad/m; q d/pi */
+    double *sine, *factor; /* sin(q d/2); sinc(q d/2) (1 - w(q)) */
+    double *v;             /* `stride` of each function: symbols, then amplitudes */
+    size_t stride;
+    struct rc_store own;
+};
+
+static double
+largest(size_t n, const double *v)
+{
+    double most = 0;
+
+    for (size_t k = 0; k < n; k++)
+        most = fabs(v[k]) > most ? fabs(v[k]) : most;
+    return most;
 }
 
 static double
@@ -132,55 +158,141 @@ to_series(const double t[POINTS], bool odd_terms, double f[POINTS])
 static void
 sum_tails(struct line *l)
 {
-    double w[TERMS], t[POINTS], q[POINTS], v[RC_LINE_MOST * POINTS], most = INFINITY;
+    double w[TERMS], t[POINTS], q[POINTS], v[RC_LINE_MOST * POINTS], most[RC_LINE_MOST];
+    bool more = true;
 
     weights(w);
     memset(l->tail, 0, sizeof l->tail);
     for (int i = 0; i < POINTS; i++)
         t[i] = cos(RC_PI * (i + 0.5) / POINTS);
-    for (int k = 0; k < TERMS && most > DBL_EPSILON / TERMS * l->largest; k++) {
+    for (size_t f = 0; f < l->count; f++)
+        most[f] = INFINITY;
+    for (int k = 0; k < TERMS && more && (1 + 2 * k) * RC_PI / l->at->cell <= l->last; k++) {
         for (int i = 0; i < POINTS; i++)
             q[i] = (2 + t[i] + 2 * k) * RC_PI / l->at->cell;
         symbols(l, POINTS, POINTS, q, v);
-        most = 0;
-        for (size_t f = 0; f < l->count; f++)
-            for (size_t i = 0; i < POINTS; i++) {
-                most = fmax(most, fabs(v[f * POINTS + i]));
+        more = false;
+        for (size_t f = 0; f < l->count; f++) {
+            if (!(most[f] > DBL_EPSILON / TERMS * l->largest[f]))
+                continue;
+            more = true;
+            most[f] = largest(POINTS, v + f * POINTS);
+            for (size_t i = 0; i < POINTS; i++)
                 l->tail[f][i] += w[k] * v[f * POINTS + i] / (q[i] * l->at->cell / 2);
-            }
+        }
     }
-    for (size_t f = 0; f < l->count; f++)
+    for (size_t f = 0; f < l->count; f++) {
+        const double least = DBL_EPSILON / POINTS * l->largest[f];
+        if (!(largest(POINTS, l->tail[f]) > least))
+            continue;
         to_series(t, !l->odd[f], l->tail[f]);
+        l->terms[f] = POINTS;
+        while (l->terms[f] > 0 && !(largest(2, l->tail[f] + l->terms[f] - 2) > least))
+            l->terms[f] -= 2;
+    }
 }
 
-/* The series of terms of one parity at t, by Clenshaw's recurrence: T_(n+4) = 2 T_2 T_(n+2) - T_n. */
-static double
-series(const double c[POINTS], bool odd_terms, double t)
-{
-    double u = 2 * t * t - 1, b = 0, b1 = 0;
+/* Eight waves: the sums of several stay in registers, which plain loops do not achieve. */
+typedef double vector __attribute__((vector_size(64), aligned(8)));
 
-    for (int n = POINTS - 2 + odd_terms; n >= 0; n -= 2) {
-        double b2 = b1;
-        b1 = b;
-        b = c[n] + 2 * u * b1 - b2;
+/* Adds sin(q d/2) times the series of terms of one parity, by Clenshaw's recurrence, T_(n+4) = 2 T_2 T_(n+2) -
+ * T_n, to the symbols times their factors. */
+RC_WIDE_CLONES static void
+add_series(size_t n, const double *restrict c, int terms, bool odd_terms,
+           const struct comb *restrict comb, double *restrict v)
+{
+    enum {
+        VECTORS = WAVES / 8
+    };
+    const vector *restrict t = (const vector *)comb->t, *restrict sine = (const vector *)comb->sine;
+    const vector *restrict factor = (const vector *)comb->factor;
+
+    for (size_t from = 0; 8 * from < n; from += VECTORS) {
+        vector twice[VECTORS], b[VECTORS] = {{0}}, b1[VECTORS] = {{0}};
+        vector *restrict to = (vector *)v + from;
+        for (size_t k = 0; k < VECTORS; k++)
+            twice[k] = 4 * t[from + k] * t[from + k] - 2;
+        for (int m = terms - 2 + odd_terms; m >= 0; m -= 2)
+            for (size_t k = 0; k < VECTORS; k++) {
+                vector next = twice[k] * b[k] + (c[m] - b1[k]);
+                b1[k] = b[k];
+                b[k] = next;
+            }
+        for (size_t k = 0; k < VECTORS; k++) {
+            vector sum = odd_terms ? t[from + k] * (b[k] - b1[k]) : b[k] - twice[k] / 2 * b1[k];
+            to[k] = to[k] * factor[from + k] + sine[from + k] * sum;
+        }
     }
-    return odd_terms ? t * (b - b1) : b - u * b1;
 }
 
 /* ---- the transform ---- */
 
-/* From the symbols in v to the field. */
 static void
-transform(const struct line *l, size_t f, const double *q, double *v)
+comb_free(struct comb *c)
+{
+    rc_store_free(&c->own);
+}
+
+/* The sines by rotation from wave to wave. */
+static void
+set_comb(const struct line *l, struct comb *c)
+{
+    const double turn = RC_PI / (double)l->points, by_c = cos(turn), by_s = sin(turn);
+    double cosine = 1, sine = 0;
+
+    for (size_t k = 0; k < l->waves + WAVES; k++) {
+        const double half = turn * (double)k, before = cosine;
+        if (k % ANEW == 0) {
+            cosine = cos(half);
+            sine = sin(half);
+        } else {
+            cosine = cosine * by_c - sine * by_s;
+            sine = sine * by_c + before * by_s;
+        }
+        c->q[k] = 2 * half / l->at->cell;
+        c->t[k] = 2 * half / RC_PI;
+        c->sine[k] = sine;
+        c->factor[k] = (k == 0 ? 1 : sine / half) * (1 - window(l, c->q[k]));
+    }
+}
+
+/* The amplitudes of the waves: N/d times the integrand. They have room for `room` numbers of each
+ * function. */
+static enum rc_status
+comb_new(struct line *l, size_t room, struct comb *c)
+{
+    const size_t from = l->at->wave == 0, n = l->waves + WAVES;
+
+    *c = (struct comb){.stride = room > n ? room : n};
+    c->q = rc_store_take(&c->own, n, sizeof *c->q);
+    c->t = rc_store_take(&c->own, n, sizeof *c->t);
+    c->sine = rc_store_take(&c->own, n, sizeof *c->sine);
+    c->factor = rc_store_take(&c->own, n, sizeof *c->factor);
+    c->v = rc_store_take(&c->own, l->count * c->stride, sizeof *c->v);
+    if (c->own.failed)
+        return RC_FAIL;
+    set_comb(l, c);
+    symbols(l, l->waves - from, c->stride, c->q + from, c->v + from);
+    for (size_t f = 0; f < l->count; f++) {
+        double *v = c->v + f * c->stride;
+        v[0] = from > 0 ? 0 : v[0]; /* w(0) = 1 */
+        l->largest[f] = largest(l->waves, v);
+    }
+    sum_tails(l);
+    for (size_t f = 0; f < l->count; f++)
+        add_series(l->waves, l->tail[f], l->terms[f], !l->odd[f], c, c->v + f * c->stride);
+    return RC_OK;
+}
+
+/* From amplitudes to the field. */
+static void
+transform(const struct line *l, size_t f, double *v)
 {
     size_t n = l->points;
 
-    for (size_t k = 0; k <= n / 2; k++) {
-        double half = q[k] * l->at->cell / 2, sine = sin(half);
-        v[k] *= (half == 0 ? 1 : sine / half) * (1 - window(l, q[k]));
-        v[k] += sine * series(l->tail[f], !l->odd[f], 2 * half / RC_PI);
+    for (size_t k = 0; k < l->waves; k++)
         v[k] /= (double)n;
-    }
+    memset(v + l->waves, 0, (n - l->waves) * sizeof *v);
     /* real parts from the beginning, imaginary parts from the end: of sines minus the amplitude */
     for (size_t k = 1; k < n / 2; k++) {
         v[n - k] = l->odd[f] ? -v[k] : 0;
@@ -196,23 +308,38 @@ transform(const struct line *l, size_t f, const double *q, double *v)
 static enum rc_status
 transform_all(struct line *l)
 {
-    size_t n = l->points, half = n / 2, from = l->at->wave == 0;
-    RC_OWNED double *q = rc_alloc(half + 1, sizeof *q), *v = rc_alloc(l->count * n, sizeof *v);
+    RC_ENDS(comb_free) struct comb c;
 
-    if (q == NULL || v == NULL)
+    if (comb_new(l, l->points, &c) != RC_OK)
         return RC_FAIL;
-    for (size_t k = 0; k <= half; k++)
-        q[k] = 2 * RC_PI * (double)k / ((double)n * l->at->cell);
-    symbols(l, half + 1 - from, n, q + from, v + from);
-    for (size_t f = 0; f < l->count; f++) {
-        for (size_t k = from; k <= half; k++)
-            l->largest = fmax(l->largest, fabs(v[f * n + k]));
-        v[f * n] = from > 0 ? 0 : v[f * n]; /* w(0) = 1 */
-    }
-    sum_tails(l);
     for (size_t f = 0; f < l->count; f++)
-        transform(l, f, q, v + f * n);
+        transform(l, f, c.v + f * c.stride);
     return RC_OK;
+}
+
+/* From the amplitudes at all cells of a period to the transform at its nodes, every step-th cell: waves that
+ * differ by 2 pi/(step d) are the same. */
+static void
+fold(const struct line *l, size_t f, const double *v)
+{
+    const size_t n = l->at->n;
+    const double step = (double)l->at->step;
+    double *out = l->out[f];
+
+    memset(out, 0, (n / 2 + 1) * sizeof *out);
+    for (size_t k = 0; k < l->waves && 2 * k <= n; k++)
+        out[k] = v[k] / step;
+    for (size_t k = n / 2; l->at->step > 1 && k < l->waves; k++) {
+        const size_t right = k % n, left = (n - right) % n;
+        if (2 * right <= n && 2 * k > n)
+            out[right] += v[k] / step;
+        if (2 * left <= n && k > 0 && 2 * k != l->points)
+            out[left] += (l->odd[f] ? -v[k] : v[k]) / step;
+    }
+    if (l->odd[f])
+        out[0] = 0;
+    if (l->odd[f] && n % 2 == 0)
+        out[n / 2] = 0;
 }
 
 /* ---- long waves ---- */
@@ -356,13 +483,12 @@ add_long_waves(const struct line *l)
 
 /* ---- functions ---- */
 
-enum rc_status
-rc_line_coefficients(const struct rc_line_source *source, const struct rc_line_at *at,
-                     double *const out[], struct rc_err *err)
+static struct line
+begin(const struct rc_line_source *source, const struct rc_line_at *at, double most,
+      double *const out[], size_t points)
 {
-    const double shown = images / (at->wave * at->cell) / (double)at->step;
-    struct line l = {.source = source, .at = at, .points = LEAST, .n = at->n};
-    double cells, reach;
+    struct line l = {.source = source, .at = at, .points = points, .last = most};
+    double waves;
 
     for (size_t f = 0; f < source->count; f++)
         if (out[f] != NULL) {
@@ -370,18 +496,76 @@ rc_line_coefficients(const struct rc_line_source *source, const struct rc_line_a
             l.odd[l.count] = source->odd >> f & 1;
             l.out[l.count++] = out[f];
         }
+    if (isfinite(most))
+        l.last = sqrt(fmax(0, most * most - at->wave * at->wave));
+    waves = l.last * (double)points * at->cell / (2 * RC_PI);
+    l.waves = 1 + (waves < (double)(points / 2) ? (size_t)waves : points / 2);
+    return l;
+}
+
+/* N: at least twice the nodes, and more where the field then decays as far as the nearest image: up to LONGER
+ * times the transform costs less than the long waves. */
+static size_t
+points_for(const struct rc_line_at *at, double cells)
+{
+    size_t points = LEAST, longer;
+
+    while ((double)points < 2 * cells && points <= SIZE_MAX / 4)
+        points *= 2;
+    longer = points;
+    while (at->wave * ((double)longer - cells) * at->cell < images && longer / points < LONGER &&
+           longer <= SIZE_MAX / 4)
+        longer *= 2;
+    return at->wave * ((double)longer - cells) * at->cell < images ? points : longer;
+}
+
+static enum rc_status
+coefficients(const struct rc_line_source *source, const struct rc_line_at *at, double most,
+             double *const out[], struct rc_err *err)
+{
+    const double shown = images / (at->wave * at->cell) / (double)at->step;
+    const size_t n = shown + 2 < (double)at->n ? (size_t)shown + 2 : at->n;
+    const double cells = (double)(n - 1) * (double)at->step;
+    struct line l = begin(source, at, most, out, points_for(at, cells));
+    double reach;
+
     if (l.count == 0)
         return RC_OK;
-    if (shown + 2 < (double)at->n)
-        l.n = (size_t)shown + 2;
-    cells = (double)(l.n - 1) * (double)at->step;
-    while ((double)l.points < 2 * cells && l.points <= SIZE_MAX / 4)
-        l.points *= 2;
+    l.n = n;
     l.far = fmax(cells, 1) * at->cell;
     reach = ((double)l.points - cells) * at->cell;
     l.s = at->wave * reach >= images ? 0 : part / reach;
     if (transform_all(&l) != RC_OK || (l.s > 0 && add_long_waves(&l) != RC_OK))
         return rc_err_set(err, "out of memory for the coefficients of %zu nodes", at->n);
+    return RC_OK;
+}
+
+enum rc_status
+rc_line_coefficients(const struct rc_line_source *source, const struct rc_line_at *at,
+                     double *const out[], struct rc_err *err)
+{
+    return coefficients(source, at, INFINITY, out, err);
+}
+
+bool
+rc_line_decays(const struct rc_line_at *at)
+{
+    /* from the edge of the cell to the node at half a period */
+    return at->wave * ((double)at->n * (double)at->step - 1) * at->cell / 2 >= images;
+}
+
+static enum rc_status
+spectra(const struct rc_line_source *source, const struct rc_line_at *at, double most,
+        double *const out[], struct rc_err *err)
+{
+    struct line l = begin(source, at, most, out, at->n * at->step);
+    RC_ENDS(comb_free) struct comb c = {.stride = 0};
+
+    assert(rc_line_decays(at));
+    if (l.count > 0 && comb_new(&l, 0, &c) != RC_OK)
+        return rc_err_set(err, "out of memory for the transforms of %zu coefficients", at->n);
+    for (size_t f = 0; f < l.count; f++)
+        fold(&l, f, c.v + f * c.stride);
     return RC_OK;
 }
 
@@ -433,20 +617,40 @@ inside_symbols(const void *of, size_t n, const double *q, double *const out[])
     }
 }
 
+static struct rc_line_source
+inside_source(const struct along *along, unsigned kernels, double *const out[RC_STRESS_KERNELS],
+              double *to[RC_STRESS_KERNELS])
+{
+    const unsigned axis = along->x ? RC_ODD_X : RC_ODD_Y;
+    struct rc_line_source source = {RC_STRESS_KERNELS, 0, inside_symbols, along};
+
+    for (int k = 0; k < RC_STRESS_KERNELS; k++) {
+        source.odd |= (rc_stress_parity[k] & axis) != 0 ? 1u << k : 0;
+        to[k] = kernels >> k & 1 ? out[k] : NULL;
+    }
+    return source;
+}
+
 enum rc_status
 rc_inside_lines(const struct rc_inside *inside, unsigned kernels, bool along_x,
-                const struct rc_line_at *at, double *const out[RC_STRESS_KERNELS],
+                const struct rc_line_at *at, double most, double *const out[RC_STRESS_KERNELS],
                 struct rc_err *err)
 {
-    const unsigned along = along_x ? RC_ODD_X : RC_ODD_Y;
     const struct along a = {.inside = inside, .x = along_x, .wave = at->wave};
-    struct rc_line_source source = {RC_STRESS_KERNELS, 0, inside_symbols, &a};
-    double *to[RC_STRESS_KERNELS] = {NULL};
+    double *to[RC_STRESS_KERNELS];
+    const struct rc_line_source source = inside_source(&a, kernels, out, to);
 
-    for (int k = 0; k < RC_STRESS_KERNELS; k++)
-        if (kernels >> k & 1) {
-            source.odd |= (rc_stress_parity[k] & along) != 0 ? 1u << k : 0;
-            to[k] = out[k];
-        }
-    return rc_line_coefficients(&source, at, to, err);
+    return coefficients(&source, at, most, to, err);
+}
+
+enum rc_status
+rc_inside_spectra(const struct rc_inside *inside, unsigned kernels, bool along_x,
+                  const struct rc_line_at *at, double most, double *const out[RC_STRESS_KERNELS],
+                  struct rc_err *err)
+{
+    const struct along a = {.inside = inside, .x = along_x, .wave = at->wave};
+    double *to[RC_STRESS_KERNELS];
+    const struct rc_line_source source = inside_source(&a, kernels, out, to);
+
+    return spectra(&source, at, most, to, err);
 }

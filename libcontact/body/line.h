@@ -31,8 +31,8 @@ struct rc_line_source {
 
 /* Writes function k at the nodes to out[k], if this is not NULL. The field of a load cos(wave y) is
  * out cos(wave y), or out sin(wave y) if the kernel is odd in y. The error is below 1e-12 of the largest
- * value on the free axis (between the nodes too), and follows that of the symbols. RC_FAIL when memory is
- * short. */
+ * value on the free axis (between the nodes too), and follows that of the symbols. Of stresses at a depth
+ * which the wave hardly reaches it is below 1e-16 of the load. RC_FAIL when memory is short. */
 enum rc_status rc_line_coefficients(const struct rc_line_source *source,
                                     const struct rc_line_at *at, double *const out[],
                                     struct rc_err *err);
@@ -40,9 +40,17 @@ enum rc_status rc_line_coefficients(const struct rc_line_source *source,
 /* The same for a kernel with a symbol. The free axis is x or y. */
 enum rc_status rc_kernel_line(const struct rc_kernel *kernel, bool along_x,
                               const struct rc_line_at *at, double *out, struct rc_err *err);
-/* The same for the stresses at a depth whose bit is set. */
+/* The same for the stresses at a depth whose bit is set. Symbols count as 0 where q^2 + wave^2 > most^2,
+ * rad/m. */
 enum rc_status rc_inside_lines(const struct rc_inside *inside, unsigned kernels, bool along_x,
-                               const struct rc_line_at *at, double *const out[RC_STRESS_KERNELS],
-                               struct rc_err *err);
+                               const struct rc_line_at *at, double most,
+                               double *const out[RC_STRESS_KERNELS], struct rc_err *err);
+/* The transforms of the coefficients at n nodes, which are a period: the sums over its nodes x of the
+ * coefficients times cos(q x), for odd functions sin(q x), at the wave numbers q = 2 pi k/(n step cell), k <=
+ * n/2. They cost less than coefficients. Only if rc_line_decays: then each field is 0 at half a period. */
+bool rc_line_decays(const struct rc_line_at *at);
+enum rc_status rc_inside_spectra(const struct rc_inside *inside, unsigned kernels, bool along_x,
+                                 const struct rc_line_at *at, double most,
+                                 double *const out[RC_STRESS_KERNELS], struct rc_err *err);
 
 #endif

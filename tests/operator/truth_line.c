@@ -10,6 +10,7 @@
 #include "tests/line_truth.h"
 #include "libcontact/body/line.h"
 #include "tests/body_case.h"
+#include "tests/wave_load.h"
 
 /* The largest error over the largest value; a number that is not finite is an infinite error. */
 struct error {
@@ -314,7 +315,8 @@ stress_lines(const struct rc_inside *inside, bool along_x, const struct rc_line_
     for (int k = 0; k < RC_STRESS_KERNELS; k++)
         s->out[along_x ? k : exchanged(k)] = s->v[k];
     assert_int_equal(
-        rc_inside_lines(inside, (1u << RC_STRESS_KERNELS) - 1, along_x, at, s->out, &err), RC_OK);
+        rc_inside_lines(inside, (1u << RC_STRESS_KERNELS) - 1, along_x, at, INFINITY, s->out, &err),
+        RC_OK);
 }
 
 static void
@@ -358,58 +360,6 @@ stresses_without_a_wave(void **state)
 
 /* ---- stresses under a wave, in real space ---- */
 
-/* The integral over y of f(x, y) cos(Q y), or f(x, y) sin(Q y) for kernels odd in y, is a sum over y = j h.
- * Its error is exp(-2 pi R/h), R the distance of the nearest load. The sum ends smoothly: its terms are
- * multiplied by erfc(Q y/12 - 9)/2, whose error is exp(-36). */
-static double
-end_of_sum(double wave, double y)
-{
-    return erfc(wave * y / 12 - 9) / 2;
-}
-
-static const double sum_end = 15 * 12; /* of Q y */
-
-/* Adds the stresses of a uniform body under a line across the cell, by points of Gauss's rule. */
-static void
-add_points(double nu, double d, double x, double y, double z, const double *u, const double *w,
-           size_t points, double sum[RC_STRESS_KERNELS])
-{
-    for (size_t k = 0; k < points; k++) {
-        double one[RC_COMPONENTS], two[RC_COMPONENTS], three[RC_COMPONENTS];
-        point_stress(false, nu, x - u[k] * d, y, z, one);
-        point_stress(true, nu, x - u[k] * d, y, z, two);
-        point_stress(true, nu, y, x - u[k] * d, z, three);
-        for (int c = 0; c < RC_COMPONENTS; c++) {
-            sum[c] += w[k] * d * one[c];
-            sum[RC_COMPONENTS + c] += w[k] * d * two[c];
-            sum[2 * RC_COMPONENTS + (int)rc_stress_exchanged[c]] += w[k] * d * three[c];
-        }
-    }
-}
-
-static void
-real_space(double nu, double d, double wave, double x, double z, double sum[RC_STRESS_KERNELS])
-{
-    enum {
-        GAUSS = 20
-    };
-    gsl_integration_glfixed_table *g = gsl_integration_glfixed_table_alloc(GAUSS);
-    double u[GAUSS], w[GAUSS], h = fmax(z, x - d / 2) / 6;
-
-    for (size_t k = 0; k < GAUSS; k++)
-        gsl_integration_glfixed_point(-0.5, 0.5, k, u + k, w + k, g);
-    gsl_integration_glfixed_table_free(g);
-    memset(sum, 0, RC_STRESS_KERNELS * sizeof *sum);
-    for (size_t j = 0; (double)j * h * wave < sum_end; j++) {
-        double y = (double)j * h, of[RC_STRESS_KERNELS] = {0};
-        double weight = (j == 0 ? 1 : 2) * h * end_of_sum(wave, y);
-        add_points(nu, d, x, y, z, u, w, GAUSS, of);
-        for (int k = 0; k < RC_STRESS_KERNELS; k++)
-            sum[k] +=
-                weight * of[k] * (rc_stress_parity[k] & RC_ODD_Y ? sin(wave * y) : cos(wave * y));
-    }
-}
-
 static void
 stresses_under_a_wave(void **state)
 {
@@ -431,7 +381,8 @@ stresses_under_a_wave(void **state)
         stress_lines(c.inside, n % 2 == 0, &line, &s);
         for (int i = 0; i < 3; i++) {
             double truth[RC_STRESS_KERNELS];
-            real_space(body.nu, d, line.wave, (double)at[n].node[i] * d, at[n].depth * d, truth);
+            wave_load_stress(body.nu, d, line.wave, (double)at[n].node[i] * d, at[n].depth * d,
+                             truth);
             for (int k = 0; k < RC_STRESS_KERNELS; k++)
                 compare(&e, s.v[k][at[n].node[i]], truth[k]);
         }
@@ -660,6 +611,56 @@ sums_are_symbols(void **state)
         }
 }
 
+/* The transforms of a period of coefficients, of any number of nodes and cells from node to node. */
+static void
+spectra_are_transforms(void **state)
+{
+    static const struct {
+        size_t step, n; /* n: nodes of a period */
+        double wave, depth;
+    } at[] = {{1, 64, 1.3, 0}, {1, 64, 1.3, 0.6}, {1, 45, 2, 0.3},
+              {3, 40, 0.7, 5}, {4, 21, 1, 9},     {1, 2, 80, 0.05}};
+    static struct stresses s, t;
+    const struct rc_layer layer = {1.7, 90, 0.2};
+    const struct rc_body bodies[] = {{.e = 1, .nu = 0.3},
+                                     {.e = 1, .nu = 0.3, .layer = &layer, .layers = 1}};
+    const unsigned all = (1u << RC_STRESS_KERNELS) - 1;
+
+    (void)state;
+    for (size_t n = 0; n < 4 * sizeof at / sizeof *at; n++) {
+        const bool along_x = n % 2;
+        struct rc_line_at line = {1.1, at[n / 4].step, at[n / 4].n, at[n / 4].wave, 0};
+        struct error e = {0, 0};
+        struct body_case c;
+        struct rc_err err;
+        stress_case(&c, bodies[n / 2 % 2], at[n / 4].depth, RC_PERIODIC, 0);
+        for (int k = 0; k < RC_STRESS_KERNELS; k++)
+            t.out[k] = t.v[k];
+        assert_true(rc_line_decays(&line));
+        assert_int_equal(rc_inside_spectra(c.inside, all, along_x, &line, INFINITY, t.out, &err),
+                         RC_OK);
+        line.n = line.n / 2 + 1;
+        for (int k = 0; k < RC_STRESS_KERNELS; k++)
+            s.out[k] = s.v[k];
+        assert_int_equal(rc_inside_lines(c.inside, all, along_x, &line, INFINITY, s.out, &err),
+                         RC_OK);
+        for (int k = 0; k < RC_STRESS_KERNELS; k++) {
+            const bool odd = rc_stress_parity[k] & (along_x ? RC_ODD_X : RC_ODD_Y);
+            for (size_t q = 0; q < line.n; q++) {
+                double sum = odd ? 0 : s.v[k][0];
+                for (size_t i = 1; i < line.n; i++) {
+                    const double phase = 2 * exact_pi * (double)(i * q) / (double)at[n / 4].n;
+                    sum += (2 * i == at[n / 4].n ? 1 : 2) * s.v[k][i] *
+                           (odd ? sin(phase) : cos(phase));
+                }
+                compare(&e, t.v[k][q], sum);
+            }
+        }
+        assert_true(e.off <= summed * e.largest);
+        body_case_free(&c);
+    }
+}
+
 /* ---- callers ---- */
 
 /* Several threads get the numbers that one gets, and a kernel alone those that it has with others. */
@@ -687,7 +688,7 @@ calls(void **state)
         const struct rc_line_at at = {1, 1, NODES, m * 0.01, 1};
         double *out[RC_STRESS_KERNELS] = {together[m]};
         struct rc_err err;
-        (void)rc_inside_lines(c.inside, 1u << RC_SXX, true, &at, out, &err);
+        (void)rc_inside_lines(c.inside, 1u << RC_SXX, true, &at, INFINITY, out, &err);
     }
     assert_memory_equal(alone, together, sizeof alone);
     body_case_free(&c);
@@ -735,6 +736,7 @@ main(void)
         cmocka_unit_test(stresses_of_layers),
         cmocka_unit_test(layers_of_one_material),
         cmocka_unit_test(sums_are_symbols),
+        cmocka_unit_test(spectra_are_transforms),
         cmocka_unit_test(calls),
         cmocka_unit_test(memory_is_short),
     };
