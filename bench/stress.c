@@ -126,7 +126,7 @@ kernel_run(void *what)
     for (size_t j = 0; j < w->cy; j++) {
         double *row[] = {w->quarter + j * w->cx, twice + (size_t)omp_get_thread_num() * w->cx};
         memset(row[1], 0, w->cx * sizeof *twice);
-        rc_fft_quarter_row(w->fft, 2, 2, row);
+        rc_fft_quarter_line(w->fft, 2, 2, row);
     }
     free(twice);
 }

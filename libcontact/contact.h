@@ -1383,8 +1383,8 @@ struct rc_stress_options {
     /* processes that share the map; NULL: none */
     const struct rc_ranks *ranks;
     /* NULL, or strain whose stress is added. It costs five transforms per slab and one per depth
-     * and component, and needs body.e of a uniform body. Interfaces belong to the lower slab.
-     * Sections interpolate linearly. */
+     * and component, and needs body.e of a uniform body, and no or both axes that repeat.
+     * Interfaces belong to the lower slab. Sections interpolate linearly. */
     const struct rc_eigenstrain *strain;
     /* Tractions on this body's surface along +x and +y, Pa, nx ny each, interpolated like p;
      * NULL: none. */
@@ -1421,20 +1421,21 @@ RC_API double rc_stress_coarser(const struct rc_shape *shape,
                                 const struct rc_stress_options *options);
 /* Suitable depths from 0 down for the stresses under this pressure, *n of them in an array that the caller
  * frees. They are close together near the surface, where short waves matter, and farther apart below. They
- * end at three contact radii (free), or where the waves have decayed to 1 % (periodic). Their distance is a
- * quarter of 1/q of the RMS wave, and in a layer at most a quarter of its thickness. Each interface gets two
- * depths, itself and one a millionth deeper; none is in a rigid half-space. Among ranks (NULL: none) p is the
- * rows held here. RC_FAIL, and NULL for the depths, when memory is short. */
+ * end at three contact radii (free), at six half-widths (one axis repeats), or where the waves have decayed to
+ * 1 % (periodic). Their distance is a quarter of 1/q of the RMS wave, and in a layer at most a quarter of its
+ * thickness. Each interface gets two depths, itself and one a millionth deeper; none is in a rigid half-space.
+ * Among ranks (NULL: none) p is the rows held here. RC_FAIL, and NULL for the depths, when memory is short. */
 RC_API enum rc_status rc_stress_depths(const struct rc_ranks *ranks, const struct rc_shape *shape,
                                        const double *p, struct rc_boundary boundary,
                                        const struct rc_body *body, double **depths, size_t *n,
                                        struct rc_err *err);
-/* Stresses under the pressure p (Pa) in a half-space. Free: the pressure is constant in each cell.
- * Periodic: it is band-limited. Its mean gives szz = -p, sxz = -mu p (with maps of traction minus their
- * means) and sxx = syy = -(1 + 2 nu) p / 2 at every depth. This is the limit for a loaded patch that grows
- * without end. A layered body has sxx and syy of the half-space below, whose strains along the surface the
- * layers share. NULL when an option is out of range, there is no such engine or none for the boundary or
- * the section, or memory is short. */
+/* Stresses under the pressure p (Pa) in a half-space. The pressure is constant in each cell along a free
+ * axis, and band-limited along one that repeats. On a periodic map its mean gives szz = -p, sxz = -mu p (with
+ * maps of traction minus their means) and sxx = syy = -(1 + 2 nu) p / 2 at every depth. This is the limit for
+ * a loaded patch that grows without end. A layered body has sxx and syy of the half-space below, whose strains
+ * along the surface the layers share. If only the axis along a section repeats, stresses between two lines of
+ * nodes are interpolated. NULL when an option is out of range, there is no such engine or none for the boundary
+ * or the section, or memory is short. */
 RC_API struct rc_stress *rc_stress_new(const struct rc_shape *shape, const double *p,
                                        const struct rc_stress_options *options, struct rc_err *err);
 /* Number of values of a component at one depth: nx ny for maps, nx for the section y = at, ny for x = at. */
@@ -1496,9 +1497,9 @@ RC_API enum rc_status rc_fatigue_history(unsigned wanted, const struct rc_fatigu
 
 /* Histories below a map. With `pass`, the pressure travels with the contact over a body of uniform
  * properties: each point of a row along that axis sees all stresses of the row, and has one result. Otherwise
- * each case is the pressure at a position of the contact, and each node of the body has a result. On a free
- * map the unloaded state belongs to each history, and a node outside the map of a case is unloaded. On a
- * periodic map nothing is added, and columns wrap around. */
+ * each case is the pressure at a position of the contact, and each node of the body has a result. If the map is
+ * free along the axis of the pass, or along x for cases, the unloaded state belongs to each history, and a node
+ * outside the map of a case is unloaded. Otherwise nothing is added, and columns wrap around. */
 struct rc_fatigue_problem {
     /* Its members wanted, section and traction are ignored; no ranks, no strain. */
     struct rc_stress_options stress;

@@ -17,6 +17,12 @@ struct solved {
     struct rc_err err;
 };
 
+static const struct rc_boundary each_boundary[] = {
+    {false, false, 0}, {true, true, 0}, {false, true, 0}, {true, false, 0}};
+enum {
+    BOUNDARIES = sizeof each_boundary / sizeof *each_boundary
+};
+
 /* Every method of the library passes the same tests. Main runs its group once for each method, or for the one
  * that RC_METHOD in the environment names. */
 static const char *contact_method = "pcg";

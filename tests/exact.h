@@ -199,6 +199,61 @@ point_stress(bool shear, double nu, double x, double y, double z, double s[6])
         s[k] *= scale;
 }
 
+/* Loads on the surface that are uniform along y: for the profile f(s), the integral of f(s)/(w - s) over s and
+ * its derivative, w = x + i z. */
+struct line_load {
+    double z;
+    double complex of, d;
+};
+
+/* 1 on |s| < a. */
+static inline struct line_load
+line_load_strip(double x, double z, double a)
+{
+    const double complex w = CMPLX(x, z);
+
+    return (struct line_load){z, clog(w + a) - clog(w - a), 1 / (w + a) - 1 / (w - a)};
+}
+
+/* sqrt(1 - s^2/a^2): Hertz's pressure under a roller; and its integral over s < x. */
+static inline struct line_load
+line_load_roller(double x, double z, double a)
+{
+    const double complex w = CMPLX(x, z), root = csqrt(w - a) * csqrt(w + a);
+
+    return (struct line_load){z, exact_pi / a * (w - root), exact_pi / a * (1 - w / root)};
+}
+
+static inline double
+roller_load(double a, double x)
+{
+    const double t = fmin(fmax(x / a, -1), 1);
+
+    return a / 2 * (exact_pi / 2 + asin(t) + t * sqrt(1 - t * t));
+}
+
+/* Adds weight times its stresses, in plane or antiplane strain: of a pressure (load 0), of a traction along x
+ * (1) or y (2). They are integrals of those of a force on a line (Flamant; Johnson 1985, eqs. 2.15, 2.17), sxx =
+ * -2/pi z x^2/r^4, szz = -2/pi z^3/r^4 and so on. */
+static inline void
+line_load_stress(int load, double nu, struct line_load f, double weight, double s[6])
+{
+    const double x_r2 = creal(f.of), z_r2 = -cimag(f.of); /* of x/r^2, z/r^2 */
+    const double even = -f.z * creal(f.d),
+                 odd = -f.z * cimag(f.d) / 2; /* z (x^2 - z^2)/r^4, -x z^2/r^4 */
+    const double scale = weight / exact_pi;
+
+    if (load == 2) {
+        s[3] -= scale * x_r2;
+        s[5] -= scale * z_r2;
+        return;
+    }
+    s[0] -= scale * (load == 0 ? z_r2 + even : 2 * (x_r2 + odd));
+    s[1] -= scale * 2 * nu * (load == 0 ? z_r2 : x_r2);
+    s[2] -= scale * (load == 0 ? z_r2 - even : -2 * odd);
+    s[4] -= scale * (load == 0 ? -2 * odd : z_r2 + even);
+}
+
 /* Stresses under uniform pressure (Love 1929, sections 6 and 7) or uniform shear along +x of 1 on the
  * rectangle |x| <= a, |y| <= b, z > 0, in the same order. They are in extended precision, because far away
  * the terms cancel. */

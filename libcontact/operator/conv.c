@@ -117,9 +117,9 @@ rc_engine_serves(const struct rc_engine *engine, const char *name, struct rc_bou
                           name, other);
     if (rc_repeats(boundary) > 0 && !engine->info.periodic)
         return rc_err_set(err,
-                          "the sums of the engine '%s' have no end on a periodic boundary: leave "
+                          "the sums of the engine '%s' have no end on a %s boundary: leave "
                           "the choice to auto, or take '%s'",
-                          name, other);
+                          name, rc_boundary_word(boundary), other);
     return RC_OK;
 }
 

@@ -383,11 +383,16 @@ rc_fft_quarter_size(const struct rc_fft *f)
     return f->layout.turn == NULL || rows * f->layout.cx > turned ? rows * f->layout.cx : turned;
 }
 
-void
-rc_fft_quarter_row(const struct rc_fft *f, size_t count, unsigned odd, double *const *lines)
+size_t
+rc_fft_quarter_wide(const struct rc_fft *f)
 {
-    if (!f->boundary.x)
-        half_run(&f->along_x, count, odd, lines);
+    return f->layout.turn == NULL ? f->layout.cx : f->layout.wide;
+}
+
+void
+rc_fft_quarter_line(const struct rc_fft *f, size_t count, unsigned odd, double *const *lines)
+{
+    half_run(f->boundary.x ? &f->along_y : &f->along_x, count, odd, lines);
 }
 
 /* Copies the n columns from `first` on; rows are `wide` numbers long. */
@@ -540,8 +545,7 @@ rc_spectrum_set_by(struct rc_spectrum *k, const struct rc_fft *f, const struct r
                       "out of memory for a kernel of %zu x %zu values", cx, rows) != RC_OK ||
         rc_fft_quarter_turn(f, values, err) != RC_OK)
         return RC_FAIL;
-    set_quarter(k, f, kernel->parity, boundary.y, values,
-                f->layout.turn == NULL ? cx : f->layout.wide, each, ctx);
+    set_quarter(k, f, kernel->parity, boundary.y, values, rc_fft_quarter_wide(f), each, ctx);
     return RC_OK;
 }
 
@@ -753,7 +757,7 @@ line_spectra(void *ctx, size_t c, size_t n)
 
     set_waves(f, qy);
     for (size_t k = 0; k < lines->count && rc_has_mean(f->boundary); k++)
-        gather_columns(lines->kernel[k].quarter, l->cy, l->turn == NULL ? l->cx : l->wide, c, n,
+        gather_columns(lines->kernel[k].quarter, l->cy, rc_fft_quarter_wide(f), c, n,
                        columns + k * size);
     for (size_t b = 0; b < n; b++) {
         for (size_t k = 0; k < lines->count; k++) {
@@ -763,7 +767,7 @@ line_spectra(void *ctx, size_t c, size_t n)
                 sample_column(f, kernel->parity, kernel->symbol, kernel->of, l->first + c + b, qy,
                               column[k]);
         }
-        if (!f->boundary.y)
+        if (rc_repeats(f->boundary) == 0)
             half_run(&f->along_y, lines->count, lines->odd, column);
         for (size_t k = 0; k < lines->count; k++)
             f->ops->store(l, k * line + b, factor, lines->odd >> k & 1 ? -1 : 1, column[k],

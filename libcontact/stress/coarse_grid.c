@@ -82,10 +82,11 @@ step(size_t n, double d, double spacing)
 }
 
 bool
-rc_coarse_steps(const struct rc_shape *shape, double spacing, size_t *sx, size_t *sy)
+rc_coarse_steps(const struct rc_shape *shape, struct rc_boundary boundary, double spacing,
+                size_t *sx, size_t *sy)
 {
-    *sx = step(shape->nx, shape->dx, spacing);
-    *sy = step(shape->ny, shape->dy, spacing);
+    *sx = boundary.x ? 1 : step(shape->nx, shape->dx, spacing);
+    *sy = boundary.y ? 1 : step(shape->ny, shape->dy, spacing);
     /* the gain must exceed the cost of the interpolation */
     return 2 * coarse_nodes(shape->nx, *sx) * coarse_nodes(shape->ny, *sy) < shape->nx * shape->ny;
 }

@@ -12,8 +12,9 @@ struct rc_coarse;
 /* Largest spacing (m) of a grid for the kernels of this depth. With it the error of a stress is at most tol
  * times the largest pressure, or rounding, whatever the signs of the pressures. */
 double rc_coarse_spacing(double depth, double tol);
-/* Steps in x and y for that spacing; false when no coarser grid pays. */
-bool rc_coarse_steps(const struct rc_shape *shape, double spacing, size_t *sx, size_t *sy);
+/* Steps in x and y for that spacing, 1 along an axis that repeats; false when no coarser grid pays. */
+bool rc_coarse_steps(const struct rc_shape *shape, struct rc_boundary boundary, double spacing,
+                     size_t *sx, size_t *sy);
 /* The coarser grid; its nodes extend beyond the map. */
 struct rc_shape rc_coarse_shape(const struct rc_shape *shape, size_t sx, size_t sy);
 

@@ -10,7 +10,9 @@
  * near the surface the scale of roughness, deep down that of the whole contact. Linear interpolation between
  * two depths dz apart has an error of (k dz)^2 / 8 of the remaining waves. So each step is a fixed fraction
  * of 1/k, larger where the waves are weaker. On a free half-space the last depth is three radii of the
- * Hertzian contact with the same second moment. On a periodic map it is where the waves have decayed.
+ * Hertzian contact with the same second moment. If one axis repeats, it is six half-widths of the roller's
+ * contact with the same second moment: in both cases a quarter of the largest shear stress is left. On a
+ * periodic map it is where the waves have decayed.
  *
  * In a layered body the stresses also vary over the thickness of a layer, and jump at its interfaces.
  */
@@ -30,7 +32,7 @@ enum {
 
 /* With a quarter of 1/k the largest Mises stress of Hertz's contact is accurate to 1 %. Half and double
  * of `part` change the largest Mises stress of 4 contacts by up to 0.8 and 3 % (bench/constants.py). */
-static const double part = 0.25, most_part = 0.75, radii = 3, died = 0.01;
+static const double part = 0.25, most_part = 0.75, radii = 3, half_widths = 6, died = 0.01;
 /* Shares of a layer's thickness: largest step; distance of the depth just below an interface. */
 static const double layer_part = 0.25, just_below = 1e-6;
 
@@ -209,10 +211,14 @@ wave_number(const struct bins *b, double z, double *left)
     return below > 0 ? sqrt(above / below) : 0;
 }
 
-/* Radius of the Hertzian contact with the same second moment, 2 a^2 / 5. */
+/* Radius of the Hertzian contact with the same second moment, 2 a^2 / 5; if one axis repeats, half of the width
+ * of the roller's contact with the same second moment along the other, a^2 / 4. */
 static double
-contact_radius(const struct rc_ranks *ranks, const struct rc_shape *s, const double *p)
+contact_radius(const struct rc_ranks *ranks, const struct rc_shape *s, struct rc_boundary boundary,
+               const double *p)
 {
+    const double along_x = boundary.x ? 0 : 1, along_y = boundary.y ? 0 : 1;
+    const double shape = rc_repeats(boundary) == 0 ? 2.5 : 4;
     struct rc_rows rows = rc_rows_of(ranks, s);
     double total[3] = {0}, second, most = 0, cx, cy;
     struct rc_total sum[3] = {{0}}, r2 = {0};
@@ -231,11 +237,12 @@ contact_radius(const struct rc_ranks *ranks, const struct rc_shape *s, const dou
     for (size_t k = 0; k < s->nx * rows.n; k++) {
         double u = (double)(k % s->nx) * s->dx - cx;
         double v = (double)(rows.first + k / s->nx) * s->dy - cy;
-        rc_total_add(&r2, fabs(p[k]) * (u * u + v * v));
+        rc_total_add(&r2, fabs(p[k]) * (along_x * u * u + along_y * v * v));
     }
     second = rc_ranks_total(ranks, r2);
     /* at least that of a single cell */
-    return sqrt(2.5 * (second / total[0] + (s->dx * s->dx + s->dy * s->dy) / 12));
+    return sqrt(shape *
+                (second / total[0] + (along_x * s->dx * s->dx + along_y * s->dy * s->dy) / 12));
 }
 
 static double
@@ -314,6 +321,7 @@ rc_stress_depths(const struct rc_ranks *ranks, const struct rc_shape *shape, con
                  size_t *n, struct rc_err *err)
 {
     const bool open = rc_has_mean(boundary);
+    const double last = rc_repeats(boundary) == 0 ? radii : half_widths;
     struct descent d = {.body = body};
     RC_OWNED struct bins *b = malloc(sizeof *b);
     RC_OWNED double *found = malloc(MOST * sizeof *found);
@@ -328,7 +336,7 @@ rc_stress_depths(const struct rc_ranks *ranks, const struct rc_shape *shape, con
         (rc_ranks_count(ranks) > 1 ? collect_shared(ranks, shape, p, b, err)
                                    : collect(shape, p, b, err)) != RC_OK)
         return RC_FAIL;
-    radius = contact_radius(ranks, shape, p);
+    radius = contact_radius(ranks, shape, boundary, p);
     d.depths = found;
     d.bottom = in_layer(&d) ? body->layer[0].thickness : INFINITY;
     add(&d, 0);
@@ -337,7 +345,7 @@ rc_stress_depths(const struct rc_ranks *ranks, const struct rc_shape *shape, con
         double q = wave_number(b, d.z, &left);
         if (open)
             q = fmax(q, 1 / radius); /* the longest waves are longer than the map */
-        if (open ? d.z >= radii * radius : left <= died * died * all)
+        if (open ? d.z >= last * radius : left <= died * died * all)
             break;
         if (!go_down(&d, fmax(fmin(part * pow(all / left, 0.25), most_part) / q,
                               fmin(shape->dx, shape->dy) / 2)))

@@ -6,6 +6,12 @@
  * share their kernels, and lines without pressure cost nothing. On the periodic boundary the field is the sum
  * of all waves across the plane, for each wave along it.
  *
+ * Where the map repeats across the plane only, the waves across it take the place of the lines. For the plane
+ * at y = 0 the pressure is the sum of a_b(x) cos(q_b y) + b_b(x) sin(q_b y). Kernels that are even across act
+ * on a_b, odd ones on -b_b. Where the map repeats along the plane only, the field is a sum over the lines for
+ * each wave along it. Kernels are known at distances of whole cells, so the field is linear between two lines
+ * of nodes.
+ *
  * A section across x is the same with x and y exchanged: the map is transposed, and the kernels are evaluated
  * at the exchanged positions.
  */
@@ -17,6 +23,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "libcontact/body/line.h"
 #include "libcontact/memory.h"
 
 enum {
@@ -25,25 +32,28 @@ enum {
 
 /* The two lines of pressure at one distance from the plane, or the one that is on the map. Kernels that are
  * even across the plane take their sum. Odd ones take their difference, the line on the positive side of the
- * plane first. */
+ * plane first. Of a wave across the plane: a_b and b_b. */
 struct pair {
-    double offset;    /* m, >= 0 */
+    double offset;    /* m, >= 0; of a wave its wave number, rad/m */
     size_t even, odd; /* lines of each source */
     double sign;      /* sign of odd kernels */
 };
 
 struct plan {
     struct rc_stress_task task;
-    bool transposed;          /* section across x: y runs along the plane */
+    bool transposed; /* section across x: y runs along the plane */
+    bool repeats_along, repeats_across;
     size_t n, m;              /* nodes along and across                   */
     double d_along, d_across; /* their spacings, m                        */
     size_t waves;             /* along: 0 .. waves - 1                    */
     size_t length;            /* length of a transform */
     int threads;
     struct rc_line *line;
-    struct rc_dct *dct;     /* transform of a kernel along the section; NULL when periodic */
+    struct rc_dct *dct; /* transform of a kernel along the section; NULL if the map repeats along */
+    struct rc_line *across; /* transform across; NULL unless the map repeats across only */
     double complex *source; /* `lines` of `waves` for each map; periodic: the waves across */
-    size_t lines, *place;   /* free: lines with pressure, and the place of each line among them */
+    /* free across: lines with pressure, and the place of each line among them; place is NULL: all lines */
+    size_t lines, *place;
     struct pair *pair;
     size_t pairs;
     size_t kernels;  /* number of kernels with scratch */
@@ -74,6 +84,7 @@ plan_free(void *at)
     if (plan == NULL)
         return;
     rc_line_free(plan->line);
+    rc_line_free(plan->across);
     rc_dct_free(plan->dct);
     rc_store_free(&plan->own);
     free(plan);
@@ -86,19 +97,23 @@ sizes(const struct rc_stress_task *t)
 {
     struct plan plan = {.task = *t, .transposed = t->options.section == 'x'};
     const struct rc_shape *s = &t->shape;
+    const struct rc_boundary b = t->options.boundary;
+    size_t waves, lines;
 
+    plan.repeats_along = rc_wraps(b, plan.transposed ? RC_Y : RC_X);
+    plan.repeats_across = rc_wraps(b, plan.transposed ? RC_X : RC_Y);
     plan.n = plan.transposed ? s->ny : s->nx;
     plan.m = plan.transposed ? s->nx : s->ny;
     plan.d_along = plan.transposed ? s->dy : s->dx;
     plan.d_across = plan.transposed ? s->dx : s->dy;
-    plan.length = rc_has_mean(t->options.boundary) ? rc_fourier_length(plan.n, 2) : plan.n;
+    plan.length = plan.repeats_along ? plan.n : rc_fourier_length(plan.n, 2);
     plan.waves = plan.length / 2 + 1;
     plan.lines = plan.m;
     plan.threads = rc_useful_threads(s, t->options.threads);
     plan.kernels = (size_t)RC_COMPONENTS * (rc_stress_has(t, RC_TURNED) ? RC_LOADS : RC_TURNED);
-    plan.scratch_size = rc_has_mean(t->options.boundary)
-                            ? (2 + plan.kernels) * plan.waves
-                            : (5 + plan.kernels + RC_WAVE_NUMBERS) * plan.m + plan.n;
+    waves = (5 + plan.kernels + RC_WAVE_NUMBERS) * plan.m + plan.n + plan.kernels;
+    lines = (2 + plan.kernels) * plan.waves + (plan.repeats_across ? 2 * plan.m + 2 : 0);
+    plan.scratch_size = plan.repeats_along ? waves : lines;
     return plan;
 }
 
@@ -125,7 +140,7 @@ line_of(const struct plan *plan, size_t source, size_t j)
     return plan->source + (source * plan->lines + place) * plan->waves;
 }
 
-/* ---- free: pairs of lines ---- */
+/* ---- free along the plane: pairs of lines, or of waves across ---- */
 
 /* The line at the same distance on the other side of the plane, or m when there is none. */
 static size_t
@@ -165,6 +180,43 @@ add_pair(struct plan *plan, size_t j)
     }
 }
 
+/* The pair of wave b across; b_b is 0 for the mean and for a wave of two nodes. */
+static void
+add_wave(struct plan *plan, size_t b)
+{
+    const bool single = b == 0 || 2 * b == plan->m;
+
+    plan->pair[plan->pairs++] = (struct pair){rc_fourier_q(b, plan->m, plan->d_across), b,
+                                              single ? b : plan->m - b, single ? 0 : 1};
+}
+
+/* Changes the lines of v: a_b to line b, and -b_b to line m - b. */
+static void
+resolve(struct plan *plan, double *v)
+{
+    const size_t n = plan->n, m = plan->m;
+    const double from_first = plan->task.options.at + (double)(m - 1) / 2 * plan->d_across;
+
+#pragma omp parallel for num_threads(plan->threads) schedule(static)
+    for (size_t i = 0; i < n; i++) {
+        double *line = plan->scratch + (size_t)omp_get_thread_num() * plan->scratch_size;
+        double complex *wave = (double complex *)(void *)line; /* m/2 + 1 of them */
+        double *values = line + 2 * (m / 2 + 1);
+        for (size_t j = 0; j < m; j++)
+            values[j] = v[j * n + i];
+        rc_line_forward(plan->across, values, wave);
+        for (size_t b = 0; 2 * b <= m; b++) {
+            const double phase = rc_fourier_q(b, m, plan->d_across) * from_first;
+            const bool single = b == 0 || 2 * b == m;
+            const double complex at = wave[b] * CMPLX(cos(phase), single ? 0 : sin(phase));
+            v[b * n + i] = (single ? 1 : 2) * creal(at) / (double)m;
+            if (!single)
+                v[(m - b) * n + i] = 2 * cimag(at) / (double)m;
+        }
+    }
+    plan->task.counts->line_transforms += n;
+}
+
 /* Transforms the lines of a source in this part, v; a line that only another source loads is 0. */
 static void
 transform_lines(struct plan *plan, size_t source, const double *v)
@@ -175,7 +227,7 @@ transform_lines(struct plan *plan, size_t source, const double *v)
     for (size_t j = 0; j < plan->m; j++) {
         double *line = plan->scratch + (size_t)omp_get_thread_num() * plan->scratch_size;
         double complex *to;
-        if (plan->place[j] == nowhere)
+        if (plan->place != NULL && plan->place[j] == nowhere)
             continue;
         to = line_of(plan, source, j);
         if (!rc_any(v + j * n, n)) {
@@ -209,7 +261,6 @@ place_lines(struct plan *plan)
 {
     plan->lines = 0;
     plan->place = rc_store_take(&plan->own, plan->m, sizeof *plan->place);
-    plan->pair = rc_store_take(&plan->own, plan->m, sizeof *plan->pair);
     for (size_t j = 0; plan->place != NULL && j < plan->m; j++)
         plan->place[j] = carries(plan, j) ? plan->lines++ : nowhere;
 }
@@ -219,20 +270,24 @@ transform_sources(struct plan *plan, double *v, struct rc_err *err)
 {
     const struct rc_stress_task *t = &plan->task;
     const struct rc_shape shape = {plan->n, plan->m, plan->d_along, plan->d_across};
-    const bool periodic = !rc_has_mean(t->options.boundary);
     enum rc_status status = RC_OK;
 
     for (size_t k = 0; status == RC_OK && k < t->sources; k++) {
         transpose(plan, t->source[k], v);
-        if (periodic) {
+        if (plan->repeats_along && plan->repeats_across) {
             status = rc_fourier_forward(&shape, v, line_of(plan, k, 0), err);
             t->counts->source_transforms++;
-        } else {
-            transform_lines(plan, k, v);
+            continue;
         }
+        if (plan->repeats_across)
+            resolve(plan, v);
+        transform_lines(plan, k, v);
     }
-    for (size_t j = 0; !periodic && j < plan->m; j++)
-        add_pair(plan, j);
+    for (size_t j = 0; !plan->repeats_along && j < plan->m; j++)
+        if (!plan->repeats_across)
+            add_pair(plan, j);
+        else if (2 * j <= plan->m)
+            add_wave(plan, j);
     return status;
 }
 
@@ -240,7 +295,6 @@ static void *
 plan_new(const struct rc_stress_task *task, struct rc_err *err)
 {
     RC_OWN(plan, plan) = malloc(sizeof *plan);
-    const bool periodic = !rc_has_mean(task->options.boundary);
     RC_OWNED double *p = NULL;
     size_t threads;
 
@@ -249,7 +303,8 @@ plan_new(const struct rc_stress_task *task, struct rc_err *err)
     *plan = sizes(task);
     threads = (size_t)plan->threads;
     p = malloc(plan->n * plan->m * sizeof *p);
-    if (!periodic)
+    plan->pair = rc_store_take(&plan->own, plan->m, sizeof *plan->pair);
+    if (!plan->repeats_across)
         place_lines(plan);
     plan->source = rc_store_take(&plan->own, task->sources * plan->lines * plan->waves + 1,
                                  sizeof *plan->source);
@@ -257,7 +312,9 @@ plan_new(const struct rc_stress_task *task, struct rc_err *err)
     if (p == NULL || plan->own.failed)
         return rc_err_null(err, "out of memory for a section of %zu x %zu nodes", plan->n, plan->m);
     if ((plan->line = rc_line_new(plan->length, threads, err)) == NULL ||
-        (!periodic && (plan->dct = rc_dct_new(plan->waves, threads, err)) == NULL))
+        (!plan->repeats_along && (plan->dct = rc_dct_new(plan->waves, threads, err)) == NULL) ||
+        (!plan->repeats_along && plan->repeats_across &&
+         (plan->across = rc_line_new(plan->m, threads, err)) == NULL))
         return NULL;
     if (transform_sources(plan, p, err) != RC_OK)
         return NULL;
@@ -289,47 +346,90 @@ add_product(const struct plan *plan, int load, int kernel, const double *k, cons
 }
 
 static void
-sum_pair(struct plan *plan, const struct pair *pair, double complex *sum)
+transform_kernels(const struct plan *plan, double *const line[RC_STRESS_KERNELS])
+{
+    unsigned odd = 0;
+
+    for (int k = 0; k < (int)plan->kernels; k++)
+        odd |= (unsigned)odd_along(plan, k) << k;
+    rc_dct_run(plan->dct, RC_STRESS_KERNELS, odd, line);
+}
+
+/* The transforms along the plane of the kernels of a wave across it. */
+static enum rc_status
+kernels_of_wave(const struct plan *plan, double wave, double *const line[RC_STRESS_KERNELS])
+{
+    const bool along_x = !plan->transposed;
+    struct rc_line_at at = {.cell = plan->d_along, .step = 1, .n = plan->length, .wave = wave};
+    const double most = RC_STRESS_REACH / plan->inside->depth;
+
+    if (rc_line_decays(&at))
+        return rc_inside_spectra(plan->inside, plan->task.kernels, along_x, &at, most, line, NULL);
+    at.n = plan->waves;
+    if (rc_inside_lines(plan->inside, plan->task.kernels, along_x, &at, most, line, NULL) != RC_OK)
+        return RC_FAIL;
+    transform_kernels(plan, line);
+    return RC_OK;
+}
+
+/* The same of the kernels of a pair of lines; `scratch` has room for two lines. */
+static void
+kernels_of_pair(const struct plan *plan, double offset, double *scratch,
+                double *const line[RC_STRESS_KERNELS])
 {
     const struct rc_stress_task *t = &plan->task;
     const struct rc_cell cell = {t->shape.dx, t->shape.dy};
-    double *along = plan->scratch + (size_t)omp_get_thread_num() * plan->scratch_size;
-    double *across = along + plan->waves, *line[RC_STRESS_KERNELS] = {NULL};
-    unsigned odd = 0;
+    double *along = scratch, *across = along + plan->waves;
 
-    for (int k = 0; k < (int)plan->kernels; k++) {
-        line[k] = t->kernels >> k & 1 ? across + (size_t)(k + 1) * plan->waves : NULL;
-        odd |= (unsigned)odd_along(plan, k) << k;
-    }
     if (plan->transposed) {
         for (size_t i = 0; i < plan->waves; i++) {
             along[i] = (double)i * plan->d_along;
-            across[i] = pair->offset;
+            across[i] = offset;
         }
         t->type->coefficients(plan->inside, &cell, t->kernels, plan->waves, across, along, line);
     } else {
-        t->type->line(plan->inside, &cell, t->kernels, plan->d_along, plan->waves, pair->offset,
-                      line);
+        t->type->line(plan->inside, &cell, t->kernels, plan->d_along, plan->waves, offset, line);
     }
-    rc_dct_run(plan->dct, RC_STRESS_KERNELS, odd, line);
+    transform_kernels(plan, line);
+}
+
+static enum rc_status
+sum_pair(struct plan *plan, const struct pair *pair, double complex *sum)
+{
+    const struct rc_stress_task *t = &plan->task;
+    double *scratch = plan->scratch + (size_t)omp_get_thread_num() * plan->scratch_size;
+    double *line[RC_STRESS_KERNELS] = {NULL};
+
+    if (plan->repeats_across && !rc_stress_reaches(pair->offset, plan->inside->depth))
+        return RC_OK;
+    for (int k = 0; k < (int)plan->kernels; k++)
+        line[k] = t->kernels >> k & 1 ? scratch + (size_t)(k + 2) * plan->waves : NULL;
+    if (!plan->repeats_across)
+        kernels_of_pair(plan, pair->offset, scratch, line);
+    else if (kernels_of_wave(plan, pair->offset, line) != RC_OK)
+        return RC_FAIL;
     for (int c = 0; c < RC_COMPONENTS; c++)
         for (int load = 0; load < RC_LOADS; load++) {
             int k = rc_stress_kernel(t->type, load, c);
             if (t->components >> c & 1 && rc_stress_has(t, load))
                 add_product(plan, load, k, line[k], pair, sum + (size_t)c * plan->waves);
         }
+    return RC_OK;
 }
 
-static void
-sum_free(struct plan *plan)
+static enum rc_status
+sum_pairs(struct plan *plan)
 {
     size_t one = RC_COMPONENTS * plan->waves;
+    enum rc_status status = RC_OK;
 
     memset(plan->sum, 0, PARTS * one * sizeof *plan->sum);
 #pragma omp parallel for num_threads(plan->threads) schedule(dynamic)
     for (size_t part = 0; part < PARTS; part++)
         for (size_t g = part; g < plan->pairs; g += PARTS)
-            sum_pair(plan, &plan->pair[g], plan->sum + part * one);
+            if (sum_pair(plan, &plan->pair[g], plan->sum + part * one) != RC_OK)
+#pragma omp atomic write
+                status = RC_FAIL;
     for (size_t part = 1; part < PARTS; part++)
         for (size_t q = 0; q < one; q++)
             plan->sum[q] += plan->sum[part * one + q];
@@ -338,6 +438,88 @@ sum_free(struct plan *plan)
             rc_stress_count(&plan->task, k, plan->pairs * plan->waves);
             plan->task.counts->line_transforms += plan->pairs;
         }
+    return status;
+}
+
+/* ---- repeats along the plane only: for each wave along it a sum over the lines ---- */
+
+/* The kernel at line j of nodes, for a load on another one. */
+static double
+at_distance(const struct plan *plan, int kernel, const double *k, double j, size_t load)
+{
+    const double distance = j - (double)load;
+    const double value = k[(size_t)fabs(distance)];
+
+    return distance < 0 && odd_across(plan, kernel) ? -value : value;
+}
+
+/* The wave a of the lines of a source, by a kernel `k`, in the plane: `part` of the way from the line of
+ * nodes `below` to the next one. */
+static double complex
+sum_lines(const struct plan *plan, size_t source, int kernel, const double *k, size_t a,
+          double below, double part)
+{
+    double complex sum = 0;
+
+    for (size_t j = 0; j < plan->m; j++) {
+        if (plan->place[j] == nowhere)
+            continue;
+        sum += line_of(plan, source, j)[a] * ((1 - part) * at_distance(plan, kernel, k, below, j) +
+                                              part * at_distance(plan, kernel, k, below + 1, j));
+    }
+    return odd_along(plan, kernel) ? -I * sum : sum;
+}
+
+/* All components of wave a along the plane. */
+static enum rc_status
+sum_wave(const struct plan *plan, size_t a, double below, double part)
+{
+    const struct rc_stress_task *t = &plan->task;
+    const struct rc_line_at at = {.cell = plan->d_across,
+                                  .step = 1,
+                                  .n = plan->m + 1,
+                                  .wave = rc_fourier_q(a, plan->n, plan->d_along)};
+    const double most = RC_STRESS_REACH / plan->inside->depth;
+    double *scratch = plan->scratch + (size_t)omp_get_thread_num() * plan->scratch_size;
+    double *line[RC_STRESS_KERNELS] = {NULL};
+    unsigned kernels = rc_stress_reaches(at.wave, plan->inside->depth) ? t->kernels : 0;
+
+    for (int k = 0; k < (int)plan->kernels; k++) {
+        line[k] = scratch + (size_t)k * at.n;
+        if (2 * a == plan->n && odd_along(plan, k))
+            kernels &= ~(1u << k);
+    }
+    if (rc_inside_lines(plan->inside, kernels, plan->transposed, &at, most, line, NULL) != RC_OK)
+        return RC_FAIL;
+    for (int c = 0; c < RC_COMPONENTS; c++) {
+        double complex sum = 0;
+        for (int load = 0; load < RC_LOADS; load++) {
+            const int k = rc_stress_kernel(t->type, load, c);
+            if (t->components >> c & 1 && rc_stress_has(t, load) && kernels >> k & 1)
+                sum += t->load[load].weight *
+                       sum_lines(plan, t->load[load].source, k, line[k], a, below, part);
+        }
+        plan->sum[(size_t)c * plan->waves + a] = sum;
+    }
+    return RC_OK;
+}
+
+static enum rc_status
+sum_along(struct plan *plan)
+{
+    const double place = plan->task.options.at / plan->d_across + (double)(plan->m - 1) / 2;
+    const double whole = round(place), below = fabs(place - whole) < 1e-9 ? whole : floor(place);
+    enum rc_status status = RC_OK;
+
+#pragma omp parallel for num_threads(plan->threads) schedule(dynamic)
+    for (size_t a = 0; a < plan->waves; a++)
+        if (sum_wave(plan, a, below, fmax(place - below, 0)) != RC_OK)
+#pragma omp atomic write
+            status = RC_FAIL;
+    for (int k = 0; k < RC_STRESS_KERNELS; k++)
+        if (plan->task.kernels >> k & 1)
+            rc_stress_count(&plan->task, k, plan->waves * (plan->m + 1));
+    return status;
 }
 
 /* ---- periodic: waves ---- */
@@ -402,7 +584,7 @@ response(const struct plan *plan, size_t source, int component,
     return sum;
 }
 
-static void
+static enum rc_status
 sum_waves(struct plan *plan)
 {
     const struct rc_stress_task *t = &plan->task;
@@ -434,25 +616,26 @@ sum_waves(struct plan *plan)
     for (int k = 0; k < RC_STRESS_KERNELS; k++)
         if (t->kernels >> k & 1)
             rc_stress_count(t, k, plan->waves * plan->m);
+    return RC_OK;
 }
 
-/* ---- both boundaries ---- */
+/* ---- all boundaries ---- */
 
 static enum rc_status
 slice(void *at, double depth, double *const s[RC_COMPONENTS], struct rc_err *err)
 {
     struct plan *plan = at;
-    bool periodic = !rc_has_mean(plan->task.options.boundary);
-    double scale = 1 / ((double)plan->length * (periodic ? (double)plan->m : 1));
+    const bool periodic = plan->repeats_along && plan->repeats_across;
+    const double scale = 1 / ((double)plan->length * (periodic ? (double)plan->m : 1));
+    enum rc_status status;
 
     if ((plan->inside = rc_stress_inside(&plan->task, depth, err)) == NULL)
         return RC_FAIL;
-    if (periodic)
-        sum_waves(plan);
-    else
-        sum_free(plan);
+    status = periodic ? sum_waves(plan) : plan->repeats_along ? sum_along(plan) : sum_pairs(plan);
+    if (status != RC_OK)
+        rc_err_set(err, "out of memory for the kernels of a section of %zu nodes", plan->n);
     for (int c = 0; c < RC_COMPONENTS; c++) {
-        if (!(plan->task.components >> c & 1))
+        if (status != RC_OK || !(plan->task.components >> c & 1))
             continue;
         rc_line_backward(plan->line, plan->sum + (size_t)c * plan->waves, plan->scratch);
         for (size_t i = 0; i < plan->n; i++)
@@ -461,7 +644,7 @@ slice(void *at, double depth, double *const s[RC_COMPONENTS], struct rc_err *err
     }
     rc_inside_free(plan->inside);
     plan->inside = NULL;
-    return RC_OK;
+    return status;
 }
 
 const struct rc_stress_evaluator rc_stress_section = {

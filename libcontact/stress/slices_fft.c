@@ -6,18 +6,26 @@
  * component, from the sum of the products with the kernels of all loads.
  *
  * Periodic: the kernels have symbols, no padding is needed, and only the decay of the waves is tabulated.
+ * Where one axis repeats, the quarter holds the spectra of the kernels of waves along this axis.
  * Waves that do not reach the depth are left out.
  *
- * Where the tolerance permits, transforms are in single precision. On a free map, where the depth permits
- * too, the same is done on a coarser grid.
+ * Where the tolerance permits, transforms are in single precision. Where the depth permits too, the same is
+ * done on a grid that is coarser along the free axes.
  */
 #include "coarse_grid.h"
 
 #include <math.h>
+#include <omp.h>
 #include <stdlib.h>
 #include <string.h>
 
+#include "libcontact/body/line.h"
 #include "libcontact/memory.h"
+
+enum {
+    COLUMNS =
+        16 /* columns of a quarter that are written together; the fields take whole lines of them */
+};
 
 /* One grid: the transform of the pressure on it, and the kernels at one depth. */
 struct grid {
@@ -28,13 +36,15 @@ struct grid {
     size_t cx, cy;                      /* columns and rows of a quarter of a kernel's period */
     size_t first_row, rows;             /* rows computed here */
     size_t first_column, columns;       /* columns held here */
-    size_t reached;                     /* columns whose waves reach the depth; free map: all */
-    double *quarter[RC_STRESS_KERNELS]; /* free map: see rc_fft_quarter */
-    double *known;                      /* periodic map: `numbers` for each wave, columns of
+    size_t reached;                     /* columns whose waves reach the depth; x free: all */
+    double *quarter[RC_STRESS_KERNELS]; /* unless both axes repeat: see rc_fft_quarter */
+    double *lines;            /* only x repeats: COLUMNS columns of each quarter, for each thread */
+    size_t kernels;           /* quarters */
+    double *known;            /* periodic map: `numbers` for each wave, columns of
                                                cy */
-    size_t numbers;                     /* numbers that describe a wave at the depth */
-    struct rc_inside *inside;           /* at the depth                                     */
-    double depth;                       /* depth of all tables above, m */
+    size_t numbers;           /* numbers that describe a wave at the depth */
+    struct rc_inside *inside; /* at the depth                                     */
+    double depth;             /* depth of all tables above, m */
     struct rc_store own;
 };
 
@@ -82,8 +92,13 @@ make_tables(struct grid *g, struct rc_err *err)
     rc_fft_columns(g->fft, &g->first_column, &g->columns);
     g->numbers = rc_stress_numbers(task);
     for (int k = 0; k < RC_STRESS_KERNELS && !periodic; k++)
-        if (task->kernels >> k & 1)
+        if (task->kernels >> k & 1) {
             g->quarter[k] = rc_store_take(&g->own, rc_fft_quarter_size(g->fft), sizeof(double));
+            g->kernels++;
+        }
+    if (!periodic && task->options.boundary.x)
+        g->lines = rc_store_take(&g->own, (size_t)g->threads * g->kernels * COLUMNS * g->cy,
+                                 sizeof *g->lines);
     if (periodic)
         g->known = rc_store_take(&g->own, g->columns * g->cy * g->numbers, sizeof *g->known);
     return rc_ranks_need(task->options.ranks, !g->own.failed, err,
@@ -115,41 +130,127 @@ load(struct grid *g, size_t source, const double *map, struct rc_err *err)
     return rc_fft_load(g->fft, source, map, err);
 }
 
-/* ---- kernels ---- */
+/* ---- kernels on a quarter of the padded map ---- */
 
-/* All kernels on a quarter of the padded map. */
+/* The kernels that are odd along an axis: RC_ODD_X or RC_ODD_Y. */
+static unsigned
+odd_along(unsigned axis)
+{
+    unsigned odd = 0;
+
+    for (int k = 0; k < RC_STRESS_KERNELS; k++)
+        odd |= rc_stress_parity[k] & axis ? 1u << k : 0;
+    return odd;
+}
+
+/* The spectra of the kernels of a wave along the axis that repeats. A wave of two nodes is left out where the
+ * kernel is odd: it is zero at all nodes. */
+static enum rc_status
+line_of_wave(const struct grid *g, bool along_x, size_t wave, double *const out[RC_STRESS_KERNELS])
+{
+    const struct rc_shape *s = &g->shape, *map = &g->task->shape;
+    const size_t nodes = along_x ? s->ny : s->nx, half = along_x ? g->cx : g->cy;
+    const double cell = along_x ? map->dx : map->dy;
+    struct rc_line_at at = {.cell = cell,
+                            .step = (size_t)lround((along_x ? s->dx : s->dy) / cell),
+                            .wave = rc_fourier_q(wave, nodes, along_x ? s->dy : s->dx)};
+    const double most = RC_STRESS_REACH / g->depth;
+    unsigned kernels = rc_stress_reaches(at.wave, g->depth) ? g->task->kernels : 0;
+
+    if (2 * wave == nodes)
+        kernels &= ~odd_along(along_x ? RC_ODD_Y : RC_ODD_X);
+    for (int k = 0; k < RC_STRESS_KERNELS; k++)
+        if (out[k] != NULL && !(kernels >> k & 1))
+            memset(out[k], 0, half * sizeof(double));
+    at.n = half > 1 ? 2 * (half - 1) : 1;
+    if (rc_line_decays(&at))
+        return rc_inside_spectra(g->inside, kernels, along_x, &at, most, out, NULL);
+    at.n = half;
+    if (rc_inside_lines(g->inside, kernels, along_x, &at, most, out, NULL) != RC_OK)
+        return RC_FAIL;
+    rc_fft_quarter_line(g->fft, RC_STRESS_KERNELS, odd_along(along_x ? RC_ODD_X : RC_ODD_Y), out);
+    return RC_OK;
+}
+
+/* Row j of those computed here: the kernels at the distance of j rows, or for a wave along y. */
+static enum rc_status
+tabulate_row(const struct grid *g, size_t j)
+{
+    const struct rc_stress_task *t = g->task;
+    const struct rc_cell cell = {t->shape.dx, t->shape.dy};
+    double *row[RC_STRESS_KERNELS];
+
+    for (int k = 0; k < RC_STRESS_KERNELS; k++)
+        row[k] = g->quarter[k] == NULL ? NULL : g->quarter[k] + j * g->cx;
+    if (t->options.boundary.y)
+        return line_of_wave(g, true, g->first_row + j, row);
+    t->type->line(g->inside, &cell, t->kernels, g->shape.dx, g->cx,
+                  (double)(g->first_row + j) * g->shape.dy, row);
+    rc_fft_quarter_line(g->fft, RC_STRESS_KERNELS, odd_along(RC_ODD_X), row);
+    return RC_OK;
+}
+
+/* The n columns from `first` on of those held here, at most COLUMNS: the kernels for waves along x. */
+static enum rc_status
+tabulate_columns(const struct grid *g, size_t first, size_t n)
+{
+    const size_t wide = rc_fft_quarter_wide(g->fft), cy = g->cy, size = g->kernels * cy;
+    double *lines = g->lines + (size_t)omp_get_thread_num() * COLUMNS * size, *next = lines;
+    double *line[RC_STRESS_KERNELS];
+
+    for (size_t c = 0; c < n; c++) {
+        for (int k = 0; k < RC_STRESS_KERNELS; k++) {
+            line[k] = g->quarter[k] == NULL ? NULL : next;
+            next += g->quarter[k] == NULL ? 0 : cy;
+        }
+        if (line_of_wave(g, false, g->first_column + first + c, line) != RC_OK)
+            return RC_FAIL;
+    }
+    for (int k = 0; k < RC_STRESS_KERNELS; k++) {
+        for (size_t j = 0; g->quarter[k] != NULL && j < cy; j++)
+            for (size_t c = 0; c < n; c++)
+                g->quarter[k][j * wide + first + c] = lines[c * size + j];
+        lines += g->quarter[k] == NULL ? 0 : cy;
+    }
+    return RC_OK;
+}
+
+/* Columns held here whose waves reach the depth. */
+static size_t
+reached_here(const struct grid *g)
+{
+    return g->reached > g->first_column + g->columns ? g->columns
+           : g->reached > g->first_column            ? g->reached - g->first_column
+                                                     : 0;
+}
+
+/* All kernels. */
 static enum rc_status
 tabulate(struct grid *g, struct rc_err *err)
 {
     const struct rc_stress_task *t = g->task;
-    const struct rc_cell cell = {t->shape.dx, t->shape.dy};
+    const bool by_columns = t->options.boundary.x;
+    const size_t n = by_columns ? reached_here(g) : g->rows, step = by_columns ? COLUMNS : 1;
     enum rc_status status = RC_OK;
-    unsigned odd = 0;
 
-    for (int k = 0; k < RC_STRESS_KERNELS; k++)
-        odd |= rc_stress_parity[k] & RC_ODD_X ? 1u << k : 0;
-#pragma omp parallel for num_threads(g->threads) schedule(dynamic, 4)
-    for (size_t j = 0; j < g->rows; j++) {
-        double *row[RC_STRESS_KERNELS], y = (double)(g->first_row + j) * g->shape.dy;
-        for (int k = 0; k < RC_STRESS_KERNELS; k++)
-            row[k] = g->quarter[k] == NULL ? NULL : g->quarter[k] + j * g->cx;
-        t->type->line(g->inside, &cell, t->kernels, g->shape.dx, g->cx, y, row);
-        rc_fft_quarter_row(g->fft, RC_STRESS_KERNELS, odd, row);
-    }
+#pragma omp parallel for num_threads(g->threads) schedule(dynamic, by_columns ? 1 : 4)
+    for (size_t k = 0; k < n; k += step)
+        if ((by_columns ? tabulate_columns(g, k, n - k < step ? n - k : step)
+                        : tabulate_row(g, k)) != RC_OK)
+#pragma omp atomic write
+            status = RC_FAIL;
+    status = rc_ranks_need(t->options.ranks, status == RC_OK, err,
+                           "out of memory for kernels of %zu x %zu values", g->cx, g->cy);
     for (int k = 0; k < RC_STRESS_KERNELS && status == RC_OK; k++)
         if (g->quarter[k] != NULL) {
-            status = rc_fft_quarter_turn(g->fft, g->quarter[k], err);
+            if (!by_columns)
+                status = rc_fft_quarter_turn(g->fft, g->quarter[k], err);
             rc_stress_count(t, k, g->cx * g->cy);
         }
     return status;
 }
 
 /* ---- waves ---- */
-
-/* The q z beyond which a wave is left out. There each wave is down to (3 + q z) exp(-q z) = 7e-20. Even all
- * of them in phase are then below the rounding of the transforms. Half and double change no bit (15
- * runs of bench/constants.py). */
-static const double deepest = 48;
 
 /* The numbers of all waves at the depth of a periodic grid; 0 for the waves left out. */
 static void
@@ -170,7 +271,7 @@ set_known(struct grid *g)
             for (n = 0; n < PIECE && j + n < g->cy; n++) {
                 double qy = rc_fourier_q(j + n, s->ny, s->dy);
                 q[n] = sqrt(qx * qx + qy * qy);
-                if (q[n] * g->depth >= deepest)
+                if (!rc_stress_reaches(q[n], g->depth))
                     break;
             }
             g->task->type->waves(g->inside, n, q, column + j * g->numbers);
@@ -223,11 +324,14 @@ go_to_depth(struct grid *g, double depth, struct rc_err *err)
         return RC_FAIL;
     g->depth = depth;
     g->reached = g->cx;
-    if (rc_has_mean(g->task->options.boundary))
-        return tabulate(g, err);
-    while (g->reached > 1 &&
-           rc_fourier_q(g->reached - 1, g->shape.nx, g->shape.dx) * depth >= deepest)
+    while (g->task->options.boundary.x && g->reached > 1 &&
+           !rc_stress_reaches(rc_fourier_q(g->reached - 1, g->shape.nx, g->shape.dx), depth))
         g->reached--;
+    if (rc_has_mean(g->task->options.boundary)) {
+        g->reached = (g->reached + COLUMNS - 1) / COLUMNS * COLUMNS;
+        g->reached = g->reached < g->cx ? g->reached : g->cx;
+        return tabulate(g, err);
+    }
     set_known(g);
     return RC_OK;
 }
@@ -291,7 +395,7 @@ may_be_coarse(const struct rc_stress_task *t, double depth, size_t *sx, size_t *
     double tol = t->options.tol / (derived * (1 + rc_stress_shear(t)));
 
     return rc_has_mean(t->options.boundary) && t->type->coarsens &&
-           rc_coarse_steps(&t->shape, rc_coarse_spacing(depth, tol), sx, sy);
+           rc_coarse_steps(&t->shape, t->options.boundary, rc_coarse_spacing(depth, tol), sx, sy);
 }
 
 static void

@@ -41,6 +41,18 @@ rc_stress_has(const struct rc_stress_task *task, int load)
 }
 double rc_stress_shear(const struct rc_stress_task *task);
 
+/* The q z from which on waves are left out at a depth z. There each wave is down to (3 + q z) exp(-q z) =
+ * 7e-20. Even all of them in phase are then below the rounding of the transforms. Half and double of the
+ * number change no bit (15 runs of bench/constants.py). */
+enum {
+    RC_STRESS_REACH = 48
+};
+static inline bool
+rc_stress_reaches(double q, double depth)
+{
+    return q * depth < RC_STRESS_REACH;
+}
+
 /* Counts evaluations of a kernel, as one of the shear if only the traction needs it. */
 void rc_stress_count(const struct rc_stress_task *task, int kernel, size_t coefficients);
 

@@ -217,8 +217,8 @@ bump_mean(double x, double w, double d)
     return (a * exp(-a * a / (2 * w * w)) - b * exp(-b * b / (2 * w * w))) / d;
 }
 
-/* Free boundary: each cell carries the value of a smooth pressure at its centre. Periodic boundary: the
- * pressure is band-limited. The same field results from the means over cells on a much larger map. The
+/* Along a free axis each cell carries the value of a smooth pressure at its centre. Along an axis that repeats
+ * the pressure is band-limited, and the same field results from the means over cells on a much longer map. The
  * pressure has no moments below the fourth, so the effect of its images falls as the sixth power of width
  * over distance. At depths of a few cells waves shorter than those of the grid have decayed. */
 static void
@@ -230,27 +230,36 @@ free_is_periodic_far_apart(void **state)
     };
     static const double depths[] = {2.3e-6, 2.9e-6, 3.4e-6, 5e-6, 7.4e-6, 12e-6};
     const double d = 0.35e-6, w = 5 * d;
-    const struct rc_shape small = {SMALL, SMALL, d, d}, large = {LARGE, LARGE, d, d};
-    double *p = calloc(SMALL * SMALL, sizeof *p), *q = calloc(LARGE * LARGE, sizeof *q);
-    double *s = malloc(6 * SMALL * SMALL * sizeof *s), *t = malloc(6 * LARGE * LARGE * sizeof *t);
+    const struct rc_shape large = {LARGE, LARGE, d, d};
+    double *p = calloc(LARGE * LARGE, sizeof *p), *q = calloc(LARGE * LARGE, sizeof *q);
+    double *s = malloc(6 * LARGE * LARGE * sizeof *s), *t = malloc(6 * LARGE * LARGE * sizeof *t);
 
     (void)state;
-    for (size_t k = 0; k < SMALL * SMALL; k++)
-        p[k] = bump(node_x(small, k), w) * bump(node_y(small, k), w);
     for (size_t k = 0; k < LARGE * LARGE; k++)
         q[k] = bump_mean(node_x(large, k), w, d) * bump_mean(node_y(large, k), w, d);
     for (size_t i = 0; i < sizeof depths / sizeof *depths; i++) {
+        const struct rc_boundary boundary = each_boundary[i % BOUNDARIES == 1 ? 0 : i % BOUNDARIES];
+        const struct rc_shape small = {boundary.x ? LARGE : SMALL, boundary.y ? LARGE : SMALL, d,
+                                       d};
+        const size_t n = small.nx * small.ny;
         double off[6] = {0}, largest[6] = {0};
-        slice(small, RC_FREE, p, depths[i], s);
+        for (size_t k = 0; k < n; k++) {
+            const double x = node_x(small, k), y = node_y(small, k);
+            p[k] = (boundary.x ? bump_mean(x, w, d) : bump(x, w)) *
+                   (boundary.y ? bump_mean(y, w, d) : bump(y, w));
+        }
+        slice(small, boundary, p, depths[i], s);
         slice(large, RC_PERIODIC, q, depths[i], t);
         for (int c = 0; c < 6; c++)
-            for (size_t k = 0; k < SMALL * SMALL; k++) {
-                size_t x = k % SMALL + (LARGE - SMALL) / 2, y = k / SMALL + (LARGE - SMALL) / 2;
-                double a = s[(size_t)c * SMALL * SMALL + k];
+            for (size_t k = 0; k < n; k++) {
+                const size_t x = k % small.nx + (LARGE - small.nx) / 2;
+                const size_t y = k / small.nx + (LARGE - small.ny) / 2;
+                double a = s[(size_t)c * n + k];
                 double b = t[(size_t)c * LARGE * LARGE + y * LARGE + x];
                 off[c] = larger(off[c], fabs(a - b));
                 largest[c] = larger(largest[c], fabs(b));
             }
+        print_message("%s: ", rc_boundary_word(boundary));
         for (int c = 0; c < 6; c++) {
             print_message("%s%.1e of %.1e%s", c == 0 ? "off by " : "", off[c], largest[c],
                           c == 5 ? "\n" : ", ");
@@ -297,12 +306,11 @@ maps_in_equilibrium(void **state)
 
     (void)state;
     rough(shape, 3e-6, p);
-    for (int b = 0; b < 2; b++)
+    for (int b = 0; b < BOUNDARIES; b++)
         for (int m = 0; m < MEDIA; m++) {
             double off = 0, most = 0, harmonic = 0, bent = 0;
             for (int i = 0; i < 7; i++)
-                slice(shape, (b == 0 ? RC_FREE : RC_PERIODIC), p, depths[m] + (i - 3) * step,
-                      s + i * 6 * N);
+                slice(shape, each_boundary[b], p, depths[m] + (i - 3) * step, s + i * 6 * N);
             for (size_t k = 3 * NX; k < N - 3 * NX; k++) {
                 double lap[3] = {0}, v[3][7];
                 if (k % NX < 3 || k % NX > NX - 4)
@@ -334,7 +342,7 @@ maps_in_equilibrium(void **state)
             }
             print_message(
                 "%s, medium %d: forces off by %.1e, the sum's Laplacian by %.1e of its terms\n",
-                b == 0 ? "free" : "periodic", m + 1, off / most, harmonic / bent);
+                rc_boundary_word(each_boundary[b]), m + 1, off / most, harmonic / bent);
             assert_true(off < 1e-4 * most);
             assert_true(harmonic < 1e-3 * bent);
         }
@@ -385,10 +393,10 @@ maps_bonded(void **state)
         double e[2] = {three[k].e, k == 2 ? coating.e : three[k + 1].e};
         double nu[2] = {three[k].nu, k == 2 ? coating.nu : three[k + 1].nu};
         z += three[k].thickness;
-        for (int b = 0; b < 2; b++) {
+        for (int b = 0; b < BOUNDARIES; b++) {
             double traction = 0, strain = 0, jump = 0;
-            slice(shape, b == 0 ? RC_FREE : RC_PERIODIC, p, z, s);
-            slice(shape, b == 0 ? RC_FREE : RC_PERIODIC, p, z * (1 + 1e-12), t);
+            slice(shape, each_boundary[b], p, z, s);
+            slice(shape, each_boundary[b], p, z * (1 + 1e-12), t);
             for (size_t i = 0; i < n; i++) {
                 double *side[2] = {s + i, t + i}, along[2][3];
                 for (int m = 0; m < 2; m++) {
@@ -491,9 +499,9 @@ refused(void **state)
     struct rc_err err;
 
     (void)state;
-    for (int b = 0; b < 2; b++) {
+    for (int b = 0; b < BOUNDARIES; b++) {
         struct rc_stress *stress;
-        o.boundary = b == 0 ? RC_FREE : RC_PERIODIC;
+        o.boundary = each_boundary[b];
         stress = rc_stress_new(&shape, p, &o, &err);
         assert_non_null(stress);
         assert_int_equal(rc_stress_slice(stress, 1e-6, s, &err), RC_OK);

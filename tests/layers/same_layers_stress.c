@@ -135,10 +135,10 @@ sections_are_lines(void **state)
     double *a = malloc(6 * N * sizeof *a), *b = malloc(6 * N * sizeof *b);
 
     (void)state;
-    for (int boundary = 0; boundary < 2; boundary++)
+    for (int boundary = 0; boundary < BOUNDARIES; boundary++)
         for (int i = 0; i < BODIES; i++)
             for (int d = 0; d < DEPTHS; d++) {
-                struct rc_stress_options o = {.boundary = boundary == 0 ? RC_FREE : RC_PERIODIC,
+                struct rc_stress_options o = {.boundary = each_boundary[boundary],
                                               .mu = 0.35,
                                               .wanted = SIX,
                                               .body = bodies[i].coating,
@@ -178,8 +178,8 @@ sections_across(void **state)
         p[k] = random_number(&seed);
     for (size_t k = 0; k < NX * NX; k++)
         q[k] = p[k % NX * NX + k / NX];
-    for (int boundary = 0; boundary < 2; boundary++) {
-        struct rc_stress_options o = {.boundary = boundary == 0 ? RC_FREE : RC_PERIODIC,
+    for (int boundary = 0; boundary < BOUNDARIES; boundary++) {
+        struct rc_stress_options o = {.boundary = each_boundary[boundary],
                                       .wanted = 1 << RC_SXX,
                                       .section = 'y',
                                       .at = 0.3e-6,
@@ -188,6 +188,7 @@ sections_across(void **state)
         struct rc_err err;
         struct rc_stress *one = rc_stress_new(&square, p, &o, &err), *other;
         o.section = 'x';
+        o.boundary = rc_boundary_of(o.boundary.y, o.boundary.x);
         o.wanted = 1 << RC_SYY;
         other = rc_stress_new(&square, q, &o, &err);
         for (int d = 0; d < DEPTHS; d++) {
@@ -209,9 +210,9 @@ threads_agree(void **state)
     double *a = malloc(6 * N * sizeof *a), *b = malloc(6 * N * sizeof *b);
 
     (void)state;
-    for (int boundary = 0; boundary < 2; boundary++)
+    for (int boundary = 0; boundary < BOUNDARIES; boundary++)
         for (int section = 0; section < 2; section++) {
-            struct rc_stress_options o = {.boundary = boundary == 0 ? RC_FREE : RC_PERIODIC,
+            struct rc_stress_options o = {.boundary = each_boundary[boundary],
                                           .mu = 0.2,
                                           .wanted = SIX,
                                           .section = section ? 'y' : 0,

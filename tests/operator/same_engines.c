@@ -300,7 +300,7 @@ fields_share_transforms(void **state)
         double *row[RC_STRESS_KERNELS];
         for (int k = 0; k < RC_STRESS_KERNELS; k++)
             row[k] = quarter[k] + j * cx;
-        rc_fft_quarter_row(fft, RC_STRESS_KERNELS, odd, row);
+        rc_fft_quarter_line(fft, RC_STRESS_KERNELS, odd, row);
     }
     for (int a = 0; a < RC_STRESS_KERNELS; a++)
         for (int b = 0; b < RC_STRESS_KERNELS; b++) {

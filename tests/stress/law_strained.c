@@ -338,12 +338,14 @@ refused(void **state)
 
     (void)state;
     make(&s);
-    for (int q = 0; q < 3; q++) {
+    for (int q = 0; q < 5; q++) {
         o = options_of(&s, true, 1);
         if (q == 0)
             o.body.e = INFINITY;
         else if (q == 1)
             o.body.e = 0;
+        else if (q < 4)
+            o.boundary = rc_boundary_of(q == 2, q == 3);
         else
             s.strain.slabs = 0;
         assert_int_equal(rc_stress_check(&shape, &o, &err), RC_FAIL);

@@ -115,8 +115,8 @@ engines_agree(void **state)
         }
 }
 
-/* fft, fft64 and auto use the same code here: results are equal to the last bit, also on periodic maps. Each
- * reports its own name. */
+/* fft, fft64 and auto use the same code here: results are equal to the last bit, on any boundary. Each reports
+ * its own name. */
 static void
 transforms_by_any_name(void **state)
 {
@@ -126,12 +126,10 @@ transforms_by_any_name(void **state)
     double *a[RC_STRESSES], *b[RC_STRESSES];
 
     (void)state;
-    for (int boundary = 0; boundary < 2; boundary++)
+    for (int boundary = 0; boundary < BOUNDARIES; boundary++)
         for (size_t k = 0; k < 4; k++) {
-            struct rc_stress_options o = {.boundary = boundary == 0 ? RC_FREE : RC_PERIODIC,
-                                          .body.nu = 0.3,
-                                          .mu = 0.2,
-                                          .wanted = ALL};
+            struct rc_stress_options o = {
+                .boundary = each_boundary[boundary], .body.nu = 0.3, .mu = 0.2, .wanted = ALL};
             struct rc_err err;
             struct rc_stress *stress;
             compute(&s, o, 2e-6, a, NULL);
@@ -153,6 +151,7 @@ engines_refused(void **state)
     struct scene s = scene_new(8, 8, 1e-6, 1e-6);
     struct rc_stress_options o = {.body.nu = 0.3, .wanted = SIX, .engine = "fftw"};
     struct rc_err err;
+    char text[256];
 
     (void)state;
     assert_null(rc_stress_new(&s.shape, s.p, &o, &err));
@@ -163,13 +162,26 @@ engines_refused(void **state)
     assert_null(rc_stress_new(&s.shape, s.p, &o, &err));
     assert_string_equal(err.text,
                         "a section is summed by fft, not by mlms: leave the kernel to auto");
+    o.section = 0;
+    for (int boundary = 1; boundary < BOUNDARIES; boundary++)
+        for (int engine = 0; engine < 2; engine++) {
+            o.boundary = each_boundary[boundary];
+            o.engine = engine == 0 ? "mlms" : "direct";
+            assert_null(rc_stress_new(&s.shape, s.p, &o, &err));
+            snprintf(
+                text, sizeof text,
+                "the sums of the engine '%s' have no end on a %s boundary: leave the choice to "
+                "auto, or take 'fft'",
+                o.engine, rc_boundary_word(o.boundary));
+            assert_string_equal(err.text, text);
+        }
     free(s.p);
 }
 
 /* ---- tolerances ---- */
 
-/* With a sufficient tolerance slices are summed in single precision, and deep ones of free maps on coarser
- * grids. The error of all stresses is at most the tolerance, also for random signs. With a smaller
+/* With a sufficient tolerance slices are summed in single precision, and deep ones on grids that are coarser
+ * along free axes. The error of all stresses is at most the tolerance, also for random signs. With a smaller
  * tolerance, or with fft64, no bit differs. */
 static void
 within_tolerance(void **state)
@@ -181,18 +193,18 @@ within_tolerance(void **state)
     size_t coarse = 0;
 
     (void)state;
-    for (size_t m = 0; m < 6; m++)
+    for (size_t m = 0; m < 3 * BOUNDARIES; m++)
         for (int signs = 0; signs < 3; signs++) /* random signs, then derived stresses too */
             for (double tol = 1e-1; tol > 1e-8; tol /= 40) {
-                struct scene s =
-                    scene_new(maps[m / 2].nx, maps[m / 2].ny, maps[m / 2].dx, maps[m / 2].dy);
+                struct scene s = scene_new(maps[m / BOUNDARIES].nx, maps[m / BOUNDARIES].ny,
+                                           maps[m / BOUNDARIES].dx, maps[m / BOUNDARIES].dy);
                 size_t n = s.shape.nx * s.shape.ny;
                 double worst = 0;
                 uint64_t seed = 77;
                 for (size_t k = 0; signs && k < n; k++)
                     s.p[k] = random_number(&seed) > 0 ? s.largest : -s.largest;
-                for (double z = 2e-6; z < 3e-4; z *= 2.1) {
-                    struct rc_stress_options o = {.boundary = m % 2 == 0 ? RC_FREE : RC_PERIODIC,
+                for (double z = 2e-6; z < 3e-4; z *= m % BOUNDARIES < 2 ? 2.1 : 4.4) {
+                    struct rc_stress_options o = {.boundary = each_boundary[m % BOUNDARIES],
                                                   .body.nu = 0.3,
                                                   .mu = 0.25,
                                                   .wanted = signs < 2 ? SIX : ALL,
@@ -214,10 +226,10 @@ within_tolerance(void **state)
                     release(a);
                     release(b);
                 }
-                if (m < 2 || worst > tol)
+                if (m < BOUNDARIES || worst > tol)
                     print_message("%s map, %s pressure, tolerance %.0e: error %.1e\n",
-                                  m % 2 ? "periodic" : "free", signs ? "random" : "contact", tol,
-                                  worst);
+                                  rc_boundary_word(each_boundary[m % BOUNDARIES]),
+                                  signs ? "random" : "contact", tol, worst);
                 assert_true(worst <= tol);
                 free(s.p);
             }
@@ -264,11 +276,11 @@ sections_are_lines_of_slices(void **state)
     } maps[] = {{37, 29}, {36, 30}, {1, 12}, {12, 1}, {1, 1}};
 
     (void)state;
-    for (int boundary = 0; boundary < 2; boundary++)
+    for (int boundary = 0; boundary < BOUNDARIES; boundary++)
         for (size_t m = 0; m < 5; m++)
             for (int across = 0; across < 2; across++) {
                 struct scene s = scene_new(maps[m].nx, maps[m].ny, 1.1e-6, 0.9e-6);
-                struct rc_stress_options o = {.boundary = boundary == 0 ? RC_FREE : RC_PERIODIC,
+                struct rc_stress_options o = {.boundary = each_boundary[boundary],
                                               .body.nu = 0.3,
                                               .mu = 0.25,
                                               .wanted = ALL,
@@ -329,6 +341,61 @@ sections_between_rows(void **state)
     free(fine.p);
 }
 
+/* Where the map repeats across the plane, a section is that of a map with half the spacing of rows and the sum
+ * of the same waves. Where it repeats along the plane only, it is interpolated between those of two rows. */
+static void
+sections_between_waves(void **state)
+{
+    enum {
+        N = 20,
+        M = 15
+    };
+    struct scene s = scene_new(N, M, 1e-6, 1.2e-6), fine = scene_new(N, 2 * M, 1e-6, 0.6e-6);
+    struct rc_stress_options o = {
+        .body.nu = 0.3, .mu = 0.25, .wanted = SIX, .section = 'y', .threads = 2};
+    double *a[RC_STRESSES], *b[RC_STRESSES], *c[RC_STRESSES];
+
+    (void)state;
+    for (size_t k = 0; k < N * 2 * M; k++) {
+        fine.p[k] = 0;
+        for (size_t j = 0; j < M; j++) {
+            const double t = exact_pi / M * ((double)(k / N) / 2 - (double)j);
+            fine.p[k] += s.p[j * N + k % N] * (t == 0 ? 1 : sin(M * t) / (M * sin(t)));
+        }
+    }
+    for (double z = 0; z < 9e-6; z += 1.7e-6) {
+        o.boundary = rc_boundary_of(false, true);
+        for (int row = 0; row < 2 * M - 1; row += 3) {
+            o.at = (row / 2.0 - (M - 1) / 2.0) * s.shape.dy;
+            compute(&s, o, z, a, NULL);
+            o.at = (row - (2 * M - 1) / 2.0) * fine.shape.dy;
+            compute(&fine, o, z, b, NULL);
+            assert_true(apart(N, a, b) <= rounding * s.largest);
+            release(a);
+            release(b);
+        }
+        o.boundary = rc_boundary_of(true, false);
+        for (int row = 0; row < M - 1; row++) {
+            const double first = (row - (M - 1) / 2.0) * s.shape.dy;
+            o.at = first;
+            compute(&s, o, z, a, NULL);
+            o.at = first + 0.25 * s.shape.dy;
+            compute(&s, o, z, b, NULL);
+            o.at = first + s.shape.dy;
+            compute(&s, o, z, c, NULL);
+            for (int k = 0; k < RC_COMPONENTS; k++)
+                for (size_t i = 0; i < N; i++)
+                    a[k][i] = 0.75 * a[k][i] + 0.25 * c[k][i];
+            assert_true(apart(N, a, b) <= rounding * s.largest);
+            release(a);
+            release(b);
+            release(c);
+        }
+    }
+    free(s.p);
+    free(fine.p);
+}
+
 /* ---- threads, together and alone ---- */
 
 static void
@@ -337,10 +404,10 @@ threads_change_no_bit(void **state)
     struct scene s = scene_new(150, 140, 1e-6, 1e-6);
 
     (void)state;
-    for (int boundary = 0; boundary < 2; boundary++)
+    for (int boundary = 0; boundary < BOUNDARIES; boundary++)
         for (int section = 0; section < 2; section++) {
             double *a[RC_STRESSES], *b[RC_STRESSES];
-            struct rc_stress_options o = {.boundary = boundary == 0 ? RC_FREE : RC_PERIODIC,
+            struct rc_stress_options o = {.boundary = each_boundary[boundary],
                                           .body.nu = 0.3,
                                           .mu = 0.25,
                                           .wanted = ALL,
@@ -366,14 +433,18 @@ alone_as_in_company(void **state)
     struct rc_stress_options o = {.body.nu = 0.3, .mu = 0.25, .wanted = ALL, .threads = 2};
 
     (void)state;
-    compute(&s, o, 1e-6, all, NULL);
-    for (int c = 0; c < RC_STRESSES; c++) {
-        o.wanted = 1u << c;
-        compute(&s, o, 1e-6, one, NULL);
-        assert_true(apart(45 * 38, all, one) <= rounding * s.largest);
-        release(one);
+    for (int boundary = 0; boundary < BOUNDARIES; boundary++) {
+        o.boundary = each_boundary[boundary];
+        compute(&s, o, 1e-6, all, NULL);
+        for (int c = 0; c < RC_STRESSES; c++) {
+            o.wanted = 1u << c;
+            compute(&s, o, 1e-6, one, NULL);
+            assert_true(apart(45 * 38, all, one) <= rounding * s.largest);
+            release(one);
+        }
+        o.wanted = ALL;
+        release(all);
     }
-    release(all);
     free(s.p);
 }
 
@@ -413,6 +484,8 @@ enum {
     NX = 50,
     NY = 40,
     QUARTER = (100 / 2 + 1) * (80 / 2 + 1), /* for the map padded to 100 x 80 */
+    LINES_X = (100 / 2 + 1) * (NY / 2 + 1), /* padded along x only */
+    LINES_Y = (NX / 2 + 1) * (80 / 2 + 1),
     WAVES = (NX / 2 + 1) * (NY / 2 + 1)
 };
 
@@ -450,6 +523,12 @@ nothing_is_done_unasked(void **state)
         {"periodic with friction", {.x = true, .y = true}, 0.2, SIX, 0, NULL,
          {.depths = 1, .source_transforms = 1, .normal_kernels = 6, .shear_kernels = 5,
           .coefficients = 11 * WAVES, .field_transforms = 6}},
+        {"repeats along y", {.y = true}, 0, SIX, 0, NULL,
+         {.depths = 1, .source_transforms = 1, .normal_kernels = 6, .coefficients = 6 * LINES_X,
+          .kernel_transforms = 6, .field_transforms = 6}},
+        {"repeats along x, with friction", {.x = true}, 0.2, SIX, 0, NULL,
+         {.depths = 1, .source_transforms = 1, .normal_kernels = 6, .shear_kernels = 5,
+          .coefficients = 11 * LINES_Y, .kernel_transforms = 11, .field_transforms = 6}},
         /* 40 lines are 20 pairs, so the section computes a quarter of the coefficients of a slice, and no
          * map */
         {"section", {.x = false}, 0, SIX, 'y', NULL,
@@ -461,6 +540,13 @@ nothing_is_done_unasked(void **state)
         {"section, one", {.x = false}, 0, 1 << RC_SZZ, 'x', NULL,
          {.depths = 1, .normal_kernels = 1, .coefficients = 41 * 25,
           .line_transforms = 50 + 25 + 1}},
+        /* 21 waves across the plane; the pressure is transformed across, then along */
+        {"section across waves", {.y = true}, 0, SIX, 'y', NULL,
+         {.depths = 1, .normal_kernels = 6, .coefficients = 6 * 51 * 21,
+          .line_transforms = 50 + 40 + 6 * 21 + 6}},
+        {"section along waves", {.x = true}, 0, 1 << RC_SZZ, 'y', NULL,
+         {.depths = 1, .normal_kernels = 1, .coefficients = (NX / 2 + 1) * (NY + 1),
+          .line_transforms = 40 + 1}},
         {"periodic section", {.x = true, .y = true}, 0, SIX, 'y', NULL,
          {.depths = 1, .source_transforms = 1, .normal_kernels = 6,
           .coefficients = 6 * (NX / 2 + 1) * NY, .line_transforms = 6}},
@@ -508,12 +594,12 @@ int
 main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(engines_agree),           cmocka_unit_test(transforms_by_any_name),
-        cmocka_unit_test(engines_refused),         cmocka_unit_test(within_tolerance),
-        cmocka_unit_test(deep_slices_are_exact),   cmocka_unit_test(sections_are_lines_of_slices),
-        cmocka_unit_test(sections_between_rows),   cmocka_unit_test(threads_change_no_bit),
-        cmocka_unit_test(alone_as_in_company),     cmocka_unit_test(extremes_as_one_by_one),
-        cmocka_unit_test(nothing_is_done_unasked),
+        cmocka_unit_test(engines_agree),          cmocka_unit_test(transforms_by_any_name),
+        cmocka_unit_test(engines_refused),        cmocka_unit_test(within_tolerance),
+        cmocka_unit_test(deep_slices_are_exact),  cmocka_unit_test(sections_are_lines_of_slices),
+        cmocka_unit_test(sections_between_rows),  cmocka_unit_test(sections_between_waves),
+        cmocka_unit_test(threads_change_no_bit),  cmocka_unit_test(alone_as_in_company),
+        cmocka_unit_test(extremes_as_one_by_one), cmocka_unit_test(nothing_is_done_unasked),
     };
 
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -146,8 +146,9 @@ stress_input_read(struct tool *t, const struct rc_grid *p, const struct stress_a
     o->strain = NULL;
     set_traction(t, asked, p, in, o);
     if (rc_repeats(o->boundary) > 0 && stress_on_free_maps_only(asked->kernel))
-        tool_refuse(t, p, "its boundary is periodic, where only %s sums: leave out --kernel %s",
-                    words_periodic_engines(list, sizeof list), asked->kernel);
+        tool_refuse(t, p, "its boundary is %s, where only %s sums: leave out --kernel %s",
+                    rc_boundary_word(o->boundary), words_periodic_engines(list, sizeof list),
+                    asked->kernel);
 }
 
 bool
