@@ -204,9 +204,11 @@ judge_pressure(struct run *run, const char *where, const struct solution *s)
         s->contact.edge_load_fraction > rc_figure_find("edge_load_fraction")->limit)
         course_warn(&run->d.course, "the contact reaches the edge of the map",
                     "%s: %.1f %% of the load is on the outer 2 %% of the map: the contact reaches "
-                    "its edge, beyond which there is no material: take a larger map, a smaller "
-                    "load, or --periodic if the surface repeats",
-                    where, 100 * s->contact.edge_load_fraction);
+                    "its edge, beyond which there is no material: take a larger map%s",
+                    where, 100 * s->contact.edge_load_fraction,
+                    rc_repeats(run->physics->boundary) > 0
+                        ? " or a smaller load"
+                        : ", a smaller load, or --periodic if the surface repeats");
     if (tool_interrupted() == 0 && s->contact.contact_nodes > 0) {
         solve_warn_of_theory(run, where, s);
         warn_of_grid(run, run->g, where, s);
