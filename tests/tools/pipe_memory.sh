@@ -50,6 +50,10 @@ estimated "rc-deflect" "rc-deflect --verbose --estar 3GPa free.rcg"
 estimated "rc-deflect --kernel mlms" "rc-deflect --verbose --kernel mlms --estar 3GPa free.rcg"
 estimated "rc-stress" "rc-stress --verbose --nu 0.3 --depths 1um,5um,50um free.rcg"
 estimated "rc-stress, periodic, with friction" "rc-stress --verbose --nu 0.3 --mu 0.2 --depths 1um,5um round.rcg"
+for axis in x y; do
+    rc-pick --set boundary=periodic-$axis --channel pressure -o line-$axis.rcg free.rcg
+    estimated "rc-stress, periodic-$axis" "rc-stress --verbose --nu 0.3 --depths 1um,5um,50um line-$axis.rcg"
+done
 estimated "rc-stress --section" "rc-stress --verbose --nu 0.3 --section y=0 --depths 0:50um:20 free.rcg"
 estimated "rc-stress --section, a small contact" "rc-stress --verbose --nu 0.3 --section y=0 --depths 0:50um:20 sparse.rcg"
 estimated "rc-info" "rc-info --verbose odd.rcg"
@@ -127,6 +131,8 @@ promised "rc-solve --periodic, a list" "rc-solve --periodic --estar 3GPa --mean-
 promised "rc-solve --history" "rc-solve --hardness 300MPa --history --estar 3GPa --mean-pressure 50MPa,100MPa small.rcg" 3M
 promised "rc-solve --yield" "rc-solve $metal --periodic --mean-pressure 300MPa --yield 8GPa --slabs 4 --increments 1 small.rcg" 3M
 promised "rc-stress" "rc-stress --nu 0.3 --depths 1um,5um free.rcg" 9M
+promised "rc-stress, periodic-x, with friction" "rc-stress --nu 0.3 --mu 0.2 --components mises --depths 1um line-x.rcg" 9M
+promised "rc-stress, periodic-y, on a coarser grid" "rc-stress --nu 0.3 --tol 1e-3 --components mises --depths 60um line-y.rcg" 9M
 promised "rc-stress, periodic, with friction" "rc-stress --nu 0.3 --mu 0.2 --components mises --depths 1um round.rcg" 9M
 promised "rc-fatigue" "rc-fatigue --nu 0.3 --bending-limit 6MPa --torsion-limit 4MPa --pass x --depths 1um,5um free.rcg" 12M
 promised "rc-wear" "rc-wear --coefficient 1e-6mm3/Nm --distance 1um free.rcg" 20M

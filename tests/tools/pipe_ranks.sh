@@ -47,6 +47,10 @@ claim "long lines give the figures of one process" figures
 claim "displacements are those of one process" same deflect "rc-deflect --kernel fft pressed.rcg"
 claim "stresses at given depths, with friction, are those of one process" same stress \
     "rc-stress --nu 0.3 --mu 0.2 --depths 0,10um,50um --components mises,s1 pressed.rcg"
+for axis in x y; do
+    rc-pick --set boundary=periodic-$axis -o line.rcg pressed.rcg
+    claim "  on a map that repeats along $axis" same lines "rc-stress --nu 0.3 --mu 0.2 --depths 0,10um,50um,400um --tol 1e-3 --components mises,s1 line.rcg"
+done
 pressure() { # prints a frame of this channel without the end line
     rc-pick --channel pressure pressed.rcg | sed "s/^channel=pressure\$/channel=$1/" | reseal | perl -0777 -pe 's/RCGEND 1\n//'
 }
