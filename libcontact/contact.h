@@ -225,7 +225,8 @@ struct rc_problem {
     /* total normal force, N, > 0; with an approach a guess, or 0 */
     double load;
     /* m, > 0: approach from first touch, for which the load is found; 0: the load is given. If
-     * one axis repeats it needs a datum of at least a quarter of the other one */
+     * one axis repeats it needs a datum of at least a quarter of the other one, and more under
+     * a stiff coat */
     double approach;
     /* upper bound of the pressure, Pa; 0 or INFINITY: none */
     double hardness;

@@ -11,6 +11,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "libcontact/body/line.h"
 #include "libcontact/memory.h"
 
 enum {
@@ -28,8 +29,10 @@ struct own {
     const struct rc_solids *bodies; /* this operator, or that of the finer grid */
     bool positive;                  /* the spectrum of their kernel is positive on any map  */
     double estar;                   /* E* of the pair, for waves as short as the roughness */
+    double same;                    /* E*, if it is the same for all waves; NAN: it is not */
     double bends;                   /* m: the length over which stiff coatings bend         */
     double far;                     /* m/(N/m): what the datum adds for a line load         */
+    double nearest;                 /* m: see rc_operator                                   */
     struct rc_conv *conv;           /* K p in double precision; NULL: none                  */
     struct rc_fft *fft;             /* single precision, lengths in units of sqrt(dx dy) */
     struct rc_fft *framed;          /* the same with the frame; NULL: no frame              */
@@ -199,9 +202,8 @@ frame_of(size_t side, size_t other, double bends)
 static struct rc_frame
 frame_around(const struct rc_shape *s, struct rc_boundary boundary, double bends)
 {
-    return (struct rc_frame){
-        boundary.x ? 0 : frame_of(s->nx, s->ny, bends / s->dx),
-        boundary.y ? 0 : frame_of(s->ny, s->nx, bends / s->dy)};
+    return (struct rc_frame){boundary.x ? 0 : frame_of(s->nx, s->ny, bends / s->dx),
+                             boundary.y ? 0 : frame_of(s->ny, s->nx, bends / s->dy)};
 }
 
 static double
@@ -422,6 +424,8 @@ plan(struct own *s, const struct rc_shape *shape, const struct rc_operator_optio
                                  .edges = !s->positive && rc_has_mean(o->boundary),
                                  .mean_free = !rc_has_mean(o->boundary)};
     s->op.shape = rc_rows_shape(&s->op.rows, shape);
+    s->op.estar = s->same;
+    s->op.nearest = s->nearest;
     s->op.rise =
         s->far * (o->boundary.x ? shape->dy / (double)shape->nx : shape->dx / (double)shape->ny);
     s->op.norm = s->bare.norm = norm(s);
@@ -467,19 +471,47 @@ make_room(struct own *s, const struct rc_operator_options *o, struct rc_err *err
                          "out of memory for the displacements of %zu nodes", n);
 }
 
-/* A line load of 1 N/m displaces by -2 ln(x / datum) / (pi E*), where E* is that of the longest waves. Returns
- * what `datum` adds to the displacement of a kernel with `own`. */
+/* q/pi times the symbol along the free axis. */
 static double
-far_of(const struct rc_solids *bodies, double datum, struct rc_boundary own)
+slope_at(const struct rc_kernel *kernel, bool along_x, double q)
 {
-    const struct rc_surface surface = {bodies, 1, 1};
-    const struct rc_kernel kernel = rc_surface_kernel(&surface);
-    const double q = 1e-20 / own.datum;
+    return q / RC_PI * kernel->symbol(kernel->of, along_x ? q : 0, along_x ? 0 : q);
+}
 
-    if (rc_repeats(own) != 1 || datum == 0)
-        return 0;
-    return q / RC_PI * log(datum / own.datum) *
-           (own.x ? kernel.symbol(kernel.of, 0, q) : kernel.symbol(kernel.of, q, 0));
+/* A line load of 1 N/m displaces by -2 ln(x / datum) / (pi E*) far away, where E* is that of the longest waves;
+ * on a rigid base the displacement has a limit, and no datum matters. The datum of K is the length of the map,
+ * or so much larger that K is not negative on the map: under a stiff coat that is thicker than the map it is
+ * about the thickness. `far`: what the datum of the problem adds. With the nearest datum K is 0 at a quarter of
+ * the map, and a load on a rigid strip as wide as the map does not move it. */
+static enum rc_status
+set_datum(struct own *s, const struct rc_shape *shape, double datum, struct rc_boundary *boundary,
+          struct rc_err *err)
+{
+    const struct rc_surface surface = {s->bodies, 1, 1};
+    const struct rc_kernel kernel = rc_surface_kernel(&surface);
+    const size_t n = boundary->x ? shape->ny : shape->nx;
+    const double d = boundary->x ? shape->dy : shape->dx, length = (double)n * d;
+    const double q = 1e-20 / length, slope = slope_at(&kernel, !boundary->x, q);
+    const struct rc_line_at at = {d, 1, n + 1, 0, length};
+    RC_OWNED double *u = NULL;
+
+    boundary->datum = length;
+    s->nearest = length / 4;
+    if (!isnan(s->same)) {
+        s->far = slope * log((datum > 0 ? datum : length) / length);
+        return RC_OK;
+    }
+    s->nearest = 0;
+    if (slope_at(&kernel, !boundary->x, 2 * q) > 1.5 * slope) /* a rigid base */
+        return RC_OK;
+    if ((u = rc_alloc(at.n, sizeof *u)) == NULL)
+        return rc_err_set(err, "out of memory for a line of %zu nodes", n);
+    if (rc_kernel_line(&kernel, !boundary->x, &at, u, err) != RC_OK)
+        return RC_FAIL;
+    s->nearest = length * exp(-u[(n + 3) / 4] / (slope * d));
+    boundary->datum = length * exp(fmax(-u[n] / (slope * d), 0));
+    s->far = slope * log((datum > 0 ? datum : length) / boundary->datum);
+    return RC_OK;
 }
 
 struct rc_operator *
@@ -493,21 +525,22 @@ rc_operator_new(const struct rc_shape *shape, const struct rc_operator_options *
 
     if (rc_shape_check(shape, err) != RC_OK || (s = own_new(o->ranks, err)) == NULL)
         return NULL;
-    own.boundary.datum = 0;
-    own.boundary = rc_boundary_on(shape, own.boundary);
-    options = conv_options(&own);
     op = &s->op;
     s->bodies = &s->own;
     s->positive = rc_pair_positive(o->pair);
     s->bends = bending_length(shape, o->pair);
-    if (rc_solids_new(&s->own, o->pair, o->along, o->ranks, err) != RC_OK ||
-        (s->conv = rc_conv_new_of(s->bodies, shape, &options, err)) == NULL)
+    s->same = rc_pair_modulus(o->pair);
+    if (rc_solids_new(&s->own, o->pair, o->along, o->ranks, err) != RC_OK)
         return NULL;
-    s->far = far_of(s->bodies, o->boundary.datum, own.boundary);
-    if (plan(s, shape, &own, err) != RC_OK)
+    if (rc_repeats(o->boundary) == 1 &&
+        rc_ranks_agree(o->ranks, set_datum(s, shape, o->boundary.datum, &own.boundary, err), err) !=
+            RC_OK)
+        return NULL;
+    options = conv_options(&own);
+    if ((s->conv = rc_conv_new_of(s->bodies, shape, &options, err)) == NULL ||
+        plan(s, shape, &own, err) != RC_OK)
         return NULL;
     op->exact = true;
-    op->estar = rc_pair_modulus(o->pair);
     op->error = rc_conv_error(s->conv);
     op->engine = rc_conv_engine(s->conv);
     op->reason = rc_conv_reason(s->conv);
@@ -532,10 +565,11 @@ rc_operator_coarse(const struct rc_operator *op, const struct rc_ranks *ranks,
     s->bodies = fine->bodies;
     s->positive = fine->positive;
     s->bends = fine->bends;
+    s->same = fine->same;
     s->far = fine->far;
+    s->nearest = fine->nearest;
     if (plan(s, shape, &o, err) != RC_OK)
         return NULL;
-    coarse->estar = op->estar;
     return (op->soft.plus == 0 && op->soft.row == 0) ||
                    rc_operator_set_diagonal(coarse, op->soft.plus, NULL, op->soft.row, err) == RC_OK
                ? rc_give(&coarse)

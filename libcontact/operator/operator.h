@@ -43,10 +43,11 @@ struct rc_operator_near {
 struct rc_operator {
     struct rc_shape whole, shape; /* shape of the whole map, and of the rows held here */
     struct rc_rows rows;          /* rows held here */
-    /* With the datum of K, m: the default, for which K is positive. That of the options adds `rise` times the
-     * sum of the nodal pressures to the displacement, m/Pa. */
+    /* With the datum of K, m, for which K is positive. That of the options adds `rise` times the sum of the
+     * nodal pressures to the displacement, m/Pa. */
     struct rc_boundary boundary;
     double rise;
+    double nearest; /* m: with a nearer datum a load may move a rigid body away */
     size_t threads;
     double unit;  /* m/Pa                                                             */
     double estar; /* Pa, if it is the same for all waves; NAN: it is not              */

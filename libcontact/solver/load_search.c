@@ -109,19 +109,17 @@ check_yield(struct rc_solver *s, double approach, double depth, struct rc_err *e
     return RC_OK;
 }
 
-/* RC_FAIL where a larger load may decrease the approach. A rigid body that touches a strip of the width w
- * moves towards a line at a distance of more than w/4, and away from a nearer one. */
+/* RC_FAIL where a larger load may decrease the approach. */
 static enum rc_status
 check_datum(const struct rc_solver *s, struct rc_err *err)
 {
-    const double width = s->op->boundary.datum, datum = s->posed.boundary.datum;
+    const double datum = rc_boundary_on(&s->posed.whole, s->posed.boundary).datum;
 
-    if (rc_repeats(s->posed.boundary) == 1 && datum > 0 && datum < width / 4)
-        return rc_err_set(
-            err,
-            "datum %g m: an approach that grows with the load needs one of at least a "
-            "quarter of the map, %g m; give a larger datum or the load",
-            datum, width / 4);
+    if (rc_repeats(s->posed.boundary) == 1 && datum < s->op->nearest)
+        return rc_err_set(err,
+                          "datum %g m: an approach that grows with the load needs one of at least "
+                          "%g m; give a larger datum or the load",
+                          datum, s->op->nearest);
     return RC_OK;
 }
 

@@ -76,7 +76,8 @@ two_methods_agree(void **state)
         size_t n = shape.nx * shape.ny;
         double *h = calloc(n, sizeof *h), mean = 1e9 * pow(10, -3 * uniform(&seed));
         double bound = mean * (1 + pow(10, 2 * uniform(&seed) - 1.5));
-        struct rc_problem problem = {.boundary = uniform(&seed) < 0.5 ? RC_FREE : RC_PERIODIC,
+        const size_t axes = between(&seed, 0, 3);
+        struct rc_problem problem = {.boundary = rc_boundary_of(axes % 2 == 1, axes / 2 == 1),
                                      .pair.estar = 1e11,
                                      .load = mean * (double)n * shape.dx * shape.dy,
                                      .hardness = uniform(&seed) < 0.3 ? 0 : bound,

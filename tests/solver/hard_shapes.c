@@ -195,11 +195,23 @@ strips_answer(const struct hard_case *c, const struct rc_problem *problem, const
            nodes = (size_t)(one ? 2 * c->a : c->a);
 
     (void)h;
-    if (rc_repeats(problem->boundary) == 0)
+    if (rc_repeats(problem->boundary) < 2)
         return 0;
     if ((double)s->c.contact_nodes != part * (double)(c->shape.nx * c->shape.ny))
         return INFINITY;
     return relative(s->p[middle], truth, 1.0 / (double)nodes);
+}
+
+/* A rigid flat strip as wide as a map that repeats along it: P'/(pi E*) 2 ln(2 datum/a), with the default datum
+ * of 2 a. */
+static double
+strip_answer(const struct hard_case *c, const struct rc_problem *problem, const struct solved *s)
+{
+    double a = c->shape.dx * (double)c->shape.nx, b = c->shape.dy * (double)c->shape.ny;
+    double load = problem->load / (problem->boundary.x ? a : b);
+
+    return relative(s->c.approach, 2 * load * log(4) / (exact_pi * problem->pair.estar),
+                    0.5 * (problem->boundary.x ? c->shape.dy / b : c->shape.dx / a));
 }
 
 /* A flat map on a flat has the same pressure everywhere. */
@@ -209,6 +221,8 @@ even_answer(const struct hard_case *c, const struct rc_problem *problem, const d
 {
     double off = 0;
 
+    if (rc_repeats(problem->boundary) == 1)
+        return strip_answer(c, problem, s);
     if (rc_repeats(problem->boundary) == 0)
         return square_answer(c, problem, h, s);
     for (size_t k = 0; k < c->shape.nx * c->shape.ny; k++)

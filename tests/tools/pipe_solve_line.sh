@@ -57,6 +57,8 @@ refuses 2 '--datum has no effect without --periodic x or --periodic y' "no datum
 refuses 2 '--datum has no effect without --periodic x or --periodic y' "  or with two" \
     'rc-solve --periodic --datum 1m --load 1N --estar 1GPa y.rcg >/dev/null'
 refuses 2 '--datum 0 m: it must be above 0' "a datum of 0" 'rc-solve --periodic=y --datum 0 --load 1N --estar 1GPa y.rcg >/dev/null'
-refuses 1 'datum 3e-05 m: an approach that grows with the load needs one of at least a quarter of the map, 3.2e-05 m' "a near datum for an approach" \
+refuses 1 'datum 3e-05 m: an approach that grows with the load needs one of at least 3.2e-05 m' "a near datum for an approach" \
     'rc-solve --periodic=y --datum 30um --approach 1nm --estar 1GPa y.rcg >/dev/null'
+refuses 1 'datum 0.000128 m: an approach that grows with the load needs one of at least 0.0[0-9]* m' "  the default one above a stiff coat thicker than the map" \
+    'rc-solve --periodic=y --approach 1nm --layer 1mm,1000GPa,0.3 --E1 1GPa --nu1 0.3 --E2 rigid y.rcg >/dev/null'
 refuses 1 "the sums of the engine 'mlms' have no end" "sums without end" 'rc-solve --periodic=y --kernel mlms --load 1N --estar 1GPa y.rcg >/dev/null'
