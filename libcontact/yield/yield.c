@@ -987,6 +987,9 @@ rc_yield_solver_check(const struct rc_yield_problem *problem, struct rc_err *err
         return rc_err_set(
             err,
             "plasticity in the volume cannot share its maps among processes: take one process");
+    if (rc_repeats(problem->contact.boundary) == 1)
+        return rc_err_set(err, "plasticity in the volume is not implemented for maps that repeat "
+                               "along one axis only: take a free or a periodic map, or a hardness");
     if (problem->contact.pair.estar > 0 || !(one->e > 0) || isinf(one->e))
         return rc_err_set(err, "plasticity needs E and nu of the body that yields");
     if (one->layers > 0)

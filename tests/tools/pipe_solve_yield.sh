@@ -61,6 +61,8 @@ claim "--increments auto meets the goal at each load" $again --report auto.json 
 claim "--increments 16,half makes a second run" $again --increments 16,half --report half.json -o half.rcg
 $again --increments 16 --report sixteen.json -o sixteen.rcg
 refuses 2 'N,half needs an even number from 16' "a companion of few increments" "$again --increments 14,half -o x.rcg"
+refuses 1 'plasticity in the volume is not implemented for maps that repeat along one axis only' "a map that repeats along one axis" \
+    "rc-solve --periodic=y --E1 200GPa --nu1 0.3 --E2 rigid --yield 1GPa --load 1N -o x.rcg rough.rcg"
 refuses 2 'travels has no second run' "one of a contact that travels" \
     "${again/100MPa,0,100MPa/100MPa} --increments 16,half --travel 0,1um --radius 1mm -o x.rcg"
 apart() { # A B CASE: prints the relative L1 distance of two pressures
