@@ -1499,8 +1499,9 @@ RC_API enum rc_status rc_fatigue_history(unsigned wanted, const struct rc_fatigu
 /* Histories below a map. With `pass`, the pressure travels with the contact over a body of uniform
  * properties: each point of a row along that axis sees all stresses of the row, and has one result. Otherwise
  * each case is the pressure at a position of the contact, and each node of the body has a result. If the map is
- * free along the axis of the pass, or along x for cases, the unloaded state belongs to each history, and a node
- * outside the map of a case is unloaded. Otherwise nothing is added, and columns wrap around. */
+ * free along the travel, which is along x for cases, the unloaded state belongs to each history, and a node
+ * outside the map of a case is unloaded. Otherwise nothing is added, and columns wrap around. A contact that
+ * stays is unloaded before and after the cases, unless the map repeats along both axes. */
 struct rc_fatigue_problem {
     /* Its members wanted, section and traction are ignored; no ranks, no strain. */
     struct rc_stress_options stress;
@@ -1516,7 +1517,7 @@ struct rc_fatigue_problem {
     const double *const *p;
     /* the same; NULL: none */
     const double *const *traction[2];
-    /* of each case: the column of the body below its first column; NULL: 0 */
+    /* of each case: the column of the body below its first column; NULL: the contact stays */
     const size_t *column;
     /* Bytes for histories of cases; 0: all. With little room, stresses are computed again for
      * each band of rows, which costs time. */

@@ -222,6 +222,15 @@ place_of(struct run *run, const struct rc_grid *p)
     return x;
 }
 
+/* True if the contact is at other positions of the body in other cases. */
+static bool
+travels(const struct run *run)
+{
+    const struct rc_grid *first = run->position[0].p;
+
+    return rc_grid_get(first, "position") != NULL || rc_grid_get(first, "window_x") != NULL;
+}
+
 /* The columns of the body under the maps, and the distance between states. */
 static void
 set_columns(struct run *run)
@@ -304,7 +313,7 @@ set_problem(struct run *run)
                                                .pass = args.pass == NULL ? 0 : args.pass[0],
                                                .cases = n,
                                                .p = run->map[0],
-                                               .column = run->column,
+                                               .column = travels(run) ? run->column : NULL,
                                                .power = args.life.n > 0 ? args.life.v[0] : 0,
                                                .depth_power = args.life.n > 1 ? args.life.v[1] : 0,
                                                .threshold = args.life.n > 2 ? args.life.v[2] : 0};
@@ -494,6 +503,17 @@ report_all(struct run *run, const struct rc_fatigue *f, double **by_depth, doubl
 
 /* ---- judgement ---- */
 
+/* True if the map repeats along the travel, or along both axes. */
+static bool
+never_unloads(const struct run *run)
+{
+    const struct rc_boundary boundary = run->options.boundary;
+
+    if (run->problem.pass == 0 && !travels(run))
+        return !rc_has_mean(boundary);
+    return rc_wraps(boundary, run->problem.pass == 'y' ? RC_Y : RC_X);
+}
+
 static void
 judge(struct run *run, const struct rc_fatigue *f)
 {
@@ -513,9 +533,12 @@ judge(struct run *run, const struct rc_fatigue *f)
                 shown_in_unit(run->step, "m"), at[c].sampling_error);
             break;
         }
-    if (!rc_has_mean(run->options.boundary) && needs_endurance())
-        tool_warn(t, "on a periodic map the points never unload: the amplitudes and the indices of "
-                     "Crossland, Papadopoulos and Findley are smaller than in a single contact");
+    if (never_unloads(run) && needs_endurance())
+        tool_warn(t,
+                  "%s the points never unload: the amplitudes and the indices of "
+                  "Crossland, Papadopoulos and Findley are smaller than in a single contact",
+                  rc_has_mean(run->options.boundary) ? "the map repeats along the travel, and"
+                                                     : "on a periodic map");
     if (wanted(RC_DANG_VAN) && run->problem.full && r->dangvan_hydrostatic < 0)
         tool_warn(t, "the instant that decides for Dang Van is under hydrostatic pressure, which "
                      "lowers the index as far as the limits allow: compare --dangvan cut");

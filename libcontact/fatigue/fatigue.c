@@ -46,8 +46,9 @@ struct rc_fatigue {
     struct rc_fatigue_problem problem;
     struct rc_shape shape, result; /* of the map; of the results  */
     struct rc_stress *stress;
-    size_t states; /* of one history, with the unloaded one     */
-    size_t band;   /* rows of the map for which `store` has room */
+    size_t unloaded; /* 1 if a history has the unloaded state, 0  */
+    size_t states;   /* of one history, with the unloaded one     */
+    size_t band;     /* rows of the map for which `store` has room */
     double *map[RC_COMPONENTS];
     float *store;               /* of cases: [case][component][row of the band][column] */
     double *value[RC_FATIGUES]; /* values that are needed but not wanted by the caller */
@@ -61,10 +62,13 @@ struct rc_fatigue {
 
 /* ---- shapes ---- */
 
-/* Before and after it passes along a free axis, a contact does not load the body. */
+/* Before and after it passes along a free axis, a contact does not load the body; neither before and after the
+ * loads of a contact that stays, unless the map repeats along both axes. */
 static size_t
 unloaded_states(const struct rc_fatigue_problem *p)
 {
+    if (p->pass == 0 && p->column == NULL)
+        return rc_has_mean(p->stress.boundary);
     return !rc_wraps(p->stress.boundary, p->pass == 'y' ? RC_Y : RC_X);
 }
 
@@ -218,10 +222,11 @@ rc_fatigue_new(const struct rc_shape *shape, const struct rc_fatigue_problem *pr
     f->result = rc_fatigue_shape(shape, problem);
     f->threads = rc_useful_threads(shape, o.threads);
     f->band = rows_of_band(shape, problem);
+    f->unloaded = unloaded_states(problem);
     f->states = (problem->pass == 'x'   ? shape->nx
                  : problem->pass == 'y' ? shape->ny
                                         : problem->cases) +
-                unloaded_states(problem);
+                f->unloaded;
     f->all = none;
     f->all.stressed_volume = problem->power > 0 ? 0 : NAN;
     o.wanted = six;
@@ -286,10 +291,11 @@ fill_band(struct rc_fatigue *f, struct rc_err *err)
 
 /* Appends the unloaded state, and adds the residual stress, which depends on the line only. */
 static void
-finish_history(const struct rc_fatigue_problem *problem, const struct here *here,
-               struct rc_history *w, size_t n, size_t line)
+finish_history(const struct rc_fatigue *f, struct rc_history *w, size_t n, size_t line)
 {
-    w->n = n + unloaded_states(problem);
+    const struct here *here = &f->here;
+
+    w->n = n + f->unloaded;
     for (int c = 0; c < RC_COMPONENTS; c++) {
         const double *r = here->residual == NULL ? NULL : here->residual[c];
         if (w->n > n)
@@ -312,7 +318,7 @@ take_line(const struct rc_fatigue *f, struct rc_history *w, size_t line, size_t 
     for (size_t t = first; t < length; t += step, n++)
         for (int c = 0; c < RC_COMPONENTS; c++)
             w->s[c][n] = f->map[c][start + t * stride];
-    finish_history(&f->problem, &f->here, w, n, line);
+    finish_history(f, w, n, line);
 }
 
 /* The same for the cases at a node of the body. */
@@ -336,7 +342,7 @@ take_node(const struct rc_fatigue *f, struct rc_history *w, size_t row, size_t c
                          : c == RC_SXX || c == RC_SYY ? f->here.unloaded
                                                       : 0;
     }
-    finish_history(&f->problem, &f->here, w, n, row);
+    finish_history(f, w, n, row);
 }
 
 static void

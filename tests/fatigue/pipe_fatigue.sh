@@ -51,6 +51,30 @@ $pass --depths 5um,6um,9um --life 10.3333333333 --report life.json -o x.rcg pres
 $pass --depths 5um,6um,9um --life 10.3333333333,0,100e6 --report above.json -o x.rcg pressed.rcg
 between 0 "$(json .stressed_volume above.json)" "$(json .stressed_volume life.json)" "stressed volume above a threshold"
 
+# ---- a roller ----
+
+# Hertz's line contact, p0 = sqrt(P' E*/(pi R)) and a = 2 P'/(pi p0): the orthogonal shear stress is p0/4 at a/2.
+a=105.682e-6 p0=602389633
+rc-synth cylinder --radius 10mm --nx 160 --ny 160 --dx 2um --direction 90 | rc-pick --crop 0,0,160,4 |
+    rc-solve --quiet --periodic=y --load 1e5N/m --estar 114GPa --output pressure -o roller.rcg
+rolls="rc-fatigue --nu 0.3 $limits --depths 40um:66um:27 --criteria crossland,amplitude"
+claim "a roller passes" $rolls --quiet --pass x --report roller.json -o x.rcg roller.rcg
+near "$(json .amplitude roller.json)" "$(awk "BEGIN { print .25 * $p0 }")" 1e-3 "  its amplitude"
+near "$(json .amplitude_depth roller.json)" "$(awk "BEGIN { print .5 * $a }")" 2e-2 "  at half of the half-width"
+near "$(json .crossland roller.json)" "$(json '.amplitude / 372e6' roller.json)" 1e-9 "  Crossland: the unloaded state has h = 0"
+claim "a pass along it has no amplitude, and causes a warning" warns 'the map repeats along the travel, and the points never unload' \
+    $rolls --pass y --report along.json -o x.rcg roller.rcg
+between 0 "$(json .amplitude along.json)" 1e3 "  but rounding, Pa"
+# Every load is met by each node, and the unloaded state belongs to a contact that stays.
+rc-fatigue --quiet --nu 0.3 $limits --depths 52um --criteria amplitude --report stays.json -o x.rcg roller.rcg
+claim "loads of a roller that stays begin at none" [ "$(json .states stays.json)" = 2 ]
+# The contact of the roller itself, at 81 positions over a flat: a = 57.5 um.
+rc-synth wave --nx 160 --ny 2 --dx 2um --amplitude 1e-15 --wavelength 80um |
+    rc-solve --quiet --periodic=y --cylinder 10mm --load 3e4N/m $steel --travel=-80um:80um:81 --window 100x2 --output pressure -o travels.rcg
+rc-fatigue --quiet $limits --depths 24um,28.8um,34um --criteria amplitude --report travels.json -o x.rcg travels.rcg
+near "$(json .amplitude travels.json)" "$(awk 'BEGIN { print .25 * sqrt(3e4 * 115384615384.6 / (3.14159265 * 10e-3)) }')" 2e-3 "a roller that travels has the amplitude of a pass"
+claim "  with the unloaded state" [ "$(json .states travels.json)" = 82 ]
+
 # ---- positions ----
 
 # The pressure of one window, at each column: the middle column of the body sees a whole row.

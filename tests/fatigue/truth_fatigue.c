@@ -249,6 +249,78 @@ line_shakedown(void **state)
     }
 }
 
+/* A roller that passes across its axis, on a map that repeats along it: the values of the formula at each
+ * depth. The error of the cells is below 1e-3; Dang Van's largest instant lies between two states. A pass along
+ * the axis changes no stress. */
+static void
+roller(void **state)
+{
+    enum {
+        NX = 480,
+        NY = 3,
+        A = 40 /* half-width in nodes */
+    };
+    static double p[2][NX * NY], v[RC_FATIGUES][NX];
+    static const double depths[] = {0.4, 0.5, 0.6, 0.8};
+    const struct rc_fatigue_limits l = {1, 0.62, sqrt(3)};
+    const unsigned wanted = 1U << RC_CROSSLAND | 1U << RC_DANG_VAN | 1U << RC_FINDLEY |
+                            1U << RC_SHAKEDOWN | 1U << RC_AMPLITUDE;
+    double *out[RC_FATIGUES];
+    (void)state;
+
+    for (int c = 0; c < RC_FATIGUES; c++)
+        out[c] = v[c];
+    for (size_t i = 0; i < NX; i++)
+        for (size_t j = 0; j < NY; j++) {
+            const double x = ((double)i - (NX - 1) / 2.0) / A;
+            p[0][j * NX + i] = p[1][i * NY + j] =
+                (roller_load(1, x + 0.5 / A) - roller_load(1, x - 0.5 / A)) * A;
+        }
+    for (int turned = 0; turned < 2; turned++)
+        for (int friction = 0; friction < 2; friction++) {
+            const struct rc_shape shape = {turned ? NY : NX, turned ? NX : NY, 1e-6, 1e-6};
+            const double *const maps[] = {p[turned]}, mu = friction && !turned ? 0.3 : 0;
+            struct rc_fatigue_problem problem = {
+                .stress = {.boundary = rc_boundary_of(turned, !turned),
+                           .body.nu = 0.3,
+                           .mu = mu,
+                           .threads = 1},
+                .wanted = wanted,
+                .full = true,
+                .pass = turned ? 'y' : 'x',
+                .cases = 1,
+                .p = maps};
+            struct rc_err err = {""};
+            struct rc_fatigue *f = rc_fatigue_new(&shape, &problem, &err);
+            if (f == NULL)
+                fail_msg("%s", err.text);
+            for (int d = 0; d < 4; d++) {
+                double truth[RC_FATIGUES];
+                line_values(depths[d], mu, 0.3, wanted, &l, true, truth);
+                assert_int_equal(rc_fatigue_depth(f, depths[d] * A * 1e-6, &l, NULL, out, &err),
+                                 RC_OK);
+                for (int c = 0; c < RC_FATIGUES; c++)
+                    for (int j = 0; wanted >> c & 1 && j < NY; j++)
+                        near(v[c][j], truth[c], (c == RC_DANG_VAN ? 7e-3 : 1e-3) * truth[c],
+                             rc_criterion_names[c]);
+            }
+            near(rc_fatigue_result(f)->largest[RC_AMPLITUDE].depth / (A * 1e-6),
+                 friction && !turned ? 0.4 : 0.5, 1e-9, "depth of the amplitude");
+            if (mu == 0)
+                near(rc_fatigue_result(f)->largest[RC_AMPLITUDE].value, 0.25, 5e-4,
+                     "amplitude of a roller");
+            assert_int_equal(rc_fatigue_result(f)->states, NX + 1);
+            rc_fatigue_free(f);
+            problem.pass = turned ? 'x' : 'y';
+            f = rc_fatigue_new(&shape, &problem, &err);
+            assert_int_equal(rc_fatigue_depth(f, 0.5 * A * 1e-6, &l, NULL, out, &err), RC_OK);
+            near(rc_fatigue_result(f)->largest[RC_AMPLITUDE].value, 0, 1e-7,
+                 "amplitude along the roller");
+            assert_int_equal(rc_fatigue_result(f)->states, NY);
+            rc_fatigue_free(f);
+        }
+}
+
 /* A static stress does not change shakedown, and changes Dang Van by k h. */
 static void
 residual_stress(void **state)
@@ -559,12 +631,13 @@ int
 main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(calibration),    cmocka_unit_test(repeated),
-        cmocka_unit_test(combined),       cmocka_unit_test(hard_steel),
-        cmocka_unit_test(line_formula),   cmocka_unit_test(line),
-        cmocka_unit_test(line_shakedown), cmocka_unit_test(residual_stress),
-        cmocka_unit_test(ball),           cmocka_unit_test(balls),
-        cmocka_unit_test(long_balls),     cmocka_unit_test(findley_planes),
+        cmocka_unit_test(calibration),     cmocka_unit_test(repeated),
+        cmocka_unit_test(combined),        cmocka_unit_test(hard_steel),
+        cmocka_unit_test(line_formula),    cmocka_unit_test(line),
+        cmocka_unit_test(roller),          cmocka_unit_test(line_shakedown),
+        cmocka_unit_test(residual_stress), cmocka_unit_test(ball),
+        cmocka_unit_test(balls),           cmocka_unit_test(long_balls),
+        cmocka_unit_test(findley_planes),
     };
 
     return cmocka_run_group_tests(tests, NULL, NULL);
