@@ -278,6 +278,7 @@ CONTACT(two_phases, bare, .load = 1e-3, .hardness_map = hardness)
 CONTACT(paper_method, bare, .load = 1e-3, .method = "pk99", .engine = "mlms")
 CONTACT(to_an_approach, bare, .approach = 1e-7, .discretization = true)
 CONTACT(coated_contact, layered, .load = 1e-3)
+CONTACT(coated_line_contact, layered, .load = 1e-3, .boundary = {.x = true})
 CONTACT(free_to_tilt, bare, .load = 1e-3, .tilt_free = true)
 
 /* ---- models ---- */
@@ -1010,6 +1011,7 @@ static const struct {
     {.name = "contact, pk99 by mlms", .use = paper_method},
     {.name = "contact, to an approach", .use = to_an_approach},
     {.name = "contact, coated", .use = coated_contact},
+    {.name = "contact, coated and periodic along x", .use = coated_line_contact},
     {.name = "contact, free to tilt", .use = free_to_tilt},
     {.name = "the elastic model",
      .story = {elastic, NULL, AT(LOAD, 1e-3), AT(LOAD, 1.2e-3), 1, NULL,

@@ -78,9 +78,11 @@ convolved(const struct rc_pair *pair, const struct rc_conv_options *of, double *
 
 CONVOLUTION(free_conv, bare, .engine = "fft64")
 CONVOLUTION(single_conv, bare, .tol = 1e-3)
-CONVOLUTION(periodic_conv, bare, .boundary = RC_PERIODIC)
+CONVOLUTION(periodic_conv, bare, .boundary = {.x = true, .y = true})
+CONVOLUTION(line_conv, bare, .boundary = {.y = true})
+CONVOLUTION(column_conv, layered, .boundary = {.x = true})
 CONVOLUTION(coated_conv, layered, .tol = 0)
-CONVOLUTION(coated_periodic_conv, layered, .boundary = RC_PERIODIC)
+CONVOLUTION(coated_periodic_conv, layered, .boundary = {.x = true, .y = true})
 
 static enum rc_status
 solved(const struct rc_problem *of, double *out, struct rc_err *err)
@@ -101,6 +103,7 @@ CONTACT(two_phases, bare, .load = 0.02, .hardness_map = hardness)
 CONTACT(paper_method, bare, .load = 0.02, .method = "pk99")
 CONTACT(to_an_approach, bare, .approach = 3e-7, .discretization = true)
 CONTACT(coated_contact, layered, .load = 0.02)
+CONTACT(coated_line_contact, layered, .load = 0.02, .boundary = {.y = true})
 CONTACT(free_to_tilt, bare, .load = 0.02, .tilt_free = true)
 
 /* Up to the first step on the full grid, because this step depends on the starting value. */
@@ -199,6 +202,8 @@ static const struct {
     {.name = "convolution, periodic", .use = periodic_conv},
     {.name = "convolution, coated", .use = coated_conv},
     {.name = "convolution, coated and periodic", .use = coated_periodic_conv},
+    {.name = "convolution, periodic along y", .use = line_conv},
+    {.name = "convolution, coated and periodic along x", .use = column_conv},
     /* without memory the solver starts without coarser grids */
     {.name = "contact", .use = free_contact, .tol = 1e-3},
     {.name = "contact, periodic with a hardness", .use = hard_contact, .tol = 1e-3},
@@ -206,6 +211,7 @@ static const struct {
     {.name = "contact, pk99", .use = paper_method, .tol = 1e-3},
     {.name = "contact, to an approach", .use = to_an_approach, .tol = 1e-3},
     {.name = "contact, coated", .use = coated_contact, .tol = 1e-3},
+    {.name = "contact, coated and periodic along y", .use = coated_line_contact, .tol = 1e-3},
     {.name = "contact, free to tilt", .use = free_to_tilt, .tol = 1e-3},
     {.name = "contact, coarser grids that are shared", .use = large_start, .tries = 2},
     {.name = "stress", .use = free_stress},

@@ -87,16 +87,6 @@ static const struct rc_shape small[SHAPES] = {
 };
 static const struct rc_shape *shapes = small;
 
-enum {
-    BOUNDARIES = 4
-};
-
-static struct rc_boundary
-boundary_of(size_t q)
-{
-    return rc_boundary_of(q % 2 == 1, q / 2 % 2 == 1);
-}
-
 /* ---- displacements ---- */
 
 static void
@@ -105,8 +95,9 @@ displacements(void **state)
     (void)state;
     for (size_t q = 0; q < BOUNDARIES * SHAPES; q++) {
         struct rc_shape s = shapes[q / BOUNDARIES];
-        struct rc_conv_options o = {
-            .boundary = boundary_of(q), .engine = "fft64", .threads = 1 + q / BOUNDARIES % 2};
+        struct rc_conv_options o = {.boundary = each_boundary[q % BOUNDARIES],
+                                    .engine = "fft64",
+                                    .threads = 1 + q / BOUNDARIES % 2};
         struct part part = part_of(s);
         double *p = rough(s, q), *u = calloc(s.nx * s.ny, sizeof *u);
         double *own = calloc(part.n + 1, sizeof *own);
@@ -256,7 +247,7 @@ contacts(void **state)
     for (size_t q = 0; q < BOUNDARIES * SHAPES; q++) {
         struct rc_shape s = shapes[q / BOUNDARIES];
         double area = (double)(s.nx * s.ny) * s.dx * s.dy;
-        struct rc_problem problem = {.boundary = boundary_of(q),
+        struct rc_problem problem = {.boundary = each_boundary[q % BOUNDARIES],
                                      .pair.estar = 1e11,
                                      .load = 3e8 * area,
                                      .engine = "fft",
@@ -278,7 +269,7 @@ hardness_maps(void **state)
         struct rc_shape s = shapes[q / BOUNDARIES];
         size_t n = s.nx * s.ny;
         double *map = calloc(n, sizeof *map), sum = 0;
-        struct rc_problem problem = {.boundary = boundary_of(q),
+        struct rc_problem problem = {.boundary = each_boundary[q % BOUNDARIES],
                                      .pair.estar = 1e11,
                                      .hardness_map = map,
                                      .engine = "fft",
@@ -310,7 +301,7 @@ approaches(void **state)
 
     (void)state;
     for (size_t q = 0; q < BOUNDARIES; q++) {
-        problem.boundary = boundary_of(q);
+        problem.boundary = each_boundary[q % BOUNDARIES];
         problem.boundary.datum = 1e-3;
         compare(s, problem, 2, "approach");
     }
