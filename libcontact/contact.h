@@ -1277,7 +1277,8 @@ struct rc_heat_problem {
     size_t threads;
 };
 /* The Peclet number of a body is V a/(2 kap). a is the radius of a circle of the area of the largest
- * patch; for a cell it is the side of the cell along the motion. */
+ * patch; of a patch that goes around a map that repeats along one axis, half its mean width; for a cell the
+ * side of the cell along the motion. */
 struct rc_heat_figures {
     /* W: of the contact, into body 1 */
     double heat_power, heat_power_1;
@@ -1297,7 +1298,8 @@ struct rc_heat_figures {
     /* Number of contact nodes in a row, along the motion, through the hottest node. With few of
      * them and a cell_peclet above 1 the grid misses the temperature at the trailing edge. */
     size_t hot_nodes;
-    /* s: contact area over the smaller diffusivity */
+    /* s: contact area over the smaller diffusivity; where the largest patch goes around the map, the
+     * square of the mean width of the contact over it */
     double steady_time;
     size_t iterations;
     double convolutions;
@@ -1310,11 +1312,11 @@ RC_API enum rc_status rc_heat_expect(const struct rc_shape *shape,
                                      struct rc_expected *expected, struct rc_err *err);
 /* Temperatures of the surfaces of two half-spaces due to the heat flux q of their contact, nx ny W/m2
  * (Jaeger 1942, J. Proc. R. Soc. N.S.W. 76, 203). They are exact at all speeds for a flux that is constant
- * in each cell, and on a periodic map for a band-limited flux. A profile, which has one row or one column,
- * continues across without end. rc_in_contact finds the contact from `contact`, a pressure or a map of 1
+ * in each cell along a free axis, and band-limited along an axis that repeats. rc_in_contact finds the contact from `contact`, a pressure or a map of 1
  * and 0; with NULL, contact is where q is not 0. Heat can flow from body to body only in contact. NULL
  * when q is not finite, or is not 0 out of contact; when no node is in contact; when there is no steady
- * state (periodic maps, profiles along which a body does not move); or when memory is short. */
+ * state (maps that repeat along both axes, or along one where a body that takes heat does not move along the
+ * other); or when memory is short. */
 RC_API struct rc_heat *rc_heat_new(const struct rc_shape *shape,
                                    const struct rc_heat_problem *problem, const double *q,
                                    const double *contact, struct rc_err *err);

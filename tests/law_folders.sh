@@ -34,7 +34,7 @@ libcontact/stress   | libcontact/body/line.h                   | libcontact/tran
 libcontact/stress   | libcontact/volume/volume.h               | libcontact/volume
 libcontact/fatigue  | %base                                    | libcontact libcontact/stress libcontact/body
 libcontact/heat     | %base libcontact/operator/operator.h     | libcontact libcontact/operator libcontact/transform libcontact/body libcontact/surface
-libcontact/heat     | libcontact/body/quadrature.h             | libcontact/body
+libcontact/heat     | libcontact/body/quadrature.h libcontact/body/line.h| libcontact/body
 libcontact/heat     | libcontact/pyramid/pyramid.h             | libcontact/pyramid
 libcontact/volume   | %base libcontact/operator/operator.h     | libcontact libcontact/ranks libcontact/operator libcontact/transform
 libcontact/yield    | libcontact/model/row.h                   | libcontact/model

@@ -54,7 +54,8 @@ static const struct opt opts[] = {
      .result = true, .arg = "T1,T2",
      .help = "temperatures of both bodies far from the contact, as in 20degC,60degC (default 0,0)"},
     {.name = "time", .type = OPT_NUMBER, .unit = UNIT_S, AT(time), ABOVE_0, .arg = "TIME",
-     .help = "time since heating began (default: steady state); a periodic map needs it"},
+     .help = "time since heating began (default: steady state); a map that repeats along both axes needs it, "
+             "and one that repeats along one axis where a body does not move along the other"},
     {.name = "time-steps", .type = OPT_COUNT, AT(time_steps), .min = 1, .max = 1000, .result = true,
      .arg = "N", .help = "steps of --time in which the shares of the bodies are found anew (default 1)"},
     {.name = "partition", .type = OPT_TEXT, AT(partition), .list = partitions, .result = true,
@@ -410,6 +411,11 @@ put_report(struct run *run, const struct rc_grid *g, const struct rc_heat_figure
     report_count(r, "threads", run->t.threads, NULL);
     report_value(r, "speed", run->speed);
     report_table(r, rc_figures("heat"), f);
+    if (rc_repeats(run->problem.boundary) == 1)
+        report_number(r, "heat_power_per_metre",
+                      f->heat_power /
+                          (run->problem.boundary.x ? (double)g->nx * g->dx : (double)g->ny * g->dy),
+                      "W/m");
     report_number(r, "tol", args.tol, NULL);
     report_effects(r, effects(run));
     report_seconds(r, (const struct report_phase[]){{NULL, 0}}, seconds);
@@ -467,6 +473,19 @@ judge(struct run *run, const struct rc_grid *g, const struct rc_heat_figures *f)
     }
 }
 
+/* Warns of a profile on a free boundary. */
+static void
+check_profile(struct run *run, const struct rc_grid *g)
+{
+    const bool row = g->ny == 1;
+
+    if ((g->nx > 1) != (g->ny > 1) && !rc_wraps(run->problem.boundary, row ? RC_Y : RC_X))
+        tool_warn(&run->t,
+                  "%s: this profile is heated as a strip %s wide: if it continues without end, "
+                  "set its boundary with rc-pick --set boundary=periodic-%c",
+                  tool_where(&run->t, g), shown_in_unit(row ? g->dy : g->dx, "m"), row ? 'y' : 'x');
+}
+
 static void
 show_plan(struct run *run, const struct rc_grid *g)
 {
@@ -493,6 +512,7 @@ do_case(struct run *run, struct rc_grid *g)
     struct rc_heat *h;
 
     run->problem.boundary = map_boundary(g);
+    check_profile(run, g);
     if (args.dry_run) {
         show_plan(run, g);
         return;

@@ -13,6 +13,8 @@ struct rc_lattice {
     size_t sx, sy; /* 1: at every node */
 };
 
+struct rc_line_at;
+
 enum {
     RC_ODD_X = 1, /* K(-x, y) = -K(x, y) */
     RC_ODD_Y = 2,
@@ -30,6 +32,9 @@ struct rc_kernel {
      * qy (rad/m, not both zero). It is divided by (-i)^(number of odd directions), and is then real, and odd
      * where the kernel is. NULL: it is not known. */
     double (*symbol)(const void *of, double qx, double qy);
+    /* rc_kernel_line of this kernel; NULL: the symbol is integrated. */
+    enum rc_status (*line)(const void *of, bool along_x, const struct rc_line_at *at, double *out,
+                           struct rc_err *err);
 };
 
 #endif

@@ -594,6 +594,8 @@ rc_kernel_line(const struct rc_kernel *kernel, bool along_x, const struct rc_lin
     const struct along a = {.kernel = kernel, .x = along_x, .wave = at->wave};
     const struct rc_line_source source = {1, (kernel->parity & along) != 0, kernel_symbols, &a};
 
+    if (kernel->line != NULL)
+        return kernel->line(kernel->of, along_x, at, out, err);
     return rc_line_coefficients(&source, at, &out, err);
 }
 

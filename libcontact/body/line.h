@@ -37,7 +37,7 @@ enum rc_status rc_line_coefficients(const struct rc_line_source *source,
                                     const struct rc_line_at *at, double *const out[],
                                     struct rc_err *err);
 
-/* The same for a kernel with a symbol. The free axis is x or y. */
+/* The same for a kernel. The free axis is x or y. */
 enum rc_status rc_kernel_line(const struct rc_kernel *kernel, bool along_x,
                               const struct rc_line_at *at, double *out, struct rc_err *err);
 /* The same for the stresses at a depth whose bit is set. Symbols count as 0 where q^2 + wave^2 > most^2,

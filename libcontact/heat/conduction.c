@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
- * Temperatures of maps of heat flux by Fourier transforms. A free map is padded; the coefficients are
- * transformed by their even and odd parts; a quarter of each part determines the whole. A periodic map needs
- * only the symbol.
+ * Temperatures of maps of heat flux by Fourier transforms. Free axes are padded; the coefficients are
+ * transformed along them by their even and odd parts; a quarter of each part determines the whole. A map that
+ * repeats along both axes needs only the symbol.
  */
 #include <stdlib.h>
 #include <string.h>
@@ -58,7 +58,6 @@ rc_conduction_new(const struct rc_shape *shape, struct rc_boundary boundary, siz
 
 /* ---- the spectrum of a body ---- */
 
-/* From C at (qx, qy) and (qx, -qy), where C(-q) is the conjugate of C(q). */
 static void
 sample(struct rc_warming *w, const struct rc_conduction *c, const struct rc_heated *body)
 {
@@ -68,16 +67,8 @@ sample(struct rc_warming *w, const struct rc_conduction *c, const struct rc_heat
 #pragma omp parallel for num_threads(c->threads) schedule(static)
     for (size_t i = 0; i < c->columns; i++)
         for (size_t j = 0; j < c->cy; j++) {
-            const double qx = rc_fft_qx(c->fft, i), qy = rc_fft_qy(c->fft, j);
-            const double complex on = rc_heat_symbol(&waves, qx, qy);
-            const double complex back =
-                w->part[RC_ODD_Y] == NULL ? on : rc_heat_symbol(&waves, qx, -qy);
-            const double part[RC_HEAT_PARTS] = {
-                [0] = creal(on + back) / 2,
-                [RC_ODD_X] = -cimag(on + back) / 2,
-                [RC_ODD_Y] = -cimag(on - back) / 2,
-                [RC_ODD_X | RC_ODD_Y] = -creal(on - back) / 2,
-            };
+            double part[RC_HEAT_PARTS];
+            rc_heat_symbol_parts(&waves, rc_fft_qx(c->fft, i), rc_fft_qy(c->fft, j), part);
             /* a wave of two nodes is 0 at all nodes in a direction in which the part is odd */
             for (unsigned k = 0; k < RC_HEAT_PARTS; k++)
                 if (w->part[k] != NULL)
@@ -96,7 +87,9 @@ transform(struct rc_warming *w, const struct rc_conduction *c, const struct rc_h
     RC_OWN(rc_spectrum, passing) = NULL;
 
     rc_fft_quarter(c->fft, &offsets.nx, &offsets.ny);
-    if ((cells = rc_heat_cells_new(&offsets, body, err)) == NULL ||
+    offsets.nx = c->boundary.x ? c->shape.nx : offsets.nx;
+    offsets.ny = c->boundary.y ? c->shape.ny : offsets.ny;
+    if ((cells = rc_heat_cells_new(&offsets, c->boundary, body, err)) == NULL ||
         (passing = rc_spectrum_new(c->fft, err)) == NULL)
         return RC_FAIL;
     for (unsigned k = 0; k < RC_HEAT_PARTS; k++) {

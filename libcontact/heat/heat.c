@@ -90,14 +90,18 @@ const struct rc_figure rc_figures_heat[] = {
 
 /* ---- the problem ---- */
 
-/* True if a body has a steady state: a map, or a profile (a row or a column) along which material comes.
- * A single node is a plane without edge. */
+/* True if body b has a temperature: the time is finite, no axis repeats, or the body moves along the free one. */
 static bool
-is_cooled(const struct rc_shape *shape, const double velocity[2])
+has_rise(const struct rc_heat_problem *p, int b)
 {
-    const bool row = shape->ny == 1, column = shape->nx == 1;
+    return p->time > 0 || rc_repeats(p->boundary) == 0 ||
+           (rc_repeats(p->boundary) == 1 && p->body[b].velocity[p->boundary.x ? 1 : 0] != 0);
+}
 
-    return (!row && !column) || (!column && velocity[0] != 0) || (!row && velocity[1] != 0);
+static bool
+takes_heat(const struct rc_heat_problem *p, int b)
+{
+    return p->partition != RC_HEAT_SHARE || p->share != (b == 0 ? 0 : 1);
 }
 
 /* of a cell; the quadrature of the coefficients grows with it, and they tend to those of a body without
@@ -126,11 +130,11 @@ check(const struct rc_shape *shape, const struct rc_heat_problem *p, struct rc_e
                               "velocity of body %d, %g and %g m/s: the Peclet number of a cell is "
                               "above %g: check the units of velocity, diffusivity and spacing",
                               b + 1, body->velocity[0], body->velocity[1], most_peclet);
-        if (rc_has_mean(p->boundary) && !(p->time > 0) && !is_cooled(shape, body->velocity))
+        if (rc_repeats(p->boundary) == 1 && takes_heat(p, b) && !has_rise(p, b))
             return rc_err_set(err,
-                              "body %d does not move along the profile, which has no end across: "
-                              "it becomes warmer without end: give a time",
-                              b + 1);
+                              "body %d does not move along %c, and the map repeats along %c: it "
+                              "becomes warmer without end: give a time",
+                              b + 1, p->boundary.x ? 'y' : 'x', p->boundary.x ? 'x' : 'y');
     }
     if (!(p->time >= 0) || isinf(p->time))
         return rc_err_set(err, "time %g s: it must be above 0, or 0 for the steady state", p->time);
@@ -144,17 +148,20 @@ check(const struct rc_shape *shape, const struct rc_heat_problem *p, struct rc_e
     return RC_OK;
 }
 
-/* Body b at a depth, `lag` time steps after one in which heat flows. */
+/* Body b at a depth, `lag` time steps after one in which heat flows. Along an axis that repeats after one node
+ * nothing changes, and motion has no effect. */
 static struct rc_heated
 heated(const struct rc_heat *h, int b, double depth, size_t lag)
 {
     const struct rc_heat_body *body = &h->problem.body[b];
     const double time = h->problem.time / (double)h->times.n;
+    const bool x = h->shape.nx > 1 || !rc_wraps(h->problem.boundary, RC_X);
+    const bool y = h->shape.ny > 1 || !rc_wraps(h->problem.boundary, RC_Y);
 
     return (struct rc_heated){
         .k = body->conductivity,
-        .px = h->shape.nx == 1 ? 0 : body->velocity[0] / (2 * body->diffusivity),
-        .py = h->shape.ny == 1 ? 0 : body->velocity[1] / (2 * body->diffusivity),
+        .px = x ? body->velocity[0] / (2 * body->diffusivity) : 0,
+        .py = y ? body->velocity[1] / (2 * body->diffusivity) : 0,
         .diffusion = time > 0 ? 2 * sqrt(body->diffusivity * time * (double)(lag + 1)) : INFINITY,
         .ended = 2 * sqrt(body->diffusivity * time * (double)lag),
         .depth = depth,
@@ -187,6 +194,40 @@ set_contact(struct rc_heat *h, const double *q, const double *contact, struct rc
     return RC_OK;
 }
 
+/* The length of a map that repeats along one axis, along this axis. */
+static double
+length_around(const struct rc_heat *h)
+{
+    return h->problem.boundary.x ? (double)h->shape.nx * h->shape.dx
+                                 : (double)h->shape.ny * h->shape.dy;
+}
+
+/* True if the largest patch joins itself around a map that repeats along one axis, as a line contact does. On
+ * two such maps beside each other it then has twice the area. */
+static enum rc_status
+is_band(const struct rc_heat *h, const double *contact, const struct rc_patch_options *options,
+        double area, bool *band, struct rc_err *err)
+{
+    const bool x = h->problem.boundary.x;
+    const size_t nx = h->shape.nx, ny = h->shape.ny, n = x ? nx : nx * ny;
+    const struct rc_shape two = {x ? 2 * nx : nx, x ? ny : 2 * ny, h->shape.dx, h->shape.dy};
+    RC_OWNED double *twice = NULL;
+    struct rc_patches patches;
+    enum rc_status status;
+
+    *band = false;
+    if (rc_repeats(h->problem.boundary) != 1)
+        return RC_OK;
+    if ((twice = rc_alloc(2 * nx * ny, sizeof *twice)) == NULL)
+        return rc_err_set(err, "out of memory for the contact of %zu x %zu nodes", nx, ny);
+    for (size_t k = 0; k < 2 * nx * ny; k++)
+        twice[k] = contact[k / n / 2 * n + k % n];
+    status = rc_patches_find(&two, twice, options, &patches, err);
+    *band = status == RC_OK && patches.patch[0].area > 1.5 * area;
+    rc_patches_free(&patches);
+    return status;
+}
+
 /* Figures that need no temperature. */
 static enum rc_status
 set_figures(struct rc_heat *h, const double *contact, struct rc_err *err)
@@ -197,12 +238,18 @@ set_figures(struct rc_heat *h, const double *contact, struct rc_err *err)
     struct rc_heat_figures *f = &h->figures;
     struct rc_patches patches;
 
-    double peclet[2], of_cell[2];
+    double peclet[2], of_cell[2], radius = 0;
+    bool band = false;
     enum rc_status status = rc_patches_find(&h->shape, contact, &options, &patches, err);
 
+    if (status == RC_OK)
+        status = is_band(h, contact, &options, patches.patch[0].area, &band, err);
+    if (status == RC_OK)
+        radius = band ? patches.patch[0].area / length_around(h) / 2
+                      : sqrt(patches.patch[0].area / RC_PI);
     for (int b = 0; b < 2 && status == RC_OK; b++) {
         const struct rc_heated p = heated(h, b, 0, 0);
-        peclet[b] = hypot(p.px, p.py) * sqrt(patches.patch[0].area / RC_PI);
+        peclet[b] = hypot(p.px, p.py) * radius;
         of_cell[b] = fmax(fabs(p.px) * h->shape.dx, fabs(p.py) * h->shape.dy);
     }
     if (status == RC_OK) {
@@ -211,22 +258,25 @@ set_figures(struct rc_heat *h, const double *contact, struct rc_err *err)
         f->cell_peclet_1 = of_cell[0];
         f->cell_peclet_2 = of_cell[1];
         f->heat_power = rc_sum(h->q, h->shape.nx * h->shape.ny) * h->shape.dx * h->shape.dy;
-        f->steady_time = patches.contact_area / fmin(body[0].diffusivity, body[1].diffusivity);
+        f->steady_time =
+            (band ? pow(patches.contact_area / length_around(h), 2) : patches.contact_area) /
+            fmin(body[0].diffusivity, body[1].diffusivity);
         f->share_charron = body[0].conductivity / (body[0].conductivity + body[1].conductivity);
     }
     rc_patches_free(&patches);
     return status;
 }
 
-/* The temperatures of body b at a depth, for each lag, in memory of `own`; NULL: *err says why. */
+/* The temperatures of body b at a depth, for each lag, in memory of `own`; NULL: *err says why. They are left
+ * 0 for a body that takes no heat and has no steady state. */
 static struct rc_warming *
 lags_new(const struct rc_heat *h, int b, double depth, struct rc_store *own, struct rc_err *err)
 {
-    struct rc_warming *lag = rc_store_take(own, h->times.n, sizeof *lag);
+    struct rc_warming *lag = rc_store_zeros(own, h->times.n, sizeof *lag);
 
     if (lag == NULL)
         return rc_err_null(err, "out of memory for %zu time steps", h->times.n);
-    for (size_t k = 0; k < h->times.n; k++) {
+    for (size_t k = 0; k < h->times.n && has_rise(&h->problem, b); k++) {
         const struct rc_heated body = heated(h, b, depth, k);
         if (rc_warming_set(&lag[k], own, h->c, &body, err) != RC_OK)
             return NULL;
@@ -359,25 +409,42 @@ largest(const size_t *node, size_t n, const double *map)
     return most;
 }
 
-/* Nodes in contact in a row through node k, along the faster direction of the body that moves faster. */
+/* Nodes in contact in a row through node k along this axis; all n of a row that joins itself. */
+static size_t
+nodes_along(const struct rc_heat *h, size_t k, enum rc_map_axis axis)
+{
+    const size_t nx = h->shape.nx, n = axis == RC_Y ? h->shape.ny : nx;
+    const size_t at = axis == RC_Y ? k / nx : k % nx, step = axis == RC_Y ? nx : 1;
+    const double *row = h->work + (k - at * step);
+    const bool wraps = rc_wraps(h->problem.boundary, axis);
+    size_t before = 0, after = 0;
+
+    while (before + 1 < n && (wraps || before < at) && row[(at + n - before - 1) % n * step] > 0)
+        before++;
+    while (before + after + 1 < n && (wraps || at + after + 1 < n) &&
+           row[(at + after + 1) % n * step] > 0)
+        after++;
+    return before + after + 1;
+}
+
+/* Nodes in contact in a row through node k, along the faster direction of the body that moves faster. A row
+ * that joins itself has no trailing edge; the row along the other axis then counts. */
 static size_t
 row_of_nodes(struct rc_heat *h, size_t k)
 {
     const struct rc_shape *s = &h->shape;
     const struct rc_heated one = heated(h, 0, 0, 0), two = heated(h, 1, 0, 0);
     const bool along_y = fmax(fabs(one.py), fabs(two.py)) > fmax(fabs(one.px), fabs(two.px));
-    const size_t step = along_y ? s->nx : 1, n = along_y ? s->ny : s->nx;
-    const size_t at = along_y ? k / s->nx : k % s->nx;
-    size_t first = at, last = at;
+    const enum rc_map_axis axis = along_y ? RC_Y : RC_X;
+    size_t count;
 
     memset(h->work, 0, s->nx * s->ny * sizeof *h->work);
     for (size_t i = 0; i < h->n; i++)
         h->work[h->node[i]] = 1;
-    while (first > 0 && h->work[k - (at - first + 1) * step] > 0)
-        first--;
-    while (last + 1 < n && h->work[k + (last + 1 - at) * step] > 0)
-        last++;
-    return last - first + 1;
+    count = nodes_along(h, k, axis);
+    return rc_wraps(h->problem.boundary, axis) && count == (along_y ? s->ny : s->nx)
+               ? nodes_along(h, k, along_y ? RC_X : RC_Y)
+               : count;
 }
 
 /* The share of body 1. Between bodies of different bulk temperatures more heat may cross than the contact
@@ -487,7 +554,10 @@ find_blok(struct rc_heat *h)
             field(h, &h->times.lag[b][k], true, h->rise[b]);
         most[b] = largest(h->node, h->n, h->rise[b]);
     }
-    h->figures.share_blok = most[0] + most[1] > 0 ? most[1] / (most[0] + most[1]) : NAN;
+    h->figures.share_blok =
+        has_rise(&h->problem, 0) && has_rise(&h->problem, 1) && most[0] + most[1] > 0
+            ? most[1] / (most[0] + most[1])
+            : NAN;
     h->scale = first[0] + first[1] > 0 ? first[0] * first[1] / (first[0] + first[1]) : 0;
     h->scale = fmax(h->scale, fabs(h->drop) / 2);
 }

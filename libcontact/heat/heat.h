@@ -16,6 +16,9 @@
 
 #include "libcontact/operator/operator.h"
 
+enum {
+    RC_HEAT_PARTS = 4 /* even and odd in x, and in y: the index is the parity */
+};
 /* A body, and where its temperature is wanted. */
 struct rc_heated {
     double k;         /* W/(m K)                                                     */
@@ -28,9 +31,10 @@ struct rc_heated {
 /* ---- coefficients.c: temperatures of cells ---- */
 
 struct rc_heat_cells;
-/* Coefficients of cells of this shape, for offsets up to nx - 1 and ny - 1 nodes. With nx = 1 or ny = 1 they
- * are those of strips without end along x or y. NULL when memory is short. */
-struct rc_heat_cells *rc_heat_cells_new(const struct rc_shape *offsets,
+/* Coefficients of cells of this shape, for offsets up to nx - 1 and ny - 1 nodes along axes that are free.
+ * Along an axis that repeats they are those of the waves of a map with nx or ny nodes. At least one axis is
+ * free. NULL when memory is short. */
+struct rc_heat_cells *rc_heat_cells_new(const struct rc_shape *offsets, struct rc_boundary boundary,
                                         const struct rc_heated *body, struct rc_err *err);
 void rc_heat_cells_free(struct rc_heat_cells *cells); /* NULL is allowed */
 RC_OWNER(rc_heat_cells)
@@ -53,14 +57,14 @@ struct rc_heat_waves {
 struct rc_heat_waves rc_heat_waves_of(const struct rc_heated *body);
 /* The transform of C at a wave number, rad/m. */
 double complex rc_heat_symbol(const struct rc_heat_waves *waves, double qx, double qy);
+/* The transforms of its parts, over (-i)^(number of odd directions). */
+void rc_heat_symbol_parts(const struct rc_heat_waves *waves, double qx, double qy,
+                          double part[RC_HEAT_PARTS]);
 /* exp(z^2) erfc(z), Re z >= 0 */
 double complex rc_scaled_erfc(const struct rc_heat_waves *waves, double complex z);
 
 /* ---- conduction.c: convolutions ---- */
 
-enum {
-    RC_HEAT_PARTS = 4 /* even and odd in x, and in y: the index is the parity */
-};
 /* The spectrum of C: its parts over (-i)^(number of odd directions); NULL: 0. */
 struct rc_warming {
     double *part[RC_HEAT_PARTS];
@@ -70,8 +74,8 @@ struct rc_conduction {
     struct rc_shape shape;
     struct rc_boundary boundary;
     int threads;
-    struct rc_frame frame;       /* of padding around a free map */
-    struct rc_fft *fft, *framed; /* framed: of the map with its frame; the same if periodic */
+    struct rc_frame frame;       /* of padding along the free axes */
+    struct rc_fft *fft, *framed; /* framed: of the map with its frame; the same if both repeat */
     size_t columns, length, cy; /* columns of waves; numbers in a column; rows of a quarter of it */
     double *waves;              /* transform of the loaded map                                    */
     size_t *wave;               /* for place t of a column: its row in the quarter                */

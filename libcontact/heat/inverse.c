@@ -2,7 +2,7 @@
 /*
  * An approximate inverse of C = C1 + C2 restricted to the nodes in contact: z = E' A E r. A is the
  * reciprocal of the spectrum of C on the padded map. E is the extension of pyramid/pyramid.h, which
- * decreases to 0 in a frame of padding where the map is free. The exact inverse has the same form, with the
+ * decreases to 0 in a frame of padding along the free axes. The exact inverse has the same form, with the
  * extensions whose heat off the contact is 0. Where E is 0 off the contact, the steps of the iteration grow
  * by 1.2 when the map has twice the nodes a side. With this E they hardly grow.
  */
@@ -26,7 +26,7 @@ struct rc_heat_inverse {
 
 struct decrease {
     struct rc_heat_waves body[2];
-    bool row, column; /* a profile along x, along y */
+    bool x, y; /* the map has waves along this axis */
 };
 
 /* The power a of the decrease C ~ q^-a, a mean over the directions. */
@@ -36,14 +36,14 @@ power(const void *of, double q)
     const struct decrease *d = of;
     double mean = 0;
 
-    for (int y = d->column; y < (d->row ? 1 : 2); y++) {
+    for (int y = !d->x; y < 1 + d->y; y++) {
         double size[2];
         for (int k = 0; k < 2; k++) {
             const double x = y == 0 ? (1 + k) * q : 0, across = y == 0 ? 0 : (1 + k) * q;
             size[k] = cabs(rc_heat_symbol(&d->body[0], x, across) +
                            rc_heat_symbol(&d->body[1], x, across));
         }
-        mean += log2(size[0] / size[1]) / (d->row || d->column ? 1 : 2);
+        mean += log2(size[0] / size[1]) / (d->x && d->y ? 2 : 1);
     }
     return mean;
 }
@@ -84,8 +84,8 @@ rc_heat_inverse_new(struct rc_conduction *c, const struct rc_heated bodies[2], s
     RC_OWN(rc_heat_inverse, e) = calloc(1, sizeof *e);
     const struct decrease decrease = {
         .body = {rc_heat_waves_of(&bodies[0]), rc_heat_waves_of(&bodies[1])},
-        .row = c->shape.ny == 1,
-        .column = c->shape.nx == 1 && c->shape.ny > 1};
+        .x = nx > 1 || c->shape.ny == 1,
+        .y = c->shape.ny > 1};
     struct rc_pyramid_base base = {
         .shape = c->shape, .count = 1, .boundary = c->boundary, .threads = c->threads};
 

@@ -70,3 +70,19 @@ rc_heat_symbol(const struct rc_heat_waves *w, double qx, double qy)
 
     return after(w, qx, qy, w->body.diffusion / 2) - (ended > 0 ? after(w, qx, qy, ended / 2) : 0);
 }
+
+/* From C at (qx, qy) and (qx, -qy), where C(-q) is the conjugate of C(q). */
+void
+rc_heat_symbol_parts(const struct rc_heat_waves *w, double qx, double qy,
+                     double part[RC_HEAT_PARTS])
+{
+    const double complex on = rc_heat_symbol(w, qx, qy);
+    const double complex back = w->body.py == 0   ? on
+                                : w->body.px == 0 ? conj(on)
+                                                  : rc_heat_symbol(w, qx, -qy);
+
+    part[0] = creal(on + back) / 2;
+    part[RC_ODD_X] = -cimag(on + back) / 2;
+    part[RC_ODD_Y] = -cimag(on - back) / 2;
+    part[RC_ODD_X | RC_ODD_Y] = -creal(on - back) / 2;
+}

@@ -332,7 +332,8 @@ find_spectra(struct own *w, double sign, int threads, struct rc_err *err)
     else if (passing != NULL)
         status = find_coefficients(w, threads, part, err);
     for (int k = 0; k < 3 && status == RC_OK; k++) {
-        const struct rc_kernel kernel = {w, k == 1 ? RC_ODD_X : 0, part_rows, NULL};
+        const struct rc_kernel kernel = {
+            .of = w, .parity = k == 1 ? RC_ODD_X : 0, .rows = part_rows};
         w->part = part[k];
         status = rc_spectrum_set_by(passing, w->fft, &kernel, RC_FREE, rc_keep_column, to[k], err);
     }

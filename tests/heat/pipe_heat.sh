@@ -73,6 +73,32 @@ claim "  and so do the tools that take it" test "${PIPESTATUS[*]}" = "3 3"
 near "$(column heat_power t.tsv)" "$(awk -F'\t' 'NR == 1 { for (k = 1; k <= NF; k++) if ($k == "dissipated_energy/J") c = k }
     NR > 3 { sum += $c } END { printf "%.12g", 50 * sum }' loop.tsv)" 1e-9 "fretting: frequency times the energy of a cycle"
 
+# a roller: 1.11 mu P' (sqrt V1 - sqrt V2)/sqrt(k rho c)/sqrt(2 a) (Blok 1937), a^2 = 4 P' R/(pi E*)
+rc-synth cylinder --radius 10mm --nx 256 --ny 8 --dx 2um --direction 90 -o roller.rcg
+rc-solve --quiet --periodic=y --load 1e5N/m --estar 114GPa --output pressure -o line.rcg roller.rcg
+moves="--mu 0.05 --moving 10m/s,9m/s --tol 1e-8 $steel"
+rc-heat --quiet $moves --report roller.json -o roller-hot.rcg line.rcg
+near "$(field max_temperature roller.json)" "$(awk 'BEGIN { a = sqrt(4 * 1e5 * 0.01 / (3.14159265 * 114e9))
+    print 1.11 * 0.05 * 1e5 * (sqrt(10) - 3) / (45 / sqrt(1.2e-5)) / sqrt(2 * a) }')" "$coarse_grid" "a roller: Blok's flash temperature"
+near "$(field heat_power_per_metre roller.json)" 5000 1e-9 "  its heat per length: mu P' V"
+near "$(field peclet_1 roller.json)" "$(awk 'BEGIN { print 10 * sqrt(4e3 / (3.14159265 * 114e9)) / 2.4e-5 }')" "$coarse_grid" "  the Peclet number has half the width"
+rc-synth cylinder --radius 10mm --nx 8 --ny 256 --dx 2um --direction 0 | rc-solve --quiet --periodic=x --load 1e5N/m --estar 114GPa --output pressure |
+    rc-heat --quiet --mu 0.05 --moving 2 --speed 0,2m/s $steel --time 1ms --report turned.json -o turned.rcg
+rc-heat --quiet --mu 0.05 --moving 2 --speed 2m/s $steel --time 1ms --report straight.json -o straight.rcg line.rcg
+near "$(field max_temperature turned.json)" "$(field max_temperature straight.json)" 1e-6 "  turned, with a body at rest and a time"
+rc-pick --quiet --crop 0,3,256,1 --set boundary=periodic-y line.rcg -o row.rcg
+rc-heat --quiet $moves --report row.json -o row-hot.rcg row.rcg
+for name in max_temperature share_1 peclet_2 steady_time heat_power_per_metre hot_nodes; do
+    near "$(field $name row.json)" "$(field $name roller.json)" 1e-6 "  one row of it: $name"
+done
+rc-pick --quiet --set boundary=free row.rcg -o alone.rcg
+claim "  on a free boundary a row is a strip" warns 'heated as a strip 2 um wide: .* rc-pick --set boundary=periodic-y' rc-heat $moves -o alone-hot.rcg alone.rcg
+claim "    at rest too" rc-heat --quiet --mu 0.05 --speed 1m/s $steel -o alone-hot.rcg alone.rcg
+refuses 1 "body 1 does not move along x, and the map repeats along y: it becomes warmer without end: give a time" "a roller on a body at rest" \
+    "rc-heat --mu 0.05 --speed 1m/s $steel -o never.rcg line.rcg"
+refuses 1 "body 1 does not move along x" "  both move along the roller" "rc-heat --mu 0.05 --speed 0,1m/s $steel -o never.rcg line.rcg"
+claim "  the body that takes all heat moves" rc-heat --quiet --mu 0.05 --speed 1m/s --partition 0 $steel -o one.rcg line.rcg
+
 heat="rc-heat --mu 0.3 --speed 1 $steel -o never.rcg"
 refuses 2 "one of --diffusivity and --heat-capacity" "no diffusivity" "rc-heat --mu 0.3 --speed 1 --conductivity 45,45 ball.rcg"
 refuses 2 "two numbers, for body 1 and body 2" "one diffusivity" "rc-heat --mu 0.3 --speed 1 --conductivity 45,45 --diffusivity 1e-5 ball.rcg"

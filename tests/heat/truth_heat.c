@@ -148,7 +148,7 @@ coefficients(void **state)
         for (size_t a = 0; a < sizeof turned / sizeof *turned; a++) {
             const struct rc_heated body = {
                 1, peclet[p] * cos(turned[a]), peclet[p] * sin(turned[a]), INFINITY, 0, 0};
-            struct rc_heat_cells *cells = rc_heat_cells_new(&shape, &body, NULL);
+            struct rc_heat_cells *cells = rc_heat_cells_new(&shape, RC_FREE, &body, NULL);
             double self = exact_cell(0, 0, at.dx, at.dy, body.px, body.py);
             for (size_t k = 0; k < sizeof offset / sizeof *offset; k++) {
                 const int i = offset[k][0], j = offset[k][1];
@@ -175,7 +175,7 @@ ended(void **state)
                 for (int k = 0; k < 3; k++) {
                     const struct rc_heated body = {
                         1, p, -p / 2, k == 0 ? 0.7 * end : end, k == 2 ? 0.7 * end : 0, 0.3};
-                    struct rc_heat_cells *cells = rc_heat_cells_new(&shape, &body, NULL);
+                    struct rc_heat_cells *cells = rc_heat_cells_new(&shape, RC_FREE, &body, NULL);
                     found[k] = coefficient(cells, &at, i, 1);
                     rc_heat_cells_free(cells);
                 }
@@ -191,7 +191,7 @@ section(double z, const double *with)
     const struct rc_heated body = {1, with[0], 0, INFINITY, 0, z};
     const struct rc_lattice at = {1, 1, 1, 1};
     const struct rc_shape shape = {OFFSETS, OFFSETS, 1, 1};
-    struct rc_heat_cells *cells = rc_heat_cells_new(&shape, &body, NULL);
+    struct rc_heat_cells *cells = rc_heat_cells_new(&shape, RC_FREE, &body, NULL);
     double sum = 0;
 
     for (int j = 1 - OFFSETS; j < OFFSETS; j++)
@@ -282,12 +282,13 @@ make_source(int kind, struct source *s)
 }
 
 /* The largest temperature over q a/k of a body that takes all heat, at a time (0: steady), and its place
- * over the radius. */
+ * over the radius. A profile repeats across. */
 static double
 largest(const struct rc_shape *shape, const double *q, double half, double peclet, double time,
         double *place)
 {
     const struct rc_heat_problem problem = {
+        .boundary = rc_boundary_of(false, shape->ny == 1),
         .body = {{1, 1, {1, 0}, 0}, {1, 1, {2 * peclet / half, 0}, 0}},
         .partition = RC_HEAT_SHARE,
         .share = 0,
