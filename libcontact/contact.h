@@ -402,9 +402,10 @@ RC_API enum rc_status rc_solver_keep_shape(struct rc_solver *solver,
  * h itself) and its mean; no pressure, no displacement. `ranks`: processes that share the map; NULL: none. */
 RC_API void rc_contact_apart(const struct rc_ranks *ranks, const struct rc_shape *shape,
                              const double *h, double *gap, struct rc_contact *contact);
-/* d load / d approach, N/m, at the solution, after rc_solver_result: the increase of the load of the elastic
- * nodes while no node joins or leaves. NAN when none is elastic, where a periodic surface is in complete
- * contact, and where the datum lies so near that the approach does not grow with the load. Takes 10 to 20 convolutions; RC_FAIL when memory is short. */
+/* d load / d approach, N/m, at the solution, after rc_solver_result: the increase of the load of the
+ * elastic nodes while no node joins or leaves. NAN when none is elastic, where a periodic surface is in
+ * complete contact, and where the datum lies so near that the approach does not grow with the load.
+ * Takes 10 to 20 convolutions; RC_FAIL when memory is short. */
 RC_API enum rc_status rc_solver_stiffness(struct rc_solver *solver, double *stiffness,
                                           struct rc_err *err);
 /* Conductance of heat or electric current from one body to the other, by Barber's analogy (Proc. R. Soc. A
@@ -420,9 +421,9 @@ struct rc_conductance {
     /* lower bound for these nodes; its difference from `value` shows the accuracy */
     double lower;
 };
-/* Call it at the solution, after rc_solver_result. NAN for layered bodies, to which the analogy does not
- * apply, and where rc_solver_stiffness would be NAN for its nodes. Takes 10 to 20 convolutions; RC_FAIL when a
- * conductivity is not positive and finite, and when memory is short. */
+/* Call it at the solution, after rc_solver_result. NAN for layered bodies, to which the analogy does
+ * not apply, and where rc_solver_stiffness would be NAN for its nodes. Takes 10 to 20 convolutions;
+ * RC_FAIL when a conductivity is not positive and finite, and when memory is short. */
 RC_API enum rc_status rc_solver_conductance(struct rc_solver *solver, double k1, double k2,
                                             struct rc_conductance *conductance, struct rc_err *err);
 /* Names of engine and method, and the reason for the engine. */
@@ -1311,12 +1312,12 @@ RC_API enum rc_status rc_heat_expect(const struct rc_shape *shape,
                                      const struct rc_heat_problem *problem, size_t depths,
                                      struct rc_expected *expected, struct rc_err *err);
 /* Temperatures of the surfaces of two half-spaces due to the heat flux q of their contact, nx ny W/m2
- * (Jaeger 1942, J. Proc. R. Soc. N.S.W. 76, 203). They are exact at all speeds for a flux that is constant
- * in each cell along a free axis, and band-limited along an axis that repeats. rc_in_contact finds the contact from `contact`, a pressure or a map of 1
- * and 0; with NULL, contact is where q is not 0. Heat can flow from body to body only in contact. NULL
- * when q is not finite, or is not 0 out of contact; when no node is in contact; when there is no steady
- * state (maps that repeat along both axes, or along one where a body that takes heat does not move along the
- * other); or when memory is short. */
+ * (Jaeger 1942, J. Proc. R. Soc. N.S.W. 76, 203). They are exact at all speeds for a flux that is
+ * constant in each cell along a free axis, and band-limited along an axis that repeats. rc_in_contact
+ * finds the contact from `contact`, a pressure or a map of 1 and 0; with NULL, contact is where q is
+ * not 0. Heat can flow from body to body only in contact. NULL when q is not finite, or is not 0 out of
+ * contact; when no node is in contact; when there is no steady state (maps that repeat along both axes,
+ * or along one where a body that takes heat does not move along the other); or when memory is short. */
 RC_API struct rc_heat *rc_heat_new(const struct rc_shape *shape,
                                    const struct rc_heat_problem *problem, const double *q,
                                    const double *contact, struct rc_err *err);
@@ -1422,23 +1423,24 @@ RC_API enum rc_status rc_stress_check(const struct rc_shape *shape,
  * adds this fraction of the memory of the transforms. */
 RC_API double rc_stress_coarser(const struct rc_shape *shape,
                                 const struct rc_stress_options *options);
-/* Suitable depths from 0 down for the stresses under this pressure, *n of them in an array that the caller
- * frees. They are close together near the surface, where short waves matter, and farther apart below. They
- * end at three contact radii (free), at six half-widths (one axis repeats), or where the waves have decayed to
- * 1 % (periodic). Their distance is a quarter of 1/q of the RMS wave, and in a layer at most a quarter of its
- * thickness. Each interface gets two depths, itself and one a millionth deeper; none is in a rigid half-space.
- * Among ranks (NULL: none) p is the rows held here. RC_FAIL, and NULL for the depths, when memory is short. */
+/* Suitable depths from 0 down for the stresses under this pressure, *n of them in an array that the
+ * caller frees. They are close together near the surface, where short waves matter, and farther apart
+ * below. They end at three contact radii (free), at six half-widths (one axis repeats), or where the
+ * waves have decayed to 1 % (periodic). Their distance is a quarter of 1/q of the RMS wave, and in a
+ * layer at most a quarter of its thickness. Each interface gets two depths, itself and one a millionth
+ * deeper; none is in a rigid half-space. Among ranks (NULL: none) p is the rows held here. RC_FAIL, and
+ * NULL for the depths, when memory is short. */
 RC_API enum rc_status rc_stress_depths(const struct rc_ranks *ranks, const struct rc_shape *shape,
                                        const double *p, struct rc_boundary boundary,
                                        const struct rc_body *body, double **depths, size_t *n,
                                        struct rc_err *err);
-/* Stresses under the pressure p (Pa) in a half-space. The pressure is constant in each cell along a free
- * axis, and band-limited along one that repeats. On a periodic map its mean gives szz = -p, sxz = -mu p (with
- * maps of traction minus their means) and sxx = syy = -(1 + 2 nu) p / 2 at every depth. This is the limit for
- * a loaded patch that grows without end. A layered body has sxx and syy of the half-space below, whose strains
- * along the surface the layers share. If only the axis along a section repeats, stresses between two lines of
- * nodes are interpolated. NULL when an option is out of range, there is no such engine or none for the boundary
- * or the section, or memory is short. */
+/* Stresses under the pressure p (Pa) in a half-space. The pressure is constant in each cell along a
+ * free axis, and band-limited along one that repeats. On a periodic map its mean gives szz = -p, sxz =
+ * -mu p (with maps of traction minus their means) and sxx = syy = -(1 + 2 nu) p / 2 at every depth.
+ * This is the limit for a loaded patch that grows without end. A layered body has sxx and syy of the
+ * half-space below, whose strains along the surface the layers share. If only the axis along a section
+ * repeats, stresses between two lines of nodes are interpolated. NULL when an option is out of range,
+ * there is no such engine or none for the boundary or the section, or memory is short. */
 RC_API struct rc_stress *rc_stress_new(const struct rc_shape *shape, const double *p,
                                        const struct rc_stress_options *options, struct rc_err *err);
 /* Number of values of a component at one depth: nx ny for maps, nx for the section y = at, ny for x = at. */
@@ -1499,11 +1501,12 @@ RC_API enum rc_status rc_fatigue_history(unsigned wanted, const struct rc_fatigu
                                          double values[RC_FATIGUES], struct rc_err *err);
 
 /* Histories below a map. With `pass`, the pressure travels with the contact over a body of uniform
- * properties: each point of a row along that axis sees all stresses of the row, and has one result. Otherwise
- * each case is the pressure at a position of the contact, and each node of the body has a result. If the map is
- * free along the travel, which is along x for cases, the unloaded state belongs to each history, and a node
- * outside the map of a case is unloaded. Otherwise nothing is added, and columns wrap around. A contact that
- * stays is unloaded before and after the cases, unless the map repeats along both axes. */
+ * properties: each point of a row along that axis sees all stresses of the row, and has one result.
+ * Otherwise each case is the pressure at a position of the contact, and each node of the body has a
+ * result. If the map is free along the travel, which is along x for cases, the unloaded state belongs
+ * to each history, and a node outside the map of a case is unloaded. Otherwise nothing is added, and
+ * columns wrap around. A contact that stays is unloaded before and after the cases, unless the map
+ * repeats along both axes. */
 struct rc_fatigue_problem {
     /* Its members wanted, section and traction are ignored; no ranks, no strain. */
     struct rc_stress_options stress;

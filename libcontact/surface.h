@@ -200,13 +200,14 @@ RC_API enum rc_status rc_resample_shape(const struct rc_shape *from, double dx, 
  * that repeats along it still does then. */
 RC_API bool rc_resample_covers(const struct rc_shape *from, const struct rc_shape *to,
                                enum rc_map_axis axis);
-/* v on the grid `to`, with the same middle. Along an axis with larger cells: means over their area, missing
- * (NaN) where less than half of it is measured. Along an axis with smaller cells it is cubic convolution with
- * six nodes (Keys 1981), exact for cubic polynomials and smooth to the first derivative. It wraps along an
- * axis that repeats; along a free axis a parabola extrapolates the map. Near a missing value it is bilinear, closer constant
- * in the old cell, and missing in a missing cell. Equal cells are copied. v and out do not overlap. RC_FAIL
- * when `to` exceeds the map or memory is short. The memory is another map if one axis becomes coarser and the
- * other finer, otherwise a few rows. */
+/* v on the grid `to`, with the same middle. Along an axis with larger cells: means over their area,
+ * missing (NaN) where less than half of it is measured. Along an axis with smaller cells it is cubic
+ * convolution with six nodes (Keys 1981), exact for cubic polynomials and smooth to the first
+ * derivative. It wraps along an axis that repeats; along a free axis a parabola extrapolates the map.
+ * Near a missing value it is bilinear, closer constant in the old cell, and missing in a missing cell.
+ * Equal cells are copied. v and out do not overlap. RC_FAIL when `to` exceeds the map or memory is
+ * short. The memory is another map if one axis becomes coarser and the other finer, otherwise a few
+ * rows. */
 RC_API enum rc_status rc_resample(const struct rc_shape *from, const double *v,
                                   struct rc_boundary boundary, const struct rc_shape *to,
                                   double *out, struct rc_err *err);
@@ -217,10 +218,10 @@ RC_API enum rc_status rc_crop(const struct rc_shape *from, const double *v, size
                               const struct rc_shape *to, double *out, struct rc_err *err);
 /* Reverses left and right (axis 'x') or top and bottom ('y'), in place. */
 RC_API void rc_mirror(const struct rc_shape *shape, char axis, double *v);
-/* Reflection along the axes that `along` repeats: the map is in the upper left, with its images about the
- * right edge (x) and the lower edge (y). This is a period without steps along these axes. A side of one node
- * is not reflected. Rotation: quarter turns counterclockwise, row 0 at the top. *_shape: the resulting shape (an odd number of turns exchanges rows and
- * columns). v and out do not overlap. */
+/* Reflection along the axes that `along` repeats: the map is in the upper left, with its images about
+ * the right edge (x) and the lower edge (y). This is a period without steps along these axes. A side of
+ * one node is not reflected. Rotation: quarter turns counterclockwise, row 0 at the top. *_shape: the
+ * resulting shape (an odd number of turns exchanges rows and columns). v and out do not overlap. */
 RC_API struct rc_shape rc_reflect_shape(const struct rc_shape *from, struct rc_boundary along);
 RC_API void rc_reflect(const struct rc_shape *from, const double *v, struct rc_boundary along,
                        double *out);

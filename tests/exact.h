@@ -79,8 +79,8 @@ hertz_displacement(struct hertz h, double estar, double r)
            ((2 * a * a - r * r) * asin(a / r) + r * a * sqrt(1 - a * a / (r * r)));
 }
 
-/* Cylinder of composite radius R under a load per length (Johnson 1985, sections 4.2 and 5.6): half width, peak
- * pressure, and the approach of a point at the distance `datum`. */
+/* Cylinder of composite radius R under a load per length (Johnson 1985, sections 4.2 and 5.6): half
+ * width, peak pressure, and the approach of a point at the distance `datum`. */
 static inline struct hertz
 hertz_line(double load, double radius, double estar, double datum)
 {
@@ -199,8 +199,8 @@ point_stress(bool shear, double nu, double x, double y, double z, double s[6])
         s[k] *= scale;
 }
 
-/* Loads on the surface that are uniform along y: for the profile f(s), the integral of f(s)/(w - s) over s and
- * its derivative, w = x + i z. */
+/* Loads on the surface that are uniform along y: for the profile f(s), the integral of f(s)/(w - s)
+ * over s and its derivative, w = x + i z. */
 struct line_load {
     double z;
     double complex of, d;
@@ -232,9 +232,9 @@ roller_load(double a, double x)
     return a / 2 * (exact_pi / 2 + asin(t) + t * sqrt(1 - t * t));
 }
 
-/* Adds weight times its stresses, in plane or antiplane strain: of a pressure (load 0), of a traction along x
- * (1) or y (2). They are integrals of those of a force on a line (Flamant; Johnson 1985, eqs. 2.15, 2.17), sxx =
- * -2/pi z x^2/r^4, szz = -2/pi z^3/r^4 and so on. */
+/* Adds weight times its stresses, in plane or antiplane strain: of a pressure (load 0), of a traction
+ * along x (1) or y (2). They are integrals of those of a force on a line (Flamant; Johnson 1985, eqs.
+ * 2.15, 2.17), sxx = -2/pi z x^2/r^4, szz = -2/pi z^3/r^4 and so on. */
 static inline void
 line_load_stress(int load, double nu, struct line_load f, double weight, double s[6])
 {

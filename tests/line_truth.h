@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Displacements, times E* or the like, by a wave along one axis on a cell along the other: integrals of closed
- * forms and of symbols, by GSL. */
+/* Displacements, times E* or the like, by a wave along one axis on a cell along the other: integrals of
+ * closed forms and of symbols, by GSL. */
 #ifndef LINE_TRUTH_H
 #define LINE_TRUTH_H
 

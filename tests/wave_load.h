@@ -37,9 +37,9 @@ add_points(double nu, double d, double x, double y, double z, const double *u, c
     }
 }
 
-/* The stresses of a uniform body at (x, z) under a load that is 1 on a cell |x| < d/2 and cos(wave y) along y,
- * for x >= 0 and x >= d/2 or z not much below d/2: the amplitude of cos(wave y), or of sin(wave y) for kernels
- * odd in y. */
+/* The stresses of a uniform body at (x, z) under a load that is 1 on a cell |x| < d/2 and cos(wave y)
+ * along y, for x >= 0 and x >= d/2 or z not much below d/2: the amplitude of cos(wave y), or of
+ * sin(wave y) for kernels odd in y. */
 static inline void
 wave_load_stress(double nu, double d, double wave, double x, double z,
                  double sum[RC_STRESS_KERNELS])

@@ -285,8 +285,8 @@ go_on(struct rc_retraction *r)
     return true;
 }
 
-/* True if no later load is lower. Where the contact opens at the lowest load, the attraction is minus the load
- * at once; the minimum then lies before this state, and one more state shows it. */
+/* True if no later load is lower. Where the contact opens at the lowest load, the attraction is minus
+ * the load at once; the minimum then lies before this state, and one more state shows it. */
 static bool
 is_over(struct rc_retraction *r, const struct rc_retraction_state *here)
 {

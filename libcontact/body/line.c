@@ -195,8 +195,8 @@ sum_tails(struct line *l)
 /* Eight waves: the sums of several stay in registers, which plain loops do not achieve. */
 typedef double vector __attribute__((vector_size(64), aligned(8)));
 
-/* Adds sin(q d/2) times the series of terms of one parity, by Clenshaw's recurrence, T_(n+4) = 2 T_2 T_(n+2) -
- * T_n, to the symbols times their factors. */
+/* Adds sin(q d/2) times the series of terms of one parity, by Clenshaw's recurrence, T_(n+4) = 2 T_2
+ * T_(n+2) - T_n, to the symbols times their factors. */
 RC_WIDE_CLONES static void
 add_series(size_t n, const double *restrict c, int terms, bool odd_terms,
            const struct comb *restrict comb, double *restrict v)

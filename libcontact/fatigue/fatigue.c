@@ -62,8 +62,8 @@ struct rc_fatigue {
 
 /* ---- shapes ---- */
 
-/* Before and after it passes along a free axis, a contact does not load the body; neither before and after the
- * loads of a contact that stays, unless the map repeats along both axes. */
+/* Before and after it passes along a free axis, a contact does not load the body; neither before and
+ * after the loads of a contact that stays, unless the map repeats along both axes. */
 static size_t
 unloaded_states(const struct rc_fatigue_problem *p)
 {

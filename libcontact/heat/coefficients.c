@@ -86,8 +86,8 @@ across(const struct rc_heat_cells *c)
     return c->boundary.y ? c->waves.body.py : c->waves.body.px;
 }
 
-/* True if a wave is steady on the map at sqrt(4 kap t) = T, within rounding: nothing of its first heat remains,
- * or what remains has left. */
+/* True if a wave is steady on the map at sqrt(4 kap t) = T, within rounding: nothing of its first heat
+ * remains, or what remains has left. */
 static bool
 is_steady(const struct rc_heat_cells *c, double wave, double end)
 {
@@ -194,8 +194,8 @@ add_panels(struct rc_heat_cells *c, const struct rc_shape *s)
 
 /* ---- factors ---- */
 
-/* X or Y at node i. In the wake of a slow strip d is so small beside tau that the difference of erf is lost; the
- * terms of a series are left then. */
+/* X or Y at node i. In the wake of a slow strip d is so small beside tau that the difference of erf is
+ * lost; the terms of a series are left then. */
 static double
 at_node(const struct rc_heat_cells *c, double i, double d, double p, double tau)
 {

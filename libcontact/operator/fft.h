@@ -100,11 +100,11 @@ void rc_spectrum_add(struct rc_spectrum *spectrum, const struct rc_fft *fft, boo
 /* Kernels of rc_fft_fields. Unless both axes repeat, a kernel is given by a quarter of its period, its
  * values at the offsets i < *nx, j < *ny; along an axis that repeats, waves take the place of offsets.
  * rc_fft_quarter_line transforms a line of each of `count` kernels along the first free axis, x or y;
- * lines[k] is odd where bit k of `odd` is set, or NULL. Any thread of one OpenMP team calls it, for every
- * line whose transform is not known. Ranks compute rows *first .. *first + *n - 1 each. When all rows are transformed, rc_fft_quarter_turn exchanges the
- * rows held here for columns, within rc_fft_quarter_size numbers: the columns of rc_fft_columns, with
- * rc_fft_quarter_wide numbers from row to row. It fails when memory is short, which cannot happen without
- * ranks. */
+ * lines[k] is odd where bit k of `odd` is set, or NULL. Any thread of one OpenMP team calls it, for
+ * every line whose transform is not known. Ranks compute rows *first .. *first + *n - 1 each. When all
+ * rows are transformed, rc_fft_quarter_turn exchanges the rows held here for columns, within
+ * rc_fft_quarter_size numbers: the columns of rc_fft_columns, with rc_fft_quarter_wide numbers from row
+ * to row. It fails when memory is short, which cannot happen without ranks. */
 void rc_fft_quarter(const struct rc_fft *fft, size_t *nx, size_t *ny);
 void rc_fft_quarter_rows(const struct rc_fft *fft, size_t *first, size_t *n);
 size_t rc_fft_quarter_size(const struct rc_fft *fft);

@@ -478,11 +478,12 @@ slope_at(const struct rc_kernel *kernel, bool along_x, double q)
     return q / RC_PI * kernel->symbol(kernel->of, along_x ? q : 0, along_x ? 0 : q);
 }
 
-/* A line load of 1 N/m displaces by -2 ln(x / datum) / (pi E*) far away, where E* is that of the longest waves;
- * on a rigid base the displacement has a limit, and no datum matters. The datum of K is the length of the map,
- * or so much larger that K is not negative on the map: under a stiff coat that is thicker than the map it is
- * about the thickness. `far`: what the datum of the problem adds. With the nearest datum K is 0 at a quarter of
- * the map, and a load on a rigid strip as wide as the map does not move it. */
+/* A line load of 1 N/m displaces by -2 ln(x / datum) / (pi E*) far away, where E* is that of the
+ * longest waves; on a rigid base the displacement has a limit, and no datum matters. The datum of K is
+ * the length of the map, or so much larger that K is not negative on the map: under a stiff coat that
+ * is thicker than the map it is about the thickness. `far`: what the datum of the problem adds. With
+ * the nearest datum K is 0 at a quarter of the map, and a load on a rigid strip as wide as the map does
+ * not move it. */
 static enum rc_status
 set_datum(struct own *s, const struct rc_shape *shape, double datum, struct rc_boundary *boundary,
           struct rc_err *err)

@@ -205,8 +205,8 @@ fix_and_solve(struct system *c, bool touching, double sum[3])
     return moving;
 }
 
-/* The stiffness, N/m, for the datum of the problem, from that for the datum of K. NAN where the datum lies among
- * the nodes that move, so that the approach does not grow with the load. */
+/* The stiffness, N/m, for the datum of the problem, from that for the datum of K. NAN where the datum
+ * lies among the nodes that move, so that the approach does not grow with the load. */
 static double
 to_datum(const struct rc_solver *s, double stiffness)
 {

@@ -507,17 +507,18 @@ size_block(void *at, size_t first, size_t n, double *sums)
            s->z + first, sums);
 }
 
-/* The energy of z is at least that of the error, but its L1 norm can be smaller. Where few waves carry the
- * error some of them can cancel. Maps have many waves, profiles have few. For 2212 periodic profiles the norm
- * of z was 0.982 to 2.2 of the error. It was 0.96 to 1.11 for 512 free ones, and 0.74 under coatings with
- * five elastic nodes. Where nearly all loaded nodes yield, there are as few waves as elastic nodes, and one
- * of those may be wrong. For 955 such contacts with 1 to 13 elastic nodes the norm of z was up to 33 of the
- * error. The smallest was 0.63 (one elastic node) and 0.89 (three). With a diagonal term E' A E is nearly
- * exact. For 1200 small maps the norm was 0.9998 to 1.8 of the error, half of them below 1.02. Where D
- * differs by node, by a factor of 2 to 100 or from 0 on, it was 0.51 to 2 of the error of 400 small maps. It
- * was below 1 for a tenth of them. Where rows move, it was at least 0.82 of the error of 667 small maps. Maps
- * that repeat along one axis may hold few waves, too. For 17000 such maps, rough or of nearly equal rows, bare
- * or coated, the norm was 0.957 of the error or more, and 0.92 with five elastic nodes. */
+/* The energy of z is at least that of the error, but its L1 norm can be smaller. Where few waves carry
+ * the error some of them can cancel. Maps have many waves, profiles have few. For 2212 periodic
+ * profiles the norm of z was 0.982 to 2.2 of the error. It was 0.96 to 1.11 for 512 free ones, and 0.74
+ * under coatings with five elastic nodes. Where nearly all loaded nodes yield, there are as few waves
+ * as elastic nodes, and one of those may be wrong. For 955 such contacts with 1 to 13 elastic nodes the
+ * norm of z was up to 33 of the error. The smallest was 0.63 (one elastic node) and 0.89 (three). With
+ * a diagonal term E' A E is nearly exact. For 1200 small maps the norm was 0.9998 to 1.8 of the error,
+ * half of them below 1.02. Where D differs by node, by a factor of 2 to 100 or from 0 on, it was 0.51
+ * to 2 of the error of 400 small maps. It was below 1 for a tenth of them. Where rows move, it was at
+ * least 0.82 of the error of 667 small maps. Maps that repeat along one axis may hold few waves, too.
+ * For 17000 such maps, rough or of nearly equal rows, bare or coated, the norm was 0.957 of the error
+ * or more, and 0.92 with five elastic nodes. */
 static double
 caution(const struct rc_solver *s)
 {

@@ -211,8 +211,8 @@ wave_number(const struct bins *b, double z, double *left)
     return below > 0 ? sqrt(above / below) : 0;
 }
 
-/* Radius of the Hertzian contact with the same second moment, 2 a^2 / 5; if one axis repeats, half of the width
- * of the roller's contact with the same second moment along the other, a^2 / 4. */
+/* Radius of the Hertzian contact with the same second moment, 2 a^2 / 5; if one axis repeats, half of
+ * the width of the roller's contact with the same second moment along the other, a^2 / 4. */
 static double
 contact_radius(const struct rc_ranks *ranks, const struct rc_shape *s, struct rc_boundary boundary,
                const double *p)

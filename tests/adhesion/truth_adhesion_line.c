@@ -14,10 +14,11 @@
 
 static const double radius = 1.1e-3, estar = 2.3e6, work = 0.05, width = 256e-6, datum = 0.7e-3;
 
-/* A parabola presses the strip |x| < a, and a constant traction s pulls at a < |x| < c. The pressure is that
- * of flat punches of all half-widths t, with the loads f(t) dt (Hill and Storakers 1990): f = pi E* t/(2 R) up
- * to a, because the slope of the surface is -x/R there, and -2 s t/sqrt(c^2 - t^2) beyond, which Abel's
- * equation gives for a constant traction. All loads are per length of the cylinder. */
+/* A parabola presses the strip |x| < a, and a constant traction s pulls at a < |x| < c. The pressure is
+ * that of flat punches of all half-widths t, with the loads f(t) dt (Hill and Storakers 1990): f = pi
+ * E* t/(2 R) up to a, because the slope of the surface is -x/R there, and -2 s t/sqrt(c^2 - t^2)
+ * beyond, which Abel's equation gives for a constant traction. All loads are per length of the
+ * cylinder. */
 struct zone {
     double load, approach, outer;
 };
@@ -179,8 +180,9 @@ cylinder_of_short_range(void **state)
     }
 }
 
-/* As nodes of a line separate together, the load over the approach is a saw on grids that resolve the law too.
- * The result differs from the lowest load of a path in small steps by at most the reported spread. */
+/* As nodes of a line separate together, the load over the approach is a saw on grids that resolve the
+ * law too. The result differs from the lowest load of a path in small steps by at most the reported
+ * spread. */
 static void
 spread_holds_the_saw(void **state)
 {
@@ -364,9 +366,10 @@ datum_shifts_the_approach(void **state)
     assert_non_null(strstr(adhesion_err.text, "datum 5 m"));
 }
 
-/* A ball whose images are far apart: the states of a free map. An image at the distance L moves the surface as
- * the load of the ball would, and an even displacement changes no pressure. Along y a cell of the free map has
- * a constant pressure, and the other map has waves: on 11 nodes of contact the pressures differ by 1.4 %. */
+/* A ball whose images are far apart: the states of a free map. An image at the distance L moves the
+ * surface as the load of the ball would, and an even displacement changes no pressure. Along y a cell
+ * of the free map has a constant pressure, and the other map has waves: on 11 nodes of contact the
+ * pressures differ by 1.4 %. */
 static void
 balls_far_apart_are_balls(void **state)
 {

@@ -249,9 +249,9 @@ line_shakedown(void **state)
     }
 }
 
-/* A roller that passes across its axis, on a map that repeats along it: the values of the formula at each
- * depth. The error of the cells is below 1e-3; Dang Van's largest instant lies between two states. A pass along
- * the axis changes no stress. */
+/* A roller that passes across its axis, on a map that repeats along it: the values of the formula at
+ * each depth. The error of the cells is below 1e-3; Dang Van's largest instant lies between two states.
+ * A pass along the axis changes no stress. */
 static void
 roller(void **state)
 {

@@ -236,8 +236,8 @@ run_turned(const struct turn *turn, const struct rc_heat_problem *problem, bool 
     return figures;
 }
 
-/* A turned map has the turned result; rows that are moved, those that leave entering on the other side, have the
- * moved result. With all partitions, in steady states and in time. */
+/* A turned map has the turned result; rows that are moved, those that leave entering on the other side,
+ * have the moved result. With all partitions, in steady states and in time. */
 static void
 turned(void **state)
 {

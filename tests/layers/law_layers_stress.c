@@ -217,10 +217,11 @@ bump_mean(double x, double w, double d)
     return (a * exp(-a * a / (2 * w * w)) - b * exp(-b * b / (2 * w * w))) / d;
 }
 
-/* Along a free axis each cell carries the value of a smooth pressure at its centre. Along an axis that repeats
- * the pressure is band-limited, and the same field results from the means over cells on a much longer map. The
- * pressure has no moments below the fourth, so the effect of its images falls as the sixth power of width
- * over distance. At depths of a few cells waves shorter than those of the grid have decayed. */
+/* Along a free axis each cell carries the value of a smooth pressure at its centre. Along an axis that
+ * repeats the pressure is band-limited, and the same field results from the means over cells on a much
+ * longer map. The pressure has no moments below the fourth, so the effect of its images falls as the
+ * sixth power of width over distance. At depths of a few cells waves shorter than those of the grid
+ * have decayed. */
 static void
 free_is_periodic_far_apart(void **state)
 {

@@ -119,9 +119,9 @@ across_sum(double d, double x, double y)
     return love_corner(x + d / 2, y) - love_corner(x - d / 2, y);
 }
 
-/* The sum of `across` over the images, every period L. Images beyond the last are an integral from the middle
- * between two of them, and the first correction of this midpoint rule. The integral to the distance Y less 2 d
- * ln(2 Y/datum)/L, the displacement at the datum, has a limit. */
+/* The sum of `across` over the images, every period L. Images beyond the last are an integral from the
+ * middle between two of them, and the first correction of this midpoint rule. The integral to the
+ * distance Y less 2 d ln(2 Y/datum)/L, the displacement at the datum, has a limit. */
 static double
 images(const struct line_map *m, double x, double y)
 {
@@ -245,8 +245,8 @@ coats_by_waves(void **state)
 
 /* ---- closed forms ---- */
 
-/* Under p = cos(q y) on |x| < b the middle line has u = 4/(pi E* q) F(q b) cos(q y), F(z) = the integral of K0
- * from 0 to z. */
+/* Under p = cos(q y) on |x| < b the middle line has u = 4/(pi E* q) F(q b) cos(q y), F(z) = the
+ * integral of K0 from 0 to z. */
 static void
 strip_of_a_wave(void **state)
 {

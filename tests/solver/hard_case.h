@@ -199,7 +199,8 @@ hard_violation(const struct hard_case *c, const struct rc_problem *problem, cons
         spread_h += pow(h[k] - h[0] - mean_h, 2);
         worst = larger(worst, p[k] <= 0 ? -g : p[k] >= problem->hardness ? g : fabs(g));
     }
-    /* under stiff coats of a map that repeats along one axis the mean displacement may be 1e5 of the spread */
+    /* under stiff coats of a map that repeats along one axis the mean displacement may be 1e5 of the
+     * spread */
     worst = rc_repeats(problem->boundary) == 1 ? larger(worst - 200 * DBL_EPSILON * fabs(mean_u), 0)
                                                : worst;
     scale = sqrt(larger(spread_u, spread_h) / (double)n);

@@ -202,8 +202,8 @@ strips_answer(const struct hard_case *c, const struct rc_problem *problem, const
     return relative(s->p[middle], truth, 1.0 / (double)nodes);
 }
 
-/* A rigid flat strip as wide as a map that repeats along it: P'/(pi E*) 2 ln(2 datum/a), with the default datum
- * of 2 a. */
+/* A rigid flat strip as wide as a map that repeats along it: P'/(pi E*) 2 ln(2 datum/a), with the
+ * default datum of 2 a. */
 static double
 strip_answer(const struct hard_case *c, const struct rc_problem *problem, const struct solved *s)
 {

@@ -81,7 +81,8 @@ make_heights(struct line_case *c)
             c->h[node_at(c, i, j)] += row[i];
 }
 
-/* The mean pressure over E* that gives contact of this fraction, very roughly: that of the heights' spread. */
+/* The mean pressure over E* that gives contact of this fraction, very roughly: that of the heights'
+ * spread. */
 static double
 pressure_for(const struct line_case *c, double fraction)
 {

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Contacts of maps that repeat along one axis: Hertz's line contact, a flat punch, and balls in a row have closed
- * forms. Equal rows are one row, a turned map has the turned contact, and the datum changes the displacement by
- * one number. */
+/* Contacts of maps that repeat along one axis: Hertz's line contact, a flat punch, and balls in a row
+ * have closed forms. Equal rows are one row, a turned map has the turned contact, and the datum changes
+ * the displacement by one number. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -162,8 +162,8 @@ cylinder_on_a_flat(void **state)
 
 /* ---- a flat punch ---- */
 
-/* p = P'/(pi sqrt(a^2 - x^2)), here over each cell; the approach is P'/(pi E*) 2 ln(2 datum/a), also the inverse
- * of the conductance between half cylinders of this radius. */
+/* p = P'/(pi sqrt(a^2 - x^2)), here over each cell; the approach is P'/(pi E*) 2 ln(2 datum/a), also
+ * the inverse of the conductance between half cylinders of this radius. */
 static void
 flat_punch(void **state)
 {
@@ -267,8 +267,8 @@ rough(const struct line_map *m, bool extruded, uint64_t seed)
     return to;
 }
 
-/* One number of an axis that repeats is a line contact: equal rows have its pressure, also with a hardness and
- * under a coat. */
+/* One number of an axis that repeats is a line contact: equal rows have its pressure, also with a
+ * hardness and under a coat. */
 static void
 equal_rows(void **state)
 {

@@ -115,8 +115,8 @@ engines_agree(void **state)
         }
 }
 
-/* fft, fft64 and auto use the same code here: results are equal to the last bit, on any boundary. Each reports
- * its own name. */
+/* fft, fft64 and auto use the same code here: results are equal to the last bit, on any boundary. Each
+ * reports its own name. */
 static void
 transforms_by_any_name(void **state)
 {
@@ -341,8 +341,9 @@ sections_between_rows(void **state)
     free(fine.p);
 }
 
-/* Where the map repeats across the plane, a section is that of a map with half the spacing of rows and the sum
- * of the same waves. Where it repeats along the plane only, it is interpolated between those of two rows. */
+/* Where the map repeats across the plane, a section is that of a map with half the spacing of rows and
+ * the sum of the same waves. Where it repeats along the plane only, it is interpolated between those of
+ * two rows. */
 static void
 sections_between_waves(void **state)
 {

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Stresses on maps that repeat along one axis agree with closed forms of plane and antiplane strain (strips,
- * a roller that slides, its first yield), and with sums of point loads under waves. A map of equal rows is one
- * row, and a map that is turned has the turned stresses. */
+/* Stresses on maps that repeat along one axis agree with closed forms of plane and antiplane strain
+ * (strips, a roller that slides, its first yield), and with sums of point loads under waves. A map of
+ * equal rows is one row, and a map that is turned has the turned stresses. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -169,8 +169,8 @@ press_roller(struct scene *s, double a, double p0, double mu)
     }
 }
 
-/* A roller that slides (McEwen; Johnson 1985, 4.3 and 7.1). The error is that of the cells, which decreases with
- * their square: at the node of a depth and beside it. */
+/* A roller that slides (McEwen; Johnson 1985, 4.3 and 7.1). The error is that of the cells, which
+ * decreases with their square: at the node of a depth and beside it. */
 static void
 sliding_roller(void **state)
 {
@@ -219,9 +219,9 @@ keep(struct peak *p, double value, double depth)
         *p = (struct peak){value, depth};
 }
 
-/* Under a roller: the largest shear is .300 p0 at .786 a, the largest shear on planes along the surface .250 p0
- * at .5 a, and the first yield is at p0 = 1.79 Y for nu = .3 (Johnson 1985, 4.3 and 6.2). The strain is
- * plane. */
+/* Under a roller: the largest shear is .300 p0 at .786 a, the largest shear on planes along the surface
+ * .250 p0 at .5 a, and the first yield is at p0 = 1.79 Y for nu = .3 (Johnson 1985, 4.3 and 6.2). The
+ * strain is plane. */
 static void
 roller_maxima(void **state)
 {
@@ -262,8 +262,8 @@ roller_maxima(void **state)
     assert_true(strain <= rounding);
 }
 
-/* Automatic depths find the largest Mises stress of a roller, .5575 p0, within 1 %. They end at six half-widths,
- * also if the roller is long in the map. */
+/* Automatic depths find the largest Mises stress of a roller, .5575 p0, within 1 %. They end at six
+ * half-widths, also if the roller is long in the map. */
 static void
 chosen_depths(void **state)
 {

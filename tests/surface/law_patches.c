@@ -175,8 +175,9 @@ test_flood_fill(void **state)
             }
 }
 
-/* A frame around the map is one patch, periodic or not; four corners are one patch if the map is periodic, two
- * if it repeats along one axis, else four. The arms of a cross join across the edges; two spirals remain two patches. */
+/* A frame around the map is one patch, periodic or not; four corners are one patch if the map is
+ * periodic, two if it repeats along one axis, else four. The arms of a cross join across the edges; two
+ * spirals remain two patches. */
 static void
 test_edges(void **state)
 {

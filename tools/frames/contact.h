@@ -54,8 +54,9 @@ struct rc_boundary boundary_asked(const struct boundary_args *asked);
 /* The axes along which a surface repeats: its key `periodic`. */
 struct rc_boundary map_repeats(const struct rc_grid *g);
 void map_set_repeats(struct tool *tool, struct rc_grid *g, struct rc_boundary repeats);
-/* The surface does not repeat along these axes any more. NULL if it did not before. Otherwise sets the key and
- * returns the end of "it is not periodic": "" or, if it still repeats along the other axis, " along x". */
+/* The surface does not repeat along these axes any more. NULL if it did not before. Otherwise sets the
+ * key and returns the end of "it is not periodic": "" or, if it still repeats along the other axis, "
+ * along x". */
 const char *map_end_period(struct tool *tool, struct rc_grid *g, struct rc_boundary ends);
 /* The boundary of a result is in its keys `boundary` and `datum`; without them that of the surface holds. */
 struct rc_boundary map_boundary(const struct rc_grid *g);
