@@ -471,46 +471,50 @@ make_room(struct own *s, const struct rc_operator_options *o, struct rc_err *err
                          "out of memory for the displacements of %zu nodes", n);
 }
 
-/* q/pi times the symbol along the free axis. */
 static double
-slope_at(const struct rc_kernel *kernel, bool along_x, double q)
+symbol_along(const struct rc_kernel *kernel, bool x, double q)
 {
-    return q / RC_PI * kernel->symbol(kernel->of, along_x ? q : 0, along_x ? 0 : q);
+    return kernel->symbol(kernel->of, x ? q : 0, x ? 0 : q);
 }
 
 /* A line load of 1 N/m displaces by -2 ln(x / datum) / (pi E*) far away, where E* is that of the
- * longest waves; on a rigid base the displacement has a limit, and no datum matters. The datum of K is
- * the length of the map, or so much larger that K is not negative on the map: under a stiff coat that
- * is thicker than the map it is about the thickness. `far`: what the datum of the problem adds. With
- * the nearest datum K is 0 at a quarter of the map, and a load on a rigid strip as wide as the map does
- * not move it. */
+ * longest waves; on a rigid base the displacement has a limit, and no datum matters. On uniform bodies
+ * and with the length L of the map as datum, the sum of K over the padded map is twice that of its
+ * longest wave. Under a stiff coat that is thicker than the map it is negative, and large beside all
+ * waves. The datum of K is then so much larger that the sum is that of the longest wave. `far`: what
+ * the datum of the problem adds. A load on a rigid strip as wide as the map does not move it if the
+ * datum is L/4; on other bodies the nearest datum is the one with the same ratio of the two sums. */
 static enum rc_status
 set_datum(struct own *s, const struct rc_shape *shape, double datum, struct rc_boundary *boundary,
           struct rc_err *err)
 {
     const struct rc_surface surface = {s->bodies, 1, 1};
     const struct rc_kernel kernel = rc_surface_kernel(&surface);
-    const size_t n = boundary->x ? shape->ny : shape->nx;
-    const double d = boundary->x ? shape->dy : shape->dx, length = (double)n * d;
-    const double q = 1e-20 / length, slope = slope_at(&kernel, !boundary->x, q);
+    const bool x = !boundary->x; /* the free axis */
+    const size_t n = x ? shape->nx : shape->ny;
+    const double d = x ? shape->dx : shape->dy, length = (double)n * d, q = 1e-20 / length;
+    const double slope = q / RC_PI * symbol_along(&kernel, x, q);
+    const double wave = symbol_along(&kernel, x, RC_PI / length);
     const struct rc_line_at at = {d, 1, n + 1, 0, length};
     RC_OWNED double *u = NULL;
+    double sum;
 
     boundary->datum = length;
     s->nearest = length / 4;
-    if (!isnan(s->same)) {
-        s->far = slope * log((datum > 0 ? datum : length) / length);
+    s->far = slope * log((datum > 0 ? datum : length) / length);
+    if (!isnan(s->same))
+        return RC_OK;
+    if (symbol_along(&kernel, x, 2 * q) > 0.75 * symbol_along(&kernel, x, q)) { /* a rigid base */
+        s->nearest = s->far = 0;
         return RC_OK;
     }
-    s->nearest = 0;
-    if (slope_at(&kernel, !boundary->x, 2 * q) > 1.5 * slope) /* a rigid base */
-        return RC_OK;
     if ((u = rc_alloc(at.n, sizeof *u)) == NULL)
         return rc_err_set(err, "out of memory for a line of %zu nodes", n);
-    if (rc_kernel_line(&kernel, !boundary->x, &at, u, err) != RC_OK)
+    if (rc_kernel_line(&kernel, x, &at, u, err) != RC_OK)
         return RC_FAIL;
-    s->nearest = length * exp(-u[(n + 3) / 4] / (slope * d));
-    boundary->datum = length * exp(fmax(-u[n] / (slope * d), 0));
+    sum = 2 * rc_sum(u, n) - u[0] + u[n];
+    boundary->datum *= exp(fmax(wave - sum, 0) / (2 * slope * length));
+    s->nearest = length * exp((2 * (1 - log(4)) * wave - sum) / (2 * slope * length));
     s->far = slope * log((datum > 0 ? datum : length) / boundary->datum);
     return RC_OK;
 }

@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* On random maps that repeat along one axis the pressure is that of a dense quadratic program with influence
  * coefficients from closed forms and integrals. The estimated error is not below the error, and not far above
- * it; the approach is that of the same program. Uniform and coated bodies, with and without a hardness. */
+ * it; the approach is that of the same program. Uniform and coated bodies, with and without a hardness or a
+ * map of it, by loads and by approaches. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -34,7 +35,8 @@ struct line_case {
     bool turned;
     struct rc_layer coat;
     struct rc_problem problem;
-    double *h; /* of the map, also if that is turned */
+    double *h;   /* of the map, also if that is turned        */
+    double *map; /* hardness of the nodes; NULL: one for all */
 };
 
 static size_t
@@ -125,12 +127,34 @@ make(struct line_case *c, uint64_t of, bool coated)
         c->problem.boundary.datum = c->d * (double)c->free * powers(-2, 4);
     if (uniform(0, 1) < 0.4)
         c->problem.hardness = mean / uniform(0.02, 0.98);
+    if (c->problem.hardness > 0 && uniform(0, 1) < 0.3) {
+        c->map = malloc(c->free * c->round * sizeof *c->map);
+        assert_non_null(c->map);
+        for (size_t k = 0; k < c->free * c->round; k++)
+            c->map[k] = uniform(0, 1) < 0.1 ? NAN : c->problem.hardness * uniform(1, 3);
+        c->problem.hardness_map = c->map;
+        c->problem.hardness = 0;
+    }
 }
 
 static double
 datum_of(const struct line_case *c)
 {
     return c->problem.boundary.datum > 0 ? c->problem.boundary.datum : c->d * (double)c->free;
+}
+
+/* A contact that is found by its approach, if a load causes one. The campaign then compares the load that was
+ * found. */
+static void
+ask_for_approach(struct line_case *c)
+{
+    struct solved a = solve(shape_of(c), c->h, c->problem);
+
+    if (a.status == RC_OK && a.c.approach > 0 && datum_of(c) > c->d * (double)c->free) {
+        c->problem.approach = a.c.approach;
+        c->problem.load = 0;
+    }
+    solved_free(&a);
 }
 
 /* The displacement by a row of unit load per length at the datum far away: the influence has another datum,
@@ -202,7 +226,7 @@ judge(struct seen *seen, struct line_case *c, size_t which)
     static double most[DENSE_NODES], p[DENSE_NODES];
     const struct rc_shape s = shape_of(c);
     size_t n = s.nx * s.ny;
-    double top = -INFINITY, shift, error, ratio, approach;
+    double top = -INFINITY, shift, error, ratio, approach, load;
     struct solved a = solve(s, c->h, c->problem);
 
     seen->cases++;
@@ -215,9 +239,11 @@ judge(struct seen *seen, struct line_case *c, size_t which)
         return;
     }
     fill(&d, c);
-    d.value[0] = c->problem.load / (c->d * c->step);
+    load = c->problem.approach > 0 ? a.c.load : c->problem.load;
+    d.value[0] = load / (c->d * c->step);
     for (size_t k = 0; k < n; k++) {
-        most[k] = c->problem.hardness > 0 ? c->problem.hardness : INFINITY;
+        most[k] = c->map != NULL ? c->map[k] : c->problem.hardness;
+        most[k] = most[k] > 0 ? most[k] : INFINITY;
         p[k] = a.status == RC_FAIL ? d.value[0] / (double)n : a.p[k];
         top = fmax(top, c->h[k]);
     }
@@ -226,16 +252,19 @@ judge(struct seen *seen, struct line_case *c, size_t which)
     ratio = a.c.pressure_error / error;
     /* shift is K p - h with another datum; the approach counts from the highest node */
     approach = shift + top +
-               2 / exact_pi * compliance(c) * c->problem.load / (c->step * (double)c->round) *
+               2 / exact_pi * compliance(c) * load / (c->step * (double)c->round) *
                    log(datum_of(c) / (far * c->d * (double)c->free));
     if (a.status != RC_OK || (error > 2e-7 && !(ratio >= 1 && ratio < 5)) || getenv("RC_PRINT"))
-        print_message("case %zu%s%s: %zu x %zu, %g, coat %.2g x %.2g, hardness %.3g of the mean, "
+        print_message("case %zu%s%s: %zu x %zu, %g, %scoat %.2g x %.2g, hardness %.3g of the mean, "
                       "datum %.2g, contact %.3f, tol %.0e: error %.2e, estimate %.3f of it, "
                       "approach %.3e off %.1e, %zu its, %.1f conv, elastic %zu\n",
                       which, c->problem.pair.one.layers > 0 ? " coated" : "",
                       c->turned ? " turned" : "", c->free, c->round, c->step / c->d,
+                      c->map != NULL            ? "map of hardness, "
+                      : c->problem.approach > 0 ? "approach, "
+                                                : "",
                       c->coat.thickness / c->d, c->coat.e / base,
-                      c->problem.hardness * c->d * c->step * (double)n / c->problem.load,
+                      c->problem.hardness * c->d * c->step * (double)n / load,
                       c->problem.boundary.datum / c->d / (double)c->free, a.c.contact_fraction,
                       c->problem.tol, error, ratio, approach, a.c.approach - approach,
                       a.c.iterations, a.c.convolutions, a.c.contact_nodes - a.c.plastic_nodes);
@@ -260,8 +289,11 @@ campaign(size_t cases, bool coated)
     for (size_t k = 0; k < cases; k++) {
         struct line_case c;
         make(&c, (coated ? 2000U : 1000U) + k, coated);
+        if (k % 5 == 4)
+            ask_for_approach(&c);
         judge(&seen, &c, k);
         free(c.h);
+        free(c.map);
     }
     qsort(seen.ratio, seen.judged, sizeof *seen.ratio, by_size);
     print_message(
