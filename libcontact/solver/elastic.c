@@ -309,6 +309,7 @@ fill(struct rc_model *m, size_t frame, double *to, struct rc_err *err)
 {
     struct elastic *e = (struct elastic *)m;
     const struct rc_solver *s = e->solver;
+    const double rise = s == NULL ? 0 : s->op->rise * s->load.sum; /* by the datum */
     struct rc_contact again;
 
     if (!e->apart && s == NULL)
@@ -330,9 +331,9 @@ fill(struct rc_model *m, size_t frame, double *to, struct rc_err *err)
         memcpy(to, rc_solver_pressure(s), e->n * sizeof *to);
     else
         for (size_t k = 0; k < e->n; k++)
-            to[k] = frame == RC_FRAME_GAP
-                        ? s->it.v[k] - s->it.shift
-                        : s->it.v[k] + s->posed.h[k] - rc_operator_own_motion(s->op, k, s->it.p[k]);
+            to[k] = frame == RC_FRAME_GAP ? s->it.v[k] - s->it.shift
+                                          : s->it.v[k] + s->posed.h[k] -
+                                                rc_operator_own_motion(s->op, k, s->it.p[k]) + rise;
     for (size_t k = 0; k < e->n && frame == RC_FRAME_CONTACT; k++)
         to[k] = rc_in_contact(to[k]) ? 1 : 0;
     return RC_OK;

@@ -10,6 +10,7 @@ same_pressure() { # FILE FILE
     cmp <(rc-export --format csv --channel pressure "$1" | grep -v '^#') <(rc-export --format csv --channel pressure "$2" | grep -v '^#')
 }
 export -f same_pressure
+values() { rc-export --format csv --channel "$2" "$1" | grep -v '^#' | tr ',' '\n'; }
 
 # ---- the datum ----
 
@@ -30,6 +31,10 @@ for axis in x y; do
     near "$(field conductance far.json)" \
         "$(awk -v s="$(field stiffness far.json)" "BEGIN { printf \"%.12g\", 2 * s / (114e9 * (1 / 45 + 1 / 16)) }")" 1e-6 "  as the conductance has"
     claim "  the frames have it" says '^datum=3$' cat far.rcg
+    $press --periodic=$axis --datum 3m --load 2e4N/m --output displacement,height,pressure -o moved.rcg $axis.rcg
+    top=$(rc-pick --channel height moved.rcg | rc-export --format csv | grep -v '^#' | tr ',' '\n' | sort -g | tail -n 1)
+    near "$(paste <(values moved.rcg displacement) <(values moved.rcg height) <(values moved.rcg pressure) | awk -v t="$top" '$3 > 0 { s += $1 - $2 + t; n++ } END { printf "%.12g", s / n }')" \
+        "$(field approach far.json)" 1e-5 "  the displacement in the contact is the approach less the depth below the highest node"
     $press --periodic=$axis --datum 3m --approach "$(field approach far.json)" --report back.json -o back.rcg $axis.rcg
     near "$(field load_per_metre back.json)" 2e4 1e-5 "  the load of this approach is the load"
     mv near.json $axis.json
