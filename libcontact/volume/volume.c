@@ -16,6 +16,7 @@
 #include <string.h>
 
 #include "libcontact/memory.h"
+#include "lines.h"
 #include "sweep.h"
 
 /* Numbers of waves and maps. */
@@ -49,10 +50,11 @@ struct rc_slabs {
     const struct rc_sweep_ops *ops;
     double *qy, *alive; /* numbers of the waves of a column */
     struct maps maps;
-    bool *strained; /* slabs with strain, from the last rc_slabs_up */
-    bool *passes;   /* groups: whether there are waves at its top       */
-    double *rows;   /* single: RC_COMPONENTS rows for each thread       */
-    double mean;    /* mean of the pressure, Pa */
+    struct rc_lines *lines; /* where exactly one axis repeats */
+    bool *strained;         /* slabs with strain, from the last rc_slabs_up */
+    bool *passes;           /* groups: whether there are waves at its top       */
+    double *rows;           /* single: RC_COMPONENTS rows for each thread       */
+    double mean;            /* mean of the pressure, Pa */
     struct rc_slabs_counts counts;
 };
 
@@ -78,6 +80,9 @@ check(const struct rc_shape *shape, const struct rc_slabs_options *o, struct rc_
     if ((!o->boundary.x && shape->nx == 1) || (!o->boundary.y && shape->ny == 1))
         return rc_err_set(err,
                           "a profile on a free map is not supported: take the periodic boundary");
+    if (o->ranks != NULL && rc_repeats(o->boundary) == 1)
+        return rc_err_set(err, "plastic strain on a map that repeats along one axis only cannot be "
+                               "shared among processes: take one process");
     if (o->slabs == 0)
         return rc_err_set(err, "0 slabs: a volume needs at least one");
     if (!(o->shear > 0) || isinf(o->shear))
@@ -174,7 +179,9 @@ rc_slabs_new(const struct rc_shape *shape, const struct rc_slabs_options *o, str
     v->fft = rc_fft_new(o->ranks, NULL, shape, o->boundary, o->precision, o->threads, err);
     if (v->fft == NULL || rc_ranks_agree(o->ranks, allocate(v, o, err), err) != RC_OK)
         return NULL;
-    return rc_give(&v);
+    if (rc_repeats(o->boundary) == 1)
+        v->lines = rc_lines_new(shape, o, o->boundary.x ? v->layout.py : v->layout.px, err);
+    return rc_repeats(o->boundary) == 1 && v->lines == NULL ? NULL : rc_give(&v);
 }
 
 void
@@ -182,6 +189,7 @@ rc_slabs_free(struct rc_slabs *v)
 {
     if (v == NULL)
         return;
+    rc_lines_free(v->lines);
     rc_fft_free(v->fft);
     rc_store_free(&v->own);
     free(v);
@@ -342,6 +350,8 @@ displacement_row(void *ctx, size_t j, void *row)
         to_double(row, nx, p->u + j * nx);
     else
         memcpy(p->u + j * nx, row, nx * sizeof *p->u);
+    if (p->volume->lines != NULL)
+        rc_lines_add_u(p->volume->lines, j, p->u + j * nx);
     return true;
 }
 
@@ -382,6 +392,8 @@ stress_row(void *ctx, size_t j, void *row)
         s[c] = single(v) ? row_of(v->rows, v->shape.nx, c) : at;
         if (single(v))
             to_double(at, nx, s[c]);
+        if (v->lines != NULL)
+            rc_lines_add_stress(v->lines, p->slab, c, j, s[c]);
     }
     p->stress->row(p->stress->ctx, p->slab, j, s);
     return true;
@@ -438,6 +450,8 @@ rc_slabs_up(struct rc_slabs *v, const struct rc_slab_strain *strain, double *u)
         if (any)
             sweep_up(v, group);
     }
+    if (v->lines != NULL)
+        rc_lines_up(v->lines, strain, u != NULL);
     if (u == NULL)
         return;
     if (any) {
@@ -460,16 +474,20 @@ reflect_column(void *ctx, size_t i, void *p)
     v->ops->reflect(&column, v->passes[0], p, 1 / v->modulus, waves_of(&v->layout, &v->maps, 0, i));
 }
 
-/* The stress due to a mean pressure, in every slab. */
+/* The stress due to a mean pressure, in every slab. On a map that repeats along one axis it is that of lines
+ * along this axis. */
 static void
-add_mean(const struct rc_shape *shape, double nu, double mean, struct rc_sweep_slab *slab)
+add_mean(const struct rc_shape *shape, struct rc_boundary boundary, double nu, double mean,
+         struct rc_sweep_slab *slab)
 {
-    double along = -2 * nu * mean;
+    const double along = -2 * nu * mean;
+    const bool lines = rc_repeats(boundary) == 1, along_x = lines ? boundary.x : shape->nx == 1,
+               along_y = lines ? boundary.y : shape->ny == 1;
 
     slab->szz = slab->sxx = slab->syy = -mean;
-    if ((shape->nx == 1) == (shape->ny == 1))
+    if (along_x == along_y)
         slab->sxx = slab->syy = (along - mean) / 2;
-    else if (shape->nx == 1)
+    else if (along_x)
         slab->sxx = along;
     else
         slab->syy = along;
@@ -486,7 +504,7 @@ sweep_down(struct rc_slabs *v, size_t group, const bool *wanted)
         struct rc_sweep_slab slab[RC_SWEEP_SLABS];
         size_t n = slabs_of(v, group, i, wanted, slab);
         for (size_t k = 0; k < n && v->layout.first + i == 0; k++)
-            add_mean(&v->shape, v->nu, v->mean, &slab[k]);
+            add_mean(&v->shape, v->boundary, v->nu, v->mean, &slab[k]);
         v->ops->down(&column, n, slab, v->modulus, waves_of(&v->layout, &v->maps, group, i), below,
                      waves_of(&v->layout, &v->maps, group + 1, i));
     }
@@ -501,6 +519,8 @@ rc_slabs_down(struct rc_slabs *v, const double *p, const struct rc_slab_stress *
     for (size_t k = 0; k < v->layout.slabs; k++)
         if (stress->wanted == NULL || stress->wanted[k])
             end = k + 1;
+    if (v->lines != NULL)
+        rc_lines_down(v->lines, p, stress);
     v->mean = 0;
     if (p != NULL) {
         rc_fft_forward(v->fft, pressure_row, &pass, NULL, reflect_column);
@@ -532,6 +552,8 @@ rc_slabs_down(struct rc_slabs *v, const double *p, const struct rc_slab_stress *
 void
 rc_slabs_through(struct rc_slabs *v)
 {
+    if (v->lines != NULL)
+        rc_lines_through(v->lines);
 #pragma omp parallel for num_threads(rc_fft_threads(v->fft)) schedule(static)
     for (size_t i = 0; i < v->layout.columns; i++) {
         struct rc_sweep_column column = sweep_column(v, i);
@@ -572,6 +594,8 @@ slice_row(void *ctx, size_t j, void *row)
 
     if (single(p->volume))
         to_double(row, p->volume->shape.nx, to);
+    if (p->volume->lines != NULL)
+        rc_lines_add_stress(p->volume->lines, 0, c, j, to);
     p->slice->row(p->slice->ctx, c, j, to);
     return true;
 }
@@ -583,6 +607,9 @@ rc_slabs_slice(struct rc_slabs *v, double depth, const struct rc_slice_stress *s
     struct rc_sweep_place place = place_of(&v->layout, v->thickness, depth, &group);
     struct pass pass = {.volume = v, .slice = stress};
     bool below = group + 1 < v->layout.groups && v->passes[group + 1];
+
+    if (v->lines != NULL)
+        rc_lines_slice(v->lines, depth, stress->components);
 
 #pragma omp parallel for num_threads(rc_fft_threads(v->fft)) schedule(static)
     for (size_t i = 0; i < v->layout.columns; i++) {

@@ -25,12 +25,16 @@
  *     rc_slabs_down(v, p, &stress);           needs p, gives sigma slab by slab
  *
  * Mean: waves of wave number 0 do not decay with depth. A mean pressure causes szz = -p and, as in rc_stress,
- * sxx = syy = -(1 + 2 nu) p/2. On a profile it causes -p in the direction of the profile and -2 nu p in the
- * other. The mean of e causes the stress of a slab fixed in its plane, and no displacement. Waves of two
- * nodes in a direction have no sign: there strain causes only its local stress, and p has no effect.
+ * sxx = syy = -(1 + 2 nu) p/2. On a profile, or across the axis if only one repeats, it causes -p in the
+ * direction of the profile and -2 nu p in the other. The mean of e causes the stress of a slab fixed in its
+ * plane, and no displacement. Waves of two nodes in a direction have no sign: there strain causes only its
+ * local stress, and p has no effect.
  *
  * For a free map the same sweeps run on a map padded to twice its sides or a little more. The periodic images
- * of the contact then cause errors of some thousandths of the stresses.
+ * of the contact then cause errors of some thousandths of the stresses. For a map that repeats along one axis
+ * the free axis is padded so. Images of lines would cause errors of some hundredths. Means along the axis
+ * that repeats are therefore computed with RC_SLABS_FAR times this length, at little cost (lines.h). The
+ * displacement is then 0 far from the map, and its mean is not.
  *
  * Every function may be called by ranks that share the map: maps and rows are those held here.
  */
@@ -38,6 +42,10 @@
 #define RC_VOLUME_H
 
 #include "libcontact/operator/operator.h"
+
+enum {
+    RC_SLABS_FAR = 16
+};
 
 struct rc_slabs_options {
     size_t slabs;                 /* number of slabs from the surface down, at least one */
@@ -94,7 +102,7 @@ struct rc_slabs *rc_slabs_new(const struct rc_shape *shape, const struct rc_slab
 void rc_slabs_free(struct rc_slabs *slabs); /* NULL is allowed */
 RC_OWNER(rc_slabs)
 
-/* u = S' e, m; its mean is 0. u may be NULL. */
+/* u = S' e, m; its mean is 0 unless exactly one axis repeats. u may be NULL. */
 void rc_slabs_up(struct rc_slabs *slabs, const struct rc_slab_strain *strain, double *u);
 /* S p - G e with the strain of the last rc_slabs_up. The call consumes this strain: e is then 0 until the
  * next rc_slabs_up. p, Pa, may be NULL: no pressure. */
@@ -107,5 +115,7 @@ void rc_slabs_through(struct rc_slabs *slabs);
 void rc_slabs_slice(struct rc_slabs *slabs, double depth, const struct rc_slice_stress *stress);
 
 const struct rc_slabs_counts *rc_slabs_counted(const struct rc_slabs *slabs);
+/* Bytes of the longer profiles, in single precision, if exactly one axis repeats; else 0. */
+size_t rc_slabs_line_bytes(const struct rc_shape *shape, struct rc_boundary boundary, size_t slabs);
 
 #endif

@@ -830,10 +830,11 @@ some_stress(void *ctx, size_t slab, size_t j, double *const s[RC_COMPONENTS])
 
 /* Runs with this precision, with or without all six stresses. */
 static enum rc_status
-strained(enum rc_precision precision, bool whole, double *out, struct rc_err *err)
+strained(struct rc_boundary boundary, enum rc_precision precision, bool whole, double *out,
+         struct rc_err *err)
 {
     static const double thickness[] = {1e-6, 2e-6, 3e-6, 4e-6, 5e-6};
-    const struct rc_slabs_options o = {.boundary = RC_PERIODIC,
+    const struct rc_slabs_options o = {.boundary = boundary,
                                        .slabs = 5,
                                        .thickness = thickness,
                                        .shear = 1e9,
@@ -856,13 +857,19 @@ strained(enum rc_precision precision, bool whole, double *out, struct rc_err *er
 static enum rc_status
 slabs_double(double *out, struct rc_err *err)
 {
-    return strained(RC_DOUBLE, true, out, err);
+    return strained(RC_PERIODIC, RC_DOUBLE, true, out, err);
 }
 
 static enum rc_status
 slabs_single(double *out, struct rc_err *err)
 {
-    return strained(RC_SINGLE, false, out, err);
+    return strained(RC_PERIODIC, RC_SINGLE, false, out, err);
+}
+
+static enum rc_status
+slabs_lines(double *out, struct rc_err *err)
+{
+    return strained(rc_boundary_of(true, false), RC_SINGLE, true, out, err);
 }
 
 /* ---- functions that cannot fail ---- */
@@ -1066,6 +1073,7 @@ static const struct {
                "pressure", equivalent_load, NULL}},
     {.name = "slabs", .use = slabs_double},
     {.name = "slabs, single precision", .use = slabs_single},
+    {.name = "slabs, one axis repeats", .use = slabs_lines},
     {.name = "what a plan takes", .use = plans, .without = true},
     {.name = "what allocates nothing", .use = without, .without = true},
 };
