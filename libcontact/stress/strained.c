@@ -32,10 +32,6 @@ rc_strained_check(const struct rc_stress_options *o, struct rc_err *err)
     if (o->body.layers > 0)
         return rc_err_set(err,
                           "the stress of plastic strain is not implemented for bodies with layers");
-    /* the images of a line beyond the padding act too far: their stress falls as the square of distance */
-    if (rc_repeats(o->boundary) == 1)
-        return rc_err_set(err, "the stress of plastic strain is not implemented for maps that "
-                               "repeat along one axis only");
     if (!(o->body.e > 0) || isinf(o->body.e))
         return rc_err_set(err, "the stress of plastic strain needs the body's Young's modulus");
     if (e->slabs == 0)

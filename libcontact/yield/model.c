@@ -365,7 +365,8 @@ press_volume(struct yield *y, struct rc_err *err)
 
 /* Bytes of the volume and of its state, if this part of the voxels yields. */
 static size_t
-volume_bytes(const struct rc_yield_problem *problem, size_t n, size_t slabs, double part)
+volume_bytes(const struct rc_yield_problem *problem, const struct rc_shape *shape, size_t slabs,
+             double part)
 {
     /* bytes a node, measured on 1024 x 1024 nodes: free, periodic */
     static const double body[] = {122, 96}, slab[] = {92.2, 23.1};
@@ -374,10 +375,20 @@ volume_bytes(const struct rc_yield_problem *problem, size_t n, size_t slabs, dou
     const bool tries = problem->increments == 0 || problem->companion;
 
     /* a state takes at most the memory of the voxels and of a pressure */
-    return (size_t)((double)n *
+    return rc_slabs_line_bytes(shape, boundary, slabs) +
+           (size_t)((double)(shape->nx * shape->ny) *
                     (rc_by_padding(boundary, body[0], body[1]) + (1 + tries) * sizeof(double) +
                      (double)slabs * (rc_by_padding(boundary, slab[0], slab[1]) +
                                       (2 + problem->companion) * voxels)));
+}
+
+/* The cost of a sum in the volume with that of the longer profiles (volume/lines.h), over that without. */
+static double
+with_lines(const struct rc_shape *shape, struct rc_boundary boundary)
+{
+    return rc_repeats(boundary) != 1
+               ? 1
+               : 1 + (1 + RC_SLABS_FAR) / (double)(boundary.x ? shape->nx : shape->ny);
 }
 
 /* The cost of the elastic contact. */
@@ -400,7 +411,8 @@ plan(const struct rc_model *m, const struct rc_point *most, struct rc_expected *
 {
     const struct yield *y = (const struct yield *)m;
     const size_t slabs = y->depths.slabs > 0 ? y->depths.slabs : y->problem.slabs;
-    const size_t volume = slabs > 0 ? volume_bytes(&y->problem, y->n, slabs, y->depths.part) : 0;
+    const size_t volume =
+        slabs > 0 ? volume_bytes(&y->problem, &y->base.shape, slabs, y->depths.part) : 0;
     const double increments = (double)(y->problem.increments > 0 ? y->problem.increments : FIRST);
     static const double sums[] = RC_YIELD_SUMS;
     const double applied =
@@ -408,9 +420,9 @@ plan(const struct rc_model *m, const struct rc_point *most, struct rc_expected *
 
     if (expect_elastic(&y->base.shape, &y->problem, most->at[RC_LOAD], expected, err) != RC_OK)
         return RC_FAIL;
-    expected->seconds *= 1 + applied *
-                                 rc_by_padding(y->problem.contact.boundary, sums[0], sums[1]) /
-                                 expected->convolutions;
+    expected->seconds *=
+        1 + applied * rc_by_padding(y->problem.contact.boundary, sums[0], sums[1]) *
+                with_lines(&y->base.shape, y->problem.contact.boundary) / expected->convolutions;
     expected->convolutions += RC_YIELD_SLAB * applied;
     expected->memory = volume > expected->memory ? volume : expected->memory;
     return RC_OK;
@@ -420,7 +432,8 @@ plan(const struct rc_model *m, const struct rc_point *most, struct rc_expected *
 static size_t
 more_bytes(const struct yield *y)
 {
-    const size_t volume = volume_bytes(&y->problem, y->n, y->depths.slabs, y->depths.part);
+    const size_t volume =
+        volume_bytes(&y->problem, &y->base.shape, y->depths.slabs, y->depths.part);
     struct rc_expected elastic = {0};
 
     (void)expect_elastic(&y->base.shape, &y->problem, fmax(y->plan.load, y->plan.largest), &elastic,

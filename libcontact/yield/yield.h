@@ -32,6 +32,7 @@ struct rc_yield_maps {
     double *h, *u, *form; /* heights, displacement of the surface by e, heights minus that */
     double *thickness;    /* of each slab */
     double *other;        /* an earlier pressure, for comparison */
+    double *line;         /* sums over the lines across the axis that repeats */
 };
 
 /* The request of the caller. */
@@ -84,6 +85,7 @@ struct rc_yield_solver {
     size_t n;
     int threads;
     struct rc_boundary boundary;
+    size_t lines;    /* lines across the axis, if exactly one repeats; 0: none or both do */
     double bearable; /* N: above it all depths yield under the mean pressure */
     struct rc_yield_body body;
     struct rc_yield_maps maps;

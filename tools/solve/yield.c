@@ -427,6 +427,11 @@ warn_of_part(struct run *run, const char *where, const struct solution *s)
                  "%.2g %% come from case %zu, which was reached in %zu increments: give "
                  "--increments %.0f%s",
                  100 * e->inherited, own.worst, made, more, half);
+    else if (limit == 'm' && rc_repeats(run->physics->boundary) == 1)
+        snprintf(what, sizeof what,
+                 "%.2g %% come from the edges of the map: give a map %.1f times as wide across the "
+                 "axis that repeats, with the same contact",
+                 100 * e->image, ceil(10 * pow(off, image_order)) / 10);
     else if (limit == 'm')
         snprintf(what, sizeof what,
                  "%.2g %% come from the edge of the map: give a map %.1f times as large with the "
