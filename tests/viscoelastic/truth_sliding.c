@@ -619,6 +619,9 @@ refused(void **state)
     assert_null(rc_sliding_new(&map, h, &other, &law, &err));
     assert_non_null(strstr(err.text, "periodic"));
     law.repeats = false;
+    other.boundary = rc_boundary_of(false, true);
+    assert_null(rc_sliding_new(&map, h, &other, &law, &err));
+    assert_non_null(strstr(err.text, "not implemented for maps that repeat along one axis only"));
     other = problem;
     other.hardness = 1;
     assert_null(rc_sliding_new(&map, h, &other, &law, &err));
