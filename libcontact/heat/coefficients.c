@@ -44,9 +44,9 @@ static const double tail_panels = 4;
  * an error of 1e-12. */
 static const double narrow = 1e-4;
 
-/* The symbol is integrated where Re M - |px| is at least these parts of Q and of |Im M|. XXX Both ways then
- * agree to 1e-10 of the largest temperature, with half of these values to 3e-5 (40,000 random bodies). Twice
- * these values leave no body that moves along y alone to the symbol. */
+/* The symbol is integrated where Re M - |px| is at least these parts of Q and of |Im M|. Both ways then agree
+ * to 2e-10 of the largest temperature, with half of these values to 7e-9 (10,000 random bodies). Twice these
+ * values leave no body that moves along y alone to the symbol. */
 static const double of_wave = 0.5, of_phase = 0.8;
 /* Panels up to which the quadrature is faster than the symbol. Not sensitive: half and double change the time
  * for 512 x 512 nodes by at most 40 ms. */
@@ -194,8 +194,8 @@ add_panels(struct rc_heat_cells *c, const struct rc_shape *s)
 
 /* ---- factors ---- */
 
-/* X or Y at node i. In the wake of a slow strip d is so small beside tau that the difference of erf is
- * lost; the terms of a series are left then. */
+/* X or Y at node i. In the wake of a slow strip d is so small beside tau that the difference of erf is lost;
+ * its series is not. */
 static double
 at_node(const struct rc_heat_cells *c, double i, double d, double p, double tau)
 {

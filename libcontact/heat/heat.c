@@ -90,8 +90,8 @@ const struct rc_figure rc_figures_heat[] = {
 
 /* ---- the problem ---- */
 
-/* True if body b has a temperature: the time is finite, no axis repeats, or the body moves along the
- * free one. */
+/* True if body b has a temperature: the time is finite, no axis repeats, or the body moves along the free
+ * one. */
 static bool
 has_rise(const struct rc_heat_problem *p, int b)
 {
@@ -149,8 +149,8 @@ check(const struct rc_shape *shape, const struct rc_heat_problem *p, struct rc_e
     return RC_OK;
 }
 
-/* Body b at a depth, `lag` time steps after one in which heat flows. Along an axis that repeats after
- * one node nothing changes, and motion has no effect. */
+/* Body b at a depth, `lag` time steps after one in which heat flows. Along an axis that repeats after one
+ * node nothing changes, and motion has no effect. */
 static struct rc_heated
 heated(const struct rc_heat *h, int b, double depth, size_t lag)
 {

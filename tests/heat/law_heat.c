@@ -236,8 +236,8 @@ run_turned(const struct turn *turn, const struct rc_heat_problem *problem, bool 
     return figures;
 }
 
-/* A turned map has the turned result; rows that are moved, those that leave entering on the other side,
- * have the moved result. With all partitions, in steady states and in time. */
+/* A turned map has the turned result; rows that are moved, those that leave entering on the other side, have
+ * the moved result. With all partitions, in steady states and in time. */
 static void
 turned(void **state)
 {
@@ -460,8 +460,8 @@ no_change(void **state)
                 struct rc_heat *h;
                 problem.boundary = rc_boundary_of(repeats & 1, repeats & 2);
                 for (int b = 0; b < 2 && repeats > 0; b++) {
-                    problem.body[b].velocity[0] = repeats & 1 ? 3000 : 2;
-                    problem.body[b].velocity[1] = repeats & 1 ? 1 : 3000;
+                    problem.body[b].velocity[0] = repeats & 1 ? 3000 : depth;
+                    problem.body[b].velocity[1] = repeats & 1 ? depth : 3000;
                 }
                 problem.time = 4e-6;
                 problem.time_steps = 1 + 6 * (size_t)k;

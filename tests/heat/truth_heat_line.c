@@ -263,15 +263,15 @@ after_a_time(void **state)
     for (int x = 0; x < 2; x++)
         for (double time = 0.3; time < 1e4; time *= 15)
             for (double p = 0; p < 200; p = p == 0 ? 0.02 : 10 * p)
-                for (int k = 0; k < 4; k++) {
-                    const double turned = k * RC_PI / 6;
+                for (int k = 0; k < 5; k++) {
+                    static const double turned[] = {0, 0.5, 1.1, 1.55, 0.5 * RC_PI};
                     const struct band b = {.x = x == 0,
                                            .n = 4,
                                            .wave = 2,
                                            .time = time,
                                            .depth = p == 2 ? 2 : 0,
-                                           .p = k == 3 ? 0 : p * cos(turned),
-                                           .across = p * sin(turned)};
+                                           .p = k == 4 ? 0 : p * cos(turned[k]),
+                                           .across = p * sin(turned[k])};
                     compare(&b, 1e-11);
                 }
 }
