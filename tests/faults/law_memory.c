@@ -684,6 +684,10 @@ stressed(const struct rc_stress_options *o, double *out, struct rc_err *err)
 
 STRESS(free_stress, bare, .mu = 0.1)
 STRESS(periodic_stress, bare, .mu = 0.1, .boundary = RC_PERIODIC)
+STRESS(line_stress, bare, .mu = 0.1, .boundary = {.y = true})
+STRESS(column_stress, layered, .boundary = {.x = true})
+STRESS(line_section, bare, .boundary = {.x = true}, .section = 'x')
+STRESS(column_section, bare, .boundary = {.x = true}, .section = 'y')
 STRESS(direct_stress, bare, .engine = "direct")
 STRESS(mlms_stress, bare, .engine = "mlms", .tol = 1e-3)
 STRESS(section_stress, bare, .section = 'y')
@@ -1054,6 +1058,10 @@ static const struct {
     {.name = "leakage", .use = leaks},
     {.name = "stress", .use = free_stress},
     {.name = "stress, periodic", .use = periodic_stress},
+    {.name = "stress, y repeats", .use = line_stress},
+    {.name = "stress, x repeats", .use = column_stress},
+    {.name = "stress, a section across a line", .use = line_section},
+    {.name = "stress, a section along a line", .use = column_section},
     {.name = "stress, direct", .use = direct_stress},
     {.name = "stress, mlms", .use = mlms_stress},
     {.name = "stress, a section", .use = section_stress},
