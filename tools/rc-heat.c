@@ -54,8 +54,8 @@ static const struct opt opts[] = {
      .result = true, .arg = "T1,T2",
      .help = "temperatures of both bodies far from the contact, as in 20degC,60degC (default 0,0)"},
     {.name = "time", .type = OPT_NUMBER, .unit = UNIT_S, AT(time), ABOVE_0, .arg = "TIME",
-     .help = "time since heating began (default: steady state); needed where both axes repeat, or one of them "
-             "and a body does not move along the other"},
+     .help = "time since heating began (default: steady state); needed where both axes repeat, or one of "
+             "them and a body does not move along the other"},
     {.name = "time-steps", .type = OPT_COUNT, AT(time_steps), .min = 1, .max = 1000, .result = true,
      .arg = "N", .help = "steps of --time in which the shares of the bodies are found anew (default 1)"},
     {.name = "partition", .type = OPT_TEXT, AT(partition), .list = partitions, .result = true,

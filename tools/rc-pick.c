@@ -26,7 +26,7 @@ static const struct opt opts[] = {
     STEP("resample", "DX[,DY]|NXxNY", "to other spacings, or numbers of nodes"),
     STEP("mirror", "x|y", "left to right, or top to bottom"),
     STEP("rotate", "90|180|270", "counterclockwise"),
-    STEP("extrude", "N", "a profile becomes a map of N equal rows, which repeats along y (a column: along x)"),
+    STEP("extrude", "N", "a row becomes a map of N equal rows, which repeats along y (a column: along x)"),
     {.name = "set", .type = OPT_TEXTS, .at = offsetof(struct args, steps), .result = true,
      .arg = "KEY=VALUE",
      .help = "set a key of every frame, KEY= removes it; may be repeated"},

@@ -45,7 +45,8 @@ static const struct opt options[] = {
              "map, each a case"},
     {.name = "counter", .type = OPT_TEXT, .base = &args.counter, .result = true, .arg = "FILE",
      .needs = RULES({.with = "travel"}),
-     .help = "heights of body 2, which travels (or a ball: --radius, a roller: --cylinder); mirrored as by rc-add"},
+     .help = "heights of body 2, which travels (or a ball: --radius, a roller: --cylinder); mirrored as "
+             "by rc-add"},
     {.name = "counter-travel", .type = OPT_NUMBER, .base = &args.counter_travel, .min = -INFINITY,
      .max = INFINITY, .result = true, .arg = "RATIO",
      .needs = RULES({.with = "travel"}, {.with = "counter"}),
