@@ -1387,8 +1387,8 @@ struct rc_stress_options {
     /* processes that share the map; NULL: none */
     const struct rc_ranks *ranks;
     /* NULL, or strain whose stress is added. It costs five transforms per slab and one per depth
-     * and component, and needs body.e of a uniform body, and no or both axes that repeat.
-     * Interfaces belong to the lower slab. Sections interpolate linearly. */
+     * and component, and needs body.e of a uniform body. Interfaces belong to the lower slab.
+     * Sections interpolate linearly. */
     const struct rc_eigenstrain *strain;
     /* Tractions on this body's surface along +x and +y, Pa, nx ny each, interpolated like p;
      * NULL: none. */
