@@ -330,6 +330,21 @@ rc_extension_set(struct rc_extension *e, const unsigned char *face, double *cons
     return e->level = invert_means(e);
 }
 
+void
+rc_extension_extend(struct rc_extension *e, float *const r[2])
+{
+    rc_pyramid_extend(e->pyramid, residual_row, &(struct pass){e, r}, NULL);
+}
+
+void
+rc_extension_row(const struct rc_extension *e, size_t j, const float *row[2])
+{
+    const float *first = rows_of(e, j + e->t->frame.y, 2) + e->t->frame.x;
+
+    row[0] = first;
+    row[1] = first + e->grid.nx;
+}
+
 /* ---- E' A E ---- */
 
 /* Replaces v by the part of E' v that the pyramid passes to neighbours, and adds the rest to z. `first`: the

@@ -70,6 +70,10 @@ RC_OWNER(rc_extension)
  * stick; the result is then the inverse for residuals without a mean. */
 bool rc_extension_set(struct rc_extension *e, const unsigned char *face, double *const q[2],
                       const float *curve, bool given);
+/* The pyramid's field e from r along free directions; then its values on row j of the map, for several
+ * threads. */
+void rc_extension_extend(struct rc_extension *e, float *const r[2]);
+void rc_extension_row(const struct rc_extension *e, size_t j, const float *row[2]);
 /* z = M r; both are 0 along directions that are not free. */
 void rc_extension_apply(struct rc_extension *e, float *const r[2], float *const z[2]);
 

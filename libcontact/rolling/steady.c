@@ -4,21 +4,24 @@
  *
  *  1. Nodes inside their circles stick; nodes on it slip, with D = |s|/g along their tangents, or stick again
  *     if their slip points inwards. P is the projection on the free directions.
- *  2. P (B + D) P x = -P s by GMRES (Saad and Schultz 1986) to a tenth, at most 8 steps.
- *     Preconditioner: 1/(D + b) with b = B of a node on itself; where most nodes stick
+ *  2. P (B + D) P x = -P s by GMRES (Saad and Schultz 1986) to 0.3, at most 5 steps. The preconditioner
+ *     inverts 1 - S by a recursion along the rows, from the leading edge to the trailing one:
  *
- *         sqrt(w) T^-1 (1 - rho S)^-1 sqrt(w) + (1 - w)/(D + b),   w = b/(b + D),   1 where nodes stick.
+ *         u_i = r_i + w u_(i+1) + (1 - w) e_(i+1).
  *
- *     (1 - rho S)^-1 is a recursion along the rows, from the leading edge to the trailing one.
- *     rho = 1 - 1/run ends its tail behind the contact.
- *  3. Nodes that slip return to their circles along the radius, and the others are cut to their discs.
- *     The whole step is accepted if it lowers the natural residual |q - Pi(q - s/b)|, else a quarter of it,
- *     thrice.
+ *     w = b/(b + D) at node i + 1, 1 where it sticks and 0 without load, b = B of a node on itself. e is the
+ *     displacement ahead, which the pyramid of extension.h extends from u: both are found in turn. Then
+ *     z = M u with M, nearly (T + D)^-1, of extension.h. Without e the steps grow with the number of nodes.
+ *  3. q + x - (s + B x)/b is projected on the discs, so that a node can stick, slip and turn in one step:
+ *     otherwise fronts on rough maps move by one node a step. If this does not lower the natural residual
+ *     |q - Pi(q - s/b)|, nodes that slip return from q + x to their circles along the radius, and the others
+ *     are cut to their discs; then from a quarter of x, thrice.
  *  4. If none does, the contact rolls one step in time: a projection of S q, which is never farther from the
  *     solution.
+ *  5. The first vector of the next step, z of the residual, is nearly the error of q.
  *
- * If a force is given, v is unknown. Two further right sides give the corrections due to v, and the sum of q
- * determines v.
+ * If a force is given, v is unknown. Vectors of GMRES then have two further numbers, the part of the missing
+ * sum of q. The preconditioner adds to z the tractions due to the change of v that gives z its sum.
  */
 #include "steady.h"
 
@@ -33,23 +36,20 @@ enum {
     STICK = RC_FACE_STICK,
     SLIP = RC_FACE_SLIP,
     STEPS = RC_STEADY_STEPS,
+    SUMS = 6, /* those of `look`, or products with STEPS vectors */
+    /* Extensions of the displacement ahead of the rows. Half takes 8 % more convolutions, and double 1 %
+     * fewer (24 runs: smooth and rough balls, 64 to 512 nodes a side, to 1e-2 and 1e-4). */
+    SWEEPS = 4,
     /* Trials with a quarter of the step before. Half and double change no bit (22 runs of
      * bench/constants.py). */
     SHORTER = 3,
 };
-/* |x| over the error before the step was 0.6 to 1.5. Half takes 4 % fewer convolutions, with errors up
- * to 20 times as large, and double takes 2 % more (22 runs of bench/constants.py). */
-static const double safety = 1.7;
-/* The natural residual after the step is 0.3 to 1.7 of its error. It tells that the next step moves a
- * front, as all rows of a roller do at once. Half leaves 2 estimates of 450 random rollers below the
- * error; neither half nor double changes the convolutions by 1 %. */
-static const double of_residual = 2;
-/* Of the linear iteration. Half takes 10 % more convolutions. Double takes 9 % fewer, with errors up to
- * 73 times as large (22 runs of bench/constants.py). */
-static const double inner_tol = 0.1;
-/* Part of the nodes that stick; above it T^-1 pays. Half changes no bit; double takes 1 % fewer
- * convolutions, and one run 16 % fewer (22 runs of bench/constants.py). */
-static const double few = 0.1;
+/* Factor of the estimate: the tractions that the preconditioner makes of the residual, and the natural
+ * residual. Together they are 1.3 to 6.3 times the error, with a median of 2.2 (1,800 random runs). Half takes
+ * 8 % fewer convolutions, double 7 % more (24 runs as above). */
+static const double safety = 1.1;
+/* Of the linear iteration. Half takes 2 % more convolutions, double 43 % (24 runs as above). */
+static const double inner_tol = 0.3;
 /* Relative: rounding of a radius. Half and double change no bit (22 runs of bench/constants.py). */
 static const double on_circle = 1e-12;
 
@@ -76,7 +76,7 @@ sum_row(void *ctx, size_t j, double *sum)
 
 /* Calls `of` for each node with load, and returns the sums. */
 static void
-all_nodes(struct rc_steady *d, of_node *of, const void *with, double sum[STEPS + 1])
+all_nodes(struct rc_steady *d, of_node *of, const void *with, double sum[SUMS])
 {
     struct row row = {d, of, with};
 
@@ -120,7 +120,7 @@ look_at(struct rc_steady *d, size_t k, const void *with, double *sum)
 static void
 look(struct rc_steady *d)
 {
-    double sum[STEPS + 1], size;
+    double sum[SUMS], size;
 
     all_nodes(d, look_at, NULL, sum);
     size = fmax(sum[0], DBL_MIN);
@@ -145,64 +145,68 @@ free_part(const unsigned char *face, double *const *q, size_t k, float *const to
     to[1][k] = (float)y;
 }
 
-/* to = P (B + D) P z */
+/* to = P ((B + D) z - dv); `normal` keeps the part of B z - dv along q of nodes that slip. */
 static void
-multiply(struct rc_steady *d, float *const z[2], float *const to[2])
+multiply(struct rc_steady *d, float *const z[2], const double dv[2], float *const to[2],
+         float *normal)
 {
-    for (int c = 0; c < 2; c++)
-        for (size_t k = 0; k < d->n; k++)
+#pragma omp parallel for num_threads(d->threads) schedule(static)
+    for (size_t k = 0; k < d->n; k++)
+        for (int c = 0; c < 2; c++)
             d->step.way[c][k] = z[c][k];
     rc_tangential_apply(d->t, d->step.way, d->u);
 #pragma omp parallel for num_threads(d->threads) schedule(static)
-    for (size_t k = 0; k < d->n; k++)
-        if (d->g[k] > 0)
-            free_part(d->face, d->q, k, to, d->u[0][k] - d->u[0][k + 1] + d->curve[k] * z[0][k],
-                      d->u[1][k] - d->u[1][k + 1] + d->curve[k] * z[1][k]);
-}
-
-/* frame = T^-1 (1 - rho S)^-1 sqrt(w) v */
-static void
-invert(struct rc_steady *d, float *const v[2])
-{
-    const size_t nx = d->shape.nx, fx = d->t->frame.x, fy = d->t->frame.y, wide = nx + 2 * fx;
-    const float rho = (float)(1 - 1 / fmax(d->run, 2));
-
-    for (int c = 0; c < 2; c++) {
-        memset(d->space.frame[c], 0, wide * (d->shape.ny + 2 * fy) * sizeof(float));
-        for (size_t j = 0; j < d->shape.ny; j++) {
-            float *row = d->space.frame[c] + (j + fy) * wide, last = 0;
-            for (size_t i = nx + fx; i-- > 0;) {
-                const size_t k = j * nx + i - fx;
-                row[i] = last *= rho;
-                if (i >= fx && d->g[k] > 0)
-                    row[i] = last +=
-                        v[c][k] * sqrtf((float)d->self / ((float)d->self + d->curve[k]));
-            }
-        }
-    }
-    rc_tangential_inverse(d->t, d->space.frame, d->space.frame);
-}
-
-static void
-precondition(struct rc_steady *d, float *const v[2], float *const z[2])
-{
-    const size_t nx = d->shape.nx, wide = nx + 2 * d->t->frame.x;
-    const bool whole = (double)d->found.stick > few * (double)(d->found.stick + d->found.slipping);
-
-    if (whole)
-        invert(d, v);
-#pragma omp parallel for num_threads(d->threads) schedule(static)
     for (size_t k = 0; k < d->n; k++) {
-        const size_t at = (k / nx + d->t->frame.y) * wide + d->t->frame.x + k % nx;
-        const double b = d->self + d->curve[k], w = whole ? d->self / b : 0;
-        double x[2];
-
+        double s[2];
         if (!(d->g[k] > 0))
             continue;
         for (int c = 0; c < 2; c++)
-            x[c] = (1 - w) / b * v[c][k] + (whole ? sqrt(w) * d->space.frame[c][at] : 0);
-        free_part(d->face, d->q, k, z, x[0], x[1]);
+            s[c] = d->u[c][k] - d->u[c][k + 1] - dv[c];
+        normal[k] =
+            d->face[k] != SLIP
+                ? 0
+                : (float)((s[0] * d->q[0][k] + s[1] * d->q[1][k]) / hypot(d->q[0][k], d->q[1][k]));
+        free_part(d->face, d->q, k, to, s[0] + d->curve[k] * z[0][k], s[1] + d->curve[k] * z[1][k]);
     }
+}
+
+/* The displacements of the nodes of a row, from the leading edge on: u_i = v_i + w u_(i+1) + (1 - w) e_(i+1),
+ * with the part w of the node ahead that is known. Only u along free directions is kept. */
+static void
+along_row(struct rc_steady *d, size_t j, float *const v[2], const float *const e[2],
+          float *const u[2])
+{
+    const size_t nx = d->shape.nx;
+    float last[2] = {0, 0};
+
+    for (size_t i = nx - 1; i-- > 0;) {
+        const size_t k = j * nx + i;
+        const float w =
+            !(d->g[k + 1] > 0) ? 0 : (float)d->self / ((float)d->self + d->curve[k + 1]);
+        for (int c = 0; c < 2; c++)
+            last[c] = (d->g[k] > 0 ? v[c][k] : 0) + w * last[c] +
+                      (1 - w) * (e[c] == NULL ? 0 : e[c][i + 1]);
+        if (d->g[k] > 0)
+            free_part(d->face, d->q, k, u, (double)last[0], (double)last[1]);
+    }
+}
+
+/* z = (P (B + D) P)^-1 v, approximately; u: displacements, for the sweeps. */
+static void
+precondition(struct rc_steady *d, float *const v[2], float *const u[2], float *const z[2])
+{
+    for (int sweep = 0; sweep <= SWEEPS; sweep++) {
+        if (sweep > 0)
+            rc_extension_extend(d->m, u);
+#pragma omp parallel for num_threads(d->threads) schedule(static)
+        for (size_t j = 0; j < d->shape.ny; j++) {
+            const float *e[2] = {NULL, NULL};
+            if (sweep > 0)
+                rc_extension_row(d->m, j, e);
+            along_row(d, j, v, e, u);
+        }
+    }
+    rc_extension_apply(d->m, u, z);
 }
 
 /* The products of vector `with` of the basis with those before. */
@@ -237,20 +241,31 @@ subtract(struct rc_steady *d, size_t k, const void *with, double *sum)
     sum[0] += x[0] * x[0] + x[1] * x[1];
 }
 
-/* Returns the length that vector `last` had after this, and makes it 1. */
+/* Returns the length that vector `last` had after this, and makes it 1. The numbers in `motion` belong to the
+ * vectors. */
 static double
 orthogonal(struct rc_steady *d, size_t last, double *part)
 {
-    double sum[STEPS + 1], size;
+    double sum[SUMS], size, (*rest)[2] = d->motion.rest;
 
+    memset(sum, 0, sizeof sum);
     if (last > 0)
         all_nodes(d, product, &last, sum);
-    memcpy(part, sum, last * sizeof *part);
+    for (size_t m = 0; m < last; m++)
+        part[m] = sum[m] + rest[last][0] * rest[m][0] + rest[last][1] * rest[m][1];
     all_nodes(d, subtract, &(struct less){last, part}, sum);
-    size = sqrt(sum[0]);
-    for (size_t k = 0; k < d->n && size > 0; k++)
+    for (size_t m = 0; m < last; m++)
+        for (int c = 0; c < 2; c++)
+            rest[last][c] -= part[m] * rest[m][c];
+    size = sqrt(sum[0] + rest[last][0] * rest[last][0] + rest[last][1] * rest[last][1]);
+    if (!(size > 0))
+        return 0;
+#pragma omp parallel for num_threads(d->threads) schedule(static)
+    for (size_t k = 0; k < d->n; k++)
         for (int c = 0; c < 2; c++)
             d->space.basis[last][c][k] /= (float)size;
+    for (int c = 0; c < 2; c++)
+        rest[last][c] /= size;
     return size;
 }
 
@@ -264,19 +279,179 @@ turn(const double cs[2], double *x, double *y)
     *y = cs[0] * *y - cs[1] * was;
 }
 
-/* to = (P (B + D) P)^-1 of the right side in basis[0], by GMRES. */
 static void
-solve(struct rc_steady *d, double *const to[2])
+length_of(struct rc_steady *d, size_t k, const void *with, double *sum)
 {
-    double h[STEPS][STEPS + 2], cs[STEPS][2], rest[STEPS + 1], y[STEPS], first;
+    float *const *x = with;
+
+    (void)d;
+    sum[0] += hypot(x[0][k], x[1][k]);
+}
+
+static void
+sum_of(struct rc_steady *d, size_t k, const void *with, double *sum)
+{
+    float *const *x = with;
+
+    (void)d;
+    sum[0] += x[0][k];
+    sum[1] += x[1][k];
+}
+
+/* The right side in the free directions: -s, or for c < 2 a unit change of v. */
+static void
+right_side(struct rc_steady *d, int c)
+{
+    for (size_t k = 0; k < d->n; k++)
+        if (d->g[k] > 0)
+            free_part(d->face, d->q, k, d->space.basis[0], c < 2 ? c == 0 : -d->s[0][k],
+                      c < 2 ? c == 1 : -d->s[1][k]);
+}
+
+/* y = m x for a matrix by rows. */
+static void
+times(const double m[4], const double x[2], double y[2])
+{
+    y[0] = m[0] * x[0] + m[1] * x[1];
+    y[1] = m[2] * x[0] + m[3] * x[1];
+}
+
+/* The border of the linear problem if a force is given: tractions due to a change of v, by the
+ * preconditioner, and the change of v that a sum of tractions needs. False: v does not change the sum. */
+static bool
+find_border(struct rc_steady *d)
+{
+    double at[2][SUMS], det, *to = d->motion.of_sum;
+
+    for (int c = 0; c < 2; c++) {
+        right_side(d, c);
+        precondition(d, d->space.basis[0], d->space.basis[1], d->motion.due[c]);
+        all_nodes(d, sum_of, d->motion.due[c], at[c]);
+    }
+    det = at[0][0] * at[1][1] - at[1][0] * at[0][1];
+    memset(to, 0, sizeof d->motion.of_sum);
+    if (!(fabs(det) > 0))
+        return false;
+    to[0] = at[1][1] / det;
+    to[1] = -at[1][0] / det;
+    to[2] = -at[0][1] / det;
+    to[3] = at[0][0] / det;
+    return true;
+}
+
+/* The change of v with which z has the sum that belongs to vector m of the basis; z gets its part. */
+static void
+balance(struct rc_steady *d, size_t m, float *const z[2], double dv[2])
+{
+    double sum[SUMS];
+
+    all_nodes(d, sum_of, z, sum);
+    times(d->motion.of_sum, sum, dv);
+    for (int c = 0; c < 2; c++)
+        dv[c] = d->motion.rest[m][c] / d->motion.weight - dv[c];
+    for (int c = 0; c < 2; c++)
+        for (size_t k = 0; k < d->n; k++)
+            if (d->g[k] > 0)
+                z[c][k] += (float)(dv[0] * d->motion.due[0][c][k] + dv[1] * d->motion.due[1][c][k]);
+}
+
+/* The end of a linear solution with the parts y of m vectors z, h: the products of z by the basis. */
+struct linear {
+    size_t m;
+    double y[STEPS], h[STEPS + 1];
+};
+
+/* Turns the basis into the step before the projection, x - (s + B x - dv)/b. At nodes that slip the first
+ * number is that along q, where s is -D g, and the second one is along the tangent: rounding of one does not
+ * disturb the other. */
+static void
+find_step(struct rc_steady *d, const struct linear *l)
+{
+#pragma omp parallel for num_threads(d->threads) schedule(static)
+    for (size_t k = 0; k < d->n; k++) {
+        double x[2] = {0, 0}, to[2] = {0, 0}, normal = 0;
+        if (!(d->g[k] > 0)) {
+            d->step.way[0][k] = d->step.way[1][k] = 0;
+            continue;
+        }
+        for (int c = 0; c < 2; c++) {
+            for (size_t m = 0; m < l->m; m++)
+                x[c] += l->y[m] * d->space.z[m][c][k];
+            for (size_t m = 0; m <= l->m; m++)
+                to[c] += l->h[m] * d->space.basis[m][c][k];
+            d->step.way[c][k] = x[c];
+        }
+        for (size_t m = 0; m < l->m; m++)
+            normal += l->y[m] * d->space.normal[m][k];
+        for (int c = 0; c < 2; c++)
+            to[c] = x[c] - (d->s[c][k] + to[c] - d->curve[k] * x[c]) / d->self;
+        if (d->face[k] == SLIP) {
+            const double a = d->q[0][k], b = d->q[1][k], r = hypot(a, b);
+            to[1] = (to[1] * a - to[0] * b) / r;
+            to[0] = (d->curve[k] * d->g[k] - normal) / d->self;
+        }
+        for (int c = 0; c < 2; c++)
+            d->space.basis[0][c][k] = (float)to[c];
+    }
+}
+
+/* z = M r for vector m of the basis, and the change of v with it. */
+static void
+next_vector(struct rc_steady *d, size_t m)
+{
+    precondition(d, d->space.basis[m], d->space.basis[m + 1], d->space.z[m]);
+    d->motion.dv[m][0] = d->motion.dv[m][1] = 0;
+    if (d->asked.force)
+        balance(d, m, d->space.z[m], d->motion.dv[m]);
+}
+
+/* The residual, as the first vector of the basis, and its tractions by the preconditioner. Returns their
+ * sum. */
+static double
+find_residual(struct rc_steady *d)
+{
+    double sum[SUMS];
+
+    rc_extension_set(d->m, d->face, d->q, d->curve, true);
+    memset(d->motion.rest, 0, sizeof d->motion.rest);
+    if (d->asked.force && find_border(d)) {
+        const double miss[2] = {d->asked.sum[0] - d->found.sum[0],
+                                d->asked.sum[1] - d->found.sum[1]};
+        times(d->motion.of_sum, miss, d->motion.rest[0]);
+        for (int c = 0; c < 2; c++)
+            d->motion.rest[0][c] *= d->motion.weight;
+    }
+    right_side(d, 2);
+    d->space.first = orthogonal(d, 0, NULL);
+    next_vector(d, 0);
+    all_nodes(d, length_of, d->space.z[0], sum);
+    return d->space.first * sum[0];
+}
+
+static void
+estimate(struct rc_steady *d)
+{
+    d->found.estimate =
+        safety * (find_residual(d) / fmax(d->found.size, DBL_MIN) + d->found.residual);
+}
+
+/* The step x of Newton's method, and the change of v with it, by GMRES. */
+static void
+solve(struct rc_steady *d, double dv[2])
+{
+    double h[STEPS][STEPS + 2], made[STEPS][STEPS + 1], cs[STEPS][2], rest[STEPS + 1];
+    struct linear l = {0};
     size_t m = 0;
 
-    first = rest[0] = orthogonal(d, 0, h[0]);
-    while (m < STEPS && fabs(rest[m]) > inner_tol * first) {
+    rest[0] = d->space.first;
+    while (m < STEPS && fabs(rest[m]) > inner_tol * rest[0]) {
         double size;
-        precondition(d, d->space.basis[m], d->space.z[m]);
-        multiply(d, d->space.z[m], d->space.basis[m + 1]);
+        if (m > 0)
+            next_vector(d, m);
+        memcpy(d->motion.rest[m + 1], d->motion.rest[m], sizeof d->motion.rest[m]);
+        multiply(d, d->space.z[m], d->motion.dv[m], d->space.basis[m + 1], d->space.normal[m]);
         h[m][m + 1] = orthogonal(d, m + 1, h[m]);
+        memcpy(made[m], h[m], (m + 2) * sizeof *h[m]);
         for (size_t k = 0; k < m; k++)
             turn(cs[k], &h[m][k], &h[m][k + 1]);
         size = hypot(h[m][m], h[m][m + 1]);
@@ -290,84 +465,26 @@ solve(struct rc_steady *d, double *const to[2])
         m++;
     }
     for (size_t k = m; k-- > 0;) {
-        y[k] = rest[k];
-        for (size_t l = k + 1; l < m; l++)
-            y[k] -= h[l][k] * y[l];
-        y[k] /= h[k][k];
+        l.y[k] = rest[k];
+        for (size_t i = k + 1; i < m; i++)
+            l.y[k] -= h[i][k] * l.y[i];
+        l.y[k] /= h[k][k];
     }
-#pragma omp parallel for num_threads(d->threads) schedule(static)
-    for (size_t k = 0; k < d->n; k++)
-        for (int c = 0; c < 2; c++) {
-            double x = 0;
-            for (size_t l = 0; l < m; l++)
-                x += y[l] * d->space.z[l][c][k];
-            to[c][k] = x;
-        }
+    l.m = m;
+    dv[0] = dv[1] = 0;
+    for (size_t k = 0; k < m; k++) {
+        for (size_t i = 0; i <= k + 1; i++)
+            l.h[i] += l.y[k] * made[k][i];
+        for (int c = 0; c < 2; c++)
+            dv[c] += l.y[k] * d->motion.dv[k][c];
+    }
+    find_step(d, &l);
 }
 
 /* ---- a step ---- */
 
-static void
-length_of(struct rc_steady *d, size_t k, const void *with, double *sum)
-{
-    double *const *x = with;
-
-    (void)d;
-    sum[0] += hypot(x[0][k], x[1][k]);
-    sum[1] += x[0][k];
-    sum[2] += x[1][k];
-}
-
-/* The right side in the free directions: -s, or for c < 2 a unit change of v. */
-static void
-right_side(struct rc_steady *d, int c)
-{
-    for (size_t k = 0; k < d->n; k++)
-        if (d->g[k] > 0)
-            free_part(d->face, d->q, k, d->space.basis[0], c < 2 ? c == 0 : -d->s[0][k],
-                      c < 2 ? c == 1 : -d->s[1][k]);
-}
-
-/* The change of v that gives q the asked sum; the way with it. */
-static void
-find_motion(struct rc_steady *d, double dv[2])
-{
-    double at[3][STEPS + 1], miss[2], det;
-
-    for (int c = 0; c < 2; c++) {
-        right_side(d, c);
-        solve(d, d->step.way_of[c]);
-        all_nodes(d, length_of, d->step.way_of[c], at[c]);
-    }
-    right_side(d, 2);
-    solve(d, d->step.way);
-    all_nodes(d, length_of, d->step.way, at[2]);
-    for (int c = 0; c < 2; c++)
-        miss[c] = d->asked.sum[c] - d->found.sum[c] - at[2][1 + c];
-    det = at[0][1] * at[1][2] - at[1][1] * at[0][2];
-    if (!(fabs(det) > 0))
-        return;
-    dv[0] = (miss[0] * at[1][2] - at[1][1] * miss[1]) / det;
-    dv[1] = (at[0][1] * miss[1] - miss[0] * at[0][2]) / det;
-    for (int c = 0; c < 2; c++)
-        for (size_t k = 0; k < d->n; k++)
-            d->step.way[c][k] += dv[0] * d->step.way_of[0][c][k] + dv[1] * d->step.way_of[1][c][k];
-}
-
-/* What further steps change over what this one does: c/(1 - c), if each changes c times as much as the one
- * before. The last step may have been better than the next ones: c is the root of its ratio. */
-static double
-left_over(double change, double before)
-{
-    /* Half of `least` changes three estimates, double takes 1 % more convolutions; half and double of
-     * `worst`, where the changes hardly fall, change no bit (22 runs of bench/constants.py). */
-    static const double least = 0.3, worst = 0.95;
-    const double c = fmin(sqrt(change / before), worst);
-
-    return before > 0 ? fmax(least, c / (1 - c)) : 1;
-}
-
-/* Moves from the old q by a part of the way, and looks. */
+/* Moves from the old q by a part of the way, where nodes that slip return to their circles along the radius,
+ * and looks. */
 static void
 take(struct rc_steady *d, double part)
 {
@@ -376,6 +493,26 @@ take(struct rc_steady *d, double part)
         for (int c = 0; c < 2; c++)
             d->q[c][k] = d->g[k] > 0 ? d->step.old[c][k] + part * d->step.way[c][k] : 0;
         rc_onto_disc(d->g[k], d->step.was[k] == SLIP, &d->q[0][k], &d->q[1][k]);
+    }
+    find_slip(d);
+    look(d);
+}
+
+/* Projects q + x - (s + B x)/b, after which nodes may stick, slip or turn, and looks. */
+static void
+take_freely(struct rc_steady *d)
+{
+    float *const *to = d->space.basis[0];
+
+#pragma omp parallel for num_threads(d->threads) schedule(static)
+    for (size_t k = 0; k < d->n; k++) {
+        const double x = d->step.old[0][k], y = d->step.old[1][k], r = hypot(x, y);
+        const bool slips = d->step.was[k] == SLIP;
+        if (!(d->g[k] > 0))
+            continue;
+        d->q[0][k] = x + (slips ? (to[0][k] * x - to[1][k] * y) / r : to[0][k]);
+        d->q[1][k] = y + (slips ? (to[0][k] * y + to[1][k] * x) / r : to[1][k]);
+        rc_onto_disc(d->g[k], false, &d->q[0][k], &d->q[1][k]);
     }
     find_slip(d);
     look(d);
@@ -559,34 +696,34 @@ rc_steady_guess(struct rc_steady *d)
 static void
 prepare(struct rc_steady *d, bool again)
 {
-    size_t loaded = 0, runs = 0;
+    double loaded = 0;
 
     for (size_t k = 0; k < d->n; k++) {
         const bool on = d->g[k] > 0;
         d->face[k] = on ? STICK : OFF;
         loaded += on;
-        runs += on && !(d->g[k + 1] > 0);
         for (int c = 0; c < 2 && !on; c++) {
             d->q[c][k] = 0;
             for (size_t m = 0; m <= STEPS; m++)
                 d->space.basis[m][c][k] = 0;
             for (size_t m = 0; m < STEPS; m++)
                 d->space.z[m][c][k] = 0;
+            for (int m = 0; m < 2 && d->asked.force; m++)
+                d->motion.due[m][c][k] = 0;
         }
         if (!again)
             rc_onto_disc(d->g[k], false, &d->q[0][k], &d->q[1][k]);
     }
-    d->run = runs > 0 ? (double)loaded / (double)runs : 0;
+    d->motion.weight = sqrt(loaded);
     find_slip(d);
     look(d);
+    estimate(d);
 }
 
 void
 rc_steady_begin(struct rc_steady *d)
 {
     d->found.steps = d->found.fallbacks = 0;
-    d->found.estimate = INFINITY;
-    d->found.change = 0;
     prepare(d, false);
 }
 
@@ -600,10 +737,8 @@ enum rc_status
 rc_steady_step(struct rc_steady *d, struct rc_err *err)
 {
     const double before = d->found.residual, v[2] = {d->v[0], d->v[1]};
-    double dv[2] = {0, 0}, part = 1, sum[STEPS + 1];
+    double dv[2], part = 1;
 
-    if (before == 0)
-        d->found.estimate = 0;
     if (isnan(before)) { /* a number is too large */
         d->found.estimate = INFINITY;
         return RC_SHORT;
@@ -613,20 +748,17 @@ rc_steady_step(struct rc_steady *d, struct rc_err *err)
     if (d->found.steps >= d->asked.most)
         return RC_SHORT;
     d->found.steps++;
-    if (d->asked.force) {
-        find_motion(d, dv);
-    } else {
-        right_side(d, 2);
-        solve(d, d->step.way);
-    }
-    all_nodes(d, length_of, d->step.way, sum);
+    solve(d, dv);
     for (int c = 0; c < 2; c++)
         memcpy(d->step.old[c], d->q[c], d->n * sizeof(double));
     memcpy(d->step.was, d->face, d->n);
-    for (int trial = 0; trial <= SHORTER; trial++, part /= 4) {
+    for (int trial = 0; trial <= SHORTER + 1; trial++, part /= trial > 1 ? 4 : 1) {
         for (int c = 0; c < 2; c++)
             d->v[c] = v[c] + part * dv[c];
-        take(d, part);
+        if (trial == 0)
+            take_freely(d);
+        else
+            take(d, part);
         if (d->found.residual < before)
             break;
     }
@@ -638,10 +770,7 @@ rc_steady_step(struct rc_steady *d, struct rc_err *err)
         if (rc_steady_roll(d, err) != RC_OK)
             return RC_FAIL;
     }
-    d->found.estimate =
-        fmax(safety * left_over(sum[0], d->found.change) * sum[0] / fmax(d->found.size, DBL_MIN),
-             of_residual * d->found.residual);
-    d->found.change = sum[0];
+    estimate(d);
     return d->found.estimate <= d->asked.tol ? RC_OK : RC_MORE;
 }
 
@@ -670,6 +799,7 @@ rc_steady_free(struct rc_steady *d)
     if (d == NULL)
         return;
     rc_discs_free(d->discs);
+    rc_extension_free(d->m);
     rc_tangential_free(d->t);
     free(d->rows.row);
     rc_store_free(&d->own);
@@ -679,29 +809,19 @@ rc_steady_free(struct rc_steady *d)
 static bool
 allocate(struct rc_steady *d)
 {
-    double **const pairs[] = {
-        d->q, d->rigid, d->u, d->s, d->step.way, d->step.old, d->step.way_of[0], d->step.way_of[1]};
+    double **const pairs[] = {d->q, d->rigid, d->u, d->s, d->step.way, d->step.old, d->path.last};
     const bool path = d->asked.path;
-    const size_t count = path             ? 7
-                         : d->asked.force ? 8
-                                          : 6,
-                 vectors = path ? 1 : 3 + 4 * STEPS,
-                 grid = path
-                            ? 0
-                            : (d->shape.nx + 2 * d->t->frame.x) * (d->shape.ny + 2 * d->t->frame.y);
-    float *at = rc_store_take(&d->own, vectors * d->n + 2 * grid, sizeof *at);
+    const size_t count = path ? 7 : 6, due = d->asked.force ? 4 : 0,
+                 vectors = path ? 1 : 3 + 5 * STEPS + due;
+    float *at = rc_store_take(&d->own, vectors * d->n, sizeof *at);
 
     d->g = rc_store_zeros(&d->own, (1 + 2 * count) * d->n, sizeof *d->g);
     d->face = rc_store_take(&d->own, 2 * d->n, 1);
-    if (rc_sums_new(&d->rows, d->shape.ny, STEPS + 1, 0, d->threads) != RC_OK || d->own.failed)
+    if (rc_sums_new(&d->rows, d->shape.ny, SUMS, 0, d->threads) != RC_OK || d->own.failed)
         return false;
     memset(d->face, OFF, 2 * d->n);
     for (size_t k = 0; k < 2 * count; k++)
         pairs[k / 2][k % 2] = d->g + (1 + k) * d->n;
-    if (path) {
-        memcpy(d->path.last, d->step.way_of[0], sizeof d->path.last);
-        d->step.way_of[0][0] = d->step.way_of[0][1] = NULL;
-    }
     d->curve = at;
     d->step.was = d->face + d->n;
     for (size_t c = 0; c < 2 && !path; c++) {
@@ -709,9 +829,11 @@ allocate(struct rc_steady *d)
             d->space.basis[m][c] = at += d->n;
         for (size_t m = 0; m < STEPS; m++)
             d->space.z[m][c] = at += d->n;
+        for (size_t m = 0; m < due / 2; m++)
+            d->motion.due[m][c] = at += d->n;
     }
-    d->space.frame[0] = path ? NULL : at + d->n;
-    d->space.frame[1] = path ? NULL : d->space.frame[0] + grid;
+    for (size_t m = 0; m < STEPS && !path; m++)
+        d->space.normal[m] = at += d->n;
     return true;
 }
 
@@ -732,6 +854,8 @@ rc_steady_new(const struct rc_shape *shape, struct rc_boundary boundary,
         return NULL;
     d->threads = d->t->threads;
     d->self = self_of(d->t);
+    if (!path && (d->m = rc_extension_new(d->t, err)) == NULL)
+        return NULL;
     if (!allocate(d))
         return rc_err_null(err, "out of memory for rolling of %zu x %zu nodes", shape->nx,
                            shape->ny);

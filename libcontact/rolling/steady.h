@@ -20,15 +20,14 @@
 #include "libcontact/friction/discs.h"
 
 enum {
-    RC_STEADY_STEPS = 8 /* of the linear iteration: its vectors need most of the memory */
+    RC_STEADY_STEPS = 5 /* of the linear iteration: its vectors need most of the memory */
 };
 
 /* The correction of a step. */
 struct rc_steady_step {
-    double *way[2];       /* the correction; on a path, the displacement due to the pressure */
-    double *old[2];       /* q before the correction; on a path, the earlier displacement */
-    double *way_of[2][2]; /* if the force is given: corrections due to v, else NULL */
-    unsigned char *was;   /* enum rc_face before the step */
+    double *way[2];     /* the correction; on a path, the displacement due to the pressure */
+    double *old[2];     /* q before the correction; on a path, the earlier displacement */
+    unsigned char *was; /* enum rc_face before the step */
 };
 
 /* The last point of a path. */
@@ -39,7 +38,17 @@ struct rc_steady_path {
 
 /* Vectors of the linear iteration. */
 struct rc_steady_space {
-    float *basis[RC_STEADY_STEPS + 1][2], *z[RC_STEADY_STEPS][2], *frame[2];
+    float *basis[RC_STEADY_STEPS + 1][2], *z[RC_STEADY_STEPS][2], *normal[RC_STEADY_STEPS];
+    double first; /* length of the residual */
+};
+
+/* If the force is given: the change of v, an unknown of the linear iteration. */
+struct rc_steady_motion {
+    float *due[2][2]; /* tractions due to v, by the preconditioner             */
+    double of_sum[4]; /* by rows: the change of v that a sum of tractions needs */
+    double weight;    /* of a change of v, beside a vector */
+    double rest[RC_STEADY_STEPS + 1][2]; /* the part of a vector that is a change of v */
+    double dv[RC_STEADY_STEPS][2];       /* that of z */
 };
 
 struct rc_steady {
@@ -48,7 +57,6 @@ struct rc_steady {
     int threads;
     struct rc_tangential *t;
     double self; /* B of a node on itself, the mean of both directions */
-    double run;  /* mean number of loaded nodes one behind the other   */
     /* The caller sets g (0 in the last column), rigid, v, and q, then calls rc_steady_begin. */
     double *g, *q[2], *rigid[2], v[2];
     double *u[2], *s[2]; /* T q or T of a vector; slip     */
@@ -57,6 +65,8 @@ struct rc_steady {
     struct rc_steady_step step;
     struct rc_steady_path path;
     struct rc_steady_space space;
+    struct rc_steady_motion motion;
+    struct rc_extension *m; /* NULL on a path */
     struct {
         bool force; /* v is found                        */
         bool path;
@@ -69,7 +79,6 @@ struct rc_steady {
         double residual; /* relative: change of q by a projected step of length 1/self     */
         double estimate; /* estimated relative L1 error of q */
         double sum[2];   /* of q                                                           */
-        double change;   /* sum of |x| of the last step                                    */
         size_t stick, slipping, steps, fallbacks;
     } found;
     struct rc_discs *discs; /* for steps in time; NULL: none was necessary */

@@ -215,8 +215,8 @@ static const struct {
     double ratio, x, y, spin;
     size_t most[2];
 } cases[] = {
-    {0.5, 5e-4, 0, 0, {80, 150}}, {0.5, 1e-4, 0, 0, {80, 130}},      {2, 0, 3e-4, 1e-4, {110, 200}},
-    {1, 0, 0, 1e-3, {110, 220}},  {1, 3e-4, 2e-4, 3e-4, {110, 250}}, {1, 3e-3, 0, 0, {70, 150}},
+    {0.5, 5e-4, 0, 0, {35, 60}}, {0.5, 1e-4, 0, 0, {35, 60}},     {2, 0, 3e-4, 1e-4, {40, 60}},
+    {1, 0, 0, 1e-3, {35, 60}},   {1, 3e-4, 2e-4, 3e-4, {40, 60}}, {1, 3e-3, 0, 0, {15, 35}},
 };
 
 static double
@@ -236,7 +236,7 @@ distance(struct rc_model *m, const double *ref, size_t n, double *q)
 static void
 test_estimate_and_work(void **state)
 {
-    double least = INFINITY;
+    double least = INFINITY, most = 0;
 
     (void)state;
     for (size_t c = 0; c < sizeof cases / sizeof *cases; c++)
@@ -264,6 +264,7 @@ test_estimate_and_work(void **state)
                     c, n, hypot(f->force[0], f->force[1]) / f->limit, f->stick_fraction, off,
                     f->traction_error, f->convolutions, f->discretization_error);
                 least = fmin(least, f->traction_error / off);
+                most = fmax(most, f->traction_error / off);
                 assert_true(f->fallbacks == 0 && f->convolutions <= (double)cases[c].most[t]);
                 rc_model_free(m);
                 free(p);
@@ -271,8 +272,8 @@ test_estimate_and_work(void **state)
             free(ref);
             free(q);
         }
-    printf("least estimate over error: %.2f\n", least);
-    assert_true(least > 1);
+    printf("estimate over error: %.2f to %.2f\n", least, most);
+    assert_true(least > 1 && most < 5);
 }
 
 /* The error of the spacing that 48 nodes tell, against 192. The force grows with the creepage. */
@@ -287,7 +288,7 @@ test_spacing_and_curve(void **state)
         double force[2][2], told = 0, extrapolated[2];
         for (int k = 0; k < 2; k++) {
             const struct rc_rolling_figures *f;
-            m = ellipse(k == 0 ? 48 : 192, cases[c].ratio, 1e-3, false, &p, &load);
+            m = ellipse(k == 0 ? 48 : 192, cases[c].ratio, k == 0 ? 1e-3 : 1e-6, false, &p, &load);
             assert_int_equal(roll(m, load, cases[c].x, cases[c].y, cases[c].spin, false, &err),
                              RC_OK);
             f = rc_rolling_result(m);
@@ -415,6 +416,7 @@ test_force_given(void **state)
         const double x = (k == 4 ? 0.97 : 0.3 * k) * 0.2 * load * 0.8, y = x * 0.75;
         const struct rc_rolling_figures *f = rc_rolling_result(m);
         assert_int_equal(roll(m, load, x, y, 1e-4, true, &err), RC_OK);
+        assert_true(f->convolutions < 110);
         creep[0] = f->creep[0];
         creep[1] = f->creep[1];
         printf("%.2f of the limit: creepage %.4g, %.4g; %.0f convolutions\n",
