@@ -32,15 +32,15 @@
     {                                                                                              \
         3.6, 5.1                                                                                   \
     }
-#define RC_CREEP_STEP 4.4    /* a step in time                                       */
-#define RC_SLIDE_CONTACT 5.5 /* a contact of a sliding body after the first one      */
-#define RC_SLIDE_PASSES 1.6  /* seconds                                              */
-#define RC_WEAR_BY_NODE 3    /* times a contact of a uniform coefficient; 2 to 6     */
-#define RC_RUBBING_PASSES 2  /* seconds of a contact of two rough bodies */
-#define RC_ROLLING_STEP 25   /* a step of a path                                     */
-#define RC_ROLLING_STEADY 90 /* a steady state to 1e-2; half more for each decade    */
-#define RC_ROLLING_LINE 50   /* the same on a map that repeats along y               */
-#define RC_ROLLING_FORCE 150 /* the same, with a given force                         */
+#define RC_CREEP_STEP 4.4     /* a step in time                                       */
+#define RC_SLIDE_CONTACT 5.5  /* a contact of a sliding body after the first one      */
+#define RC_SLIDE_PASSES 1.6   /* seconds                                              */
+#define RC_WEAR_BY_NODE 3     /* times a contact of a uniform coefficient; 2 to 6     */
+#define RC_RUBBING_PASSES 2   /* seconds of a contact of two rough bodies */
+#define RC_ROLLING_STEP 25    /* a step of a path                                     */
+#define RC_ROLLING_STEADY 29  /* a steady state to 1e-2; a third more for each decade */
+#define RC_ROLLING_FORCE 33   /* the same, with a given force                         */
+#define RC_ROLLING_PASSES 1.9 /* seconds of a convolution of a steady state          */
 /* Leakage: seconds and bytes of a node with fluid of 512 x 512; the seconds grow as n^(1/7). The bytes are
  * those of maps that are eliminated whole, and of larger ones. */
 #define RC_LEAK_NODE 1.7e-6

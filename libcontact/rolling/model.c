@@ -936,15 +936,13 @@ plan(const struct rc_model *m, const struct rc_point *most, struct rc_expected *
     const struct rc_rolling_problem *o = &f->problem;
     const struct rc_point inner = rc_point_for(m->inner, most);
     const double below = fmax(log10(1e-2 / o->law.tol), 0);
-    const double work = (o->path             ? RC_ROLLING_STEP
-                         : o->force          ? RC_ROLLING_FORCE
-                         : o->law.boundary.y ? RC_ROLLING_LINE
-                                             : RC_ROLLING_STEADY) *
-                        (1 + below / 2);
+    const double work = o->path
+                            ? RC_ROLLING_STEP * (1 + below / 2)
+                            : (o->force ? RC_ROLLING_FORCE : RC_ROLLING_STEADY) * (1 + below / 3);
     const double maps = (o->path    ? 53
-                         : o->force ? 72
-                                    : 67) -
-                        rc_by_padding(o->law.boundary, 0, 12) +
+                         : o->force ? 67
+                                    : 64) -
+                        rc_by_padding(o->law.boundary, 0, o->path ? 12 : 14) +
                         (f->shear.beta != 0 && !o->law.uncoupled ? 2 : 0);
     double each;
 
@@ -953,7 +951,7 @@ plan(const struct rc_model *m, const struct rc_point *most, struct rc_expected *
         return RC_FAIL;
     each = rc_conv_seconds(&m->shape, &(struct rc_conv_options){.boundary = o->law.boundary,
                                                                 .threads = o->law.threads});
-    expected->seconds += work * each;
+    expected->seconds += work * (o->path ? 1 : RC_ROLLING_PASSES) * each;
     expected->convolutions += work;
     expected->memory += (size_t)(maps * (double)f->n) * sizeof(double);
     return RC_OK;
