@@ -1130,9 +1130,13 @@ struct rc_sliding_figures {
     /* m/s */
     double speed;
     /* Coefficient of friction and force (N) against the motion, by the losses in the material:
-     * the integral of -p du/dx. friction_error: its difference to the integral of -p dh/dx, an
-     * error of the grid, and the error of pressure times the largest slope in contact. */
-    double friction, friction_force, friction_error;
+     * the integral of -p du/dx. */
+    double friction, friction_force;
+    /* The coefficient by the integral of -p dh/dx. Both are equal on a fine grid. */
+    double friction_by_heights;
+    /* Bound of the relative error of `friction` that the error of the pressure causes; it does not
+     * include the error of the grid. NAN: no friction. */
+    double friction_error;
     /* W, the losses of all waves: friction_force |speed| */
     double dissipated_power;
     /* largest ratio of loss and storage of the waves along the motion */

@@ -107,9 +107,11 @@ const struct rc_figure rc_figures_sliding[] = {
     {FIGURE(speed), "m/s", "Speed", .says = "of body 2 over body 1"},
     {FIGURE(friction), NULL, "Coefficient of friction", .says = "by the losses in the material"},
     {FIGURE(friction_force), "N", "Friction", .says = "opposite to the motion"},
+    {FIGURE(friction_by_heights), NULL, "The same by the slopes of body 2",
+     .says = "equal on a fine grid", .role = RC_FIGURE_CHECK},
     {AS("friction_error_estimate", friction_error), NULL, "Error of the coefficient of friction",
-     .says = "estimated: of the grid, and of the pressure", .role = RC_FIGURE_ERROR, .by = "tol",
-     .of = "friction"},
+     .says = "bound of the relative error on this grid, by that of the pressure",
+     .role = RC_FIGURE_ERROR, .by = "tol", .of = "friction"},
     {FIGURE(dissipated_power), "W", "Dissipated power",
      .says = "sum of the losses of all waves, which is the friction times the speed"},
     {FIGURE(tan_delta_max), NULL, "Largest tan delta", .says = "of the waves of the map"},
@@ -202,7 +204,7 @@ enum filter {
     PHASE, /* K - V */
     HALF,
     SLOPE, /* the derivative along x            */
-    TILT   /* the same of K p, from V p         */
+    LOSS   /* that of K p, from V p: the part on which p does work */
 };
 
 static void
@@ -216,7 +218,7 @@ filter_row(const struct slide *s, enum filter which, double *row)
         const double q = 2 * k == nx ? 0 : rc_fourier_q(k, nx, s->turned.dx);
         z[k] *= (which == PHASE  ? s->wave[k].phase
                  : which == HALF ? s->wave[k].half
-                                 : I * q * (which == TILT ? 1 + s->wave[k].phase : 1)) /
+                                 : I * q * (which == LOSS ? I * cimag(s->wave[k].phase) : 1)) /
                 (double)nx;
     }
     rc_line_backward(s->line, z, row);
@@ -424,27 +426,30 @@ step(struct rc_model *m, struct rc_err *err)
     return status == RC_MORE || status == RC_FAIL ? status : advance(s, err);
 }
 
-/* The friction by the slopes of u = K p, and by the slopes of h; the largest slope of u in contact. */
+/* The coefficients of friction by the slopes of u = K p, and by the slopes of h. The first one is a quadratic
+ * form of p. *steep is the largest difference in contact between its derivative and the coefficient: times the
+ * relative L1 error of p it bounds the error of the coefficient to first order. */
 static void
-find_friction(struct slide *s, double force[2], double *steep)
+find_friction(struct slide *s, double load, double friction[2], double *steep)
 {
     const double *p = rc_elastic_pressure(s->base.inner);
     const bool open = rc_has_mean(s->problem.boundary);
     struct rc_total sum[2] = {{0}};
 
     *steep = 0;
-    for (int q = 0; q < 2; q++) {
+    for (int q = 1; q >= 0; q--) {
+        const double sign = q == 0 && open ? 1 : copysign(1, s->base.to.at[RC_SPEED]);
         if (q == 0)
             rc_elastic_displacement(s->base.inner, false, s->room);
         else
             memcpy(s->room, s->h, s->n * sizeof *s->room);
-        filter(s, q == 0 ? TILT : SLOPE, s->room);
-        for (size_t k = 0; k < s->n; k++) {
+        filter(s, q == 0 ? LOSS : SLOPE, s->room);
+        for (size_t k = 0; k < s->n; k++)
             rc_total_add(&sum[q], -p[k] * s->room[k]);
-            *steep = fmax(*steep, p[k] > 0 && (q == 0 || open) ? fabs(s->room[k]) : 0);
-        }
-        force[q] = (q == 0 && open ? 1 : copysign(1, s->base.to.at[RC_SPEED])) *
-                   rc_total_value(&sum[q]) * s->turned.dx * s->turned.dy;
+        friction[q] = sign * rc_total_value(&sum[q]) * s->turned.dx * s->turned.dy / load;
+        for (size_t k = 0; q == 0 && k < s->n; k++)
+            if (p[k] > 0)
+                *steep = fmax(*steep, fabs(2 * sign * s->room[k] + friction[0]));
     }
 }
 
@@ -480,21 +485,22 @@ look(struct rc_model *m, struct rc_point *at, struct rc_err *err)
     struct rc_sliding_figures *f = &s->f;
     const struct rc_contact *c = &rc_elastic_result(m->inner)->contact;
     const double spent = s->course.convolutions;
-    double force[2], steep;
+    double friction[2], steep;
     size_t iterations;
 
     if (m->looked)
         goto done;
-    find_friction(s, force, &steep);
+    find_friction(s, c->load, friction, &steep);
     s->course.convolutions = spent;
-    f->dissipated_power = force[0] * fabs(s->base.to.at[RC_SPEED]);
+    f->friction = friction[0];
+    f->friction_by_heights = friction[1];
+    f->friction_force = friction[0] * c->load;
+    f->dissipated_power = f->friction_force * fabs(s->base.to.at[RC_SPEED]);
     if (!rc_has_mean(s->problem.boundary) && find_power(s, &f->dissipated_power, err) != RC_OK)
         return RC_FAIL;
     f->speed = m->to.at[RC_SPEED];
-    f->friction_force = force[0];
-    f->friction = force[0] / c->load;
     f->pressure_error = s->course.estimate * hypot(1, s->steepest);
-    f->friction_error = fabs(force[0] - force[1]) / c->load + f->pressure_error * steep;
+    f->friction_error = f->friction != 0 ? f->pressure_error * steep / fabs(f->friction) : NAN;
     f->tan_delta_max = s->lossy;
     f->track = s->law.repeats ? "repeated" : "fresh";
     f->approach = c->approach - rc_elastic_top(m->inner) + s->top;

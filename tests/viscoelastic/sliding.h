@@ -4,6 +4,8 @@
 #define TESTS_VISCO_SLIDING_H
 
 #include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
 
 #include "libcontact/contact.h"
 #include "tests/exact.h"
@@ -93,6 +95,39 @@ rough(struct rc_shape s, double cut, double dome, uint64_t seed, double *h)
                      y = ((double)(k / s.nx) + 0.5) / (double)s.ny - 0.5;
         h[k] -= dome * (x * x + y * y);
     }
+}
+
+/* Estimates over errors, of errors above 1e-5. */
+struct ratios {
+    size_t n, below;
+    double of[2000];
+};
+
+static void
+add_ratio(struct ratios *r, double estimate, double error)
+{
+    if (!(error > 1e-5))
+        return;
+    assert_true(r->n < sizeof r->of / sizeof *r->of);
+    r->of[r->n++] = estimate / error;
+    r->below += estimate < error;
+}
+
+static int
+by_size(const void *a, const void *b)
+{
+    return (*(const double *)a > *(const double *)b) - (*(const double *)a < *(const double *)b);
+}
+
+static void
+show_ratios(struct ratios *r, const char *what)
+{
+    if (r->n == 0)
+        return;
+    qsort(r->of, r->n, sizeof *r->of, by_size);
+    printf(
+        "%s: %zu estimates, %zu below the error; the least is %.3f, the median %.2f, 90 %% %.1f\n",
+        what, r->n, r->below, r->of[0], r->of[r->n / 2], r->of[r->n * 9 / 10]);
 }
 
 #endif

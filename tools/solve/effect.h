@@ -119,6 +119,8 @@ struct effect {
     enum solve_place place;
     bool columns; /* its columns are there without it, too */
     void (*report)(struct report *r, const struct run *run);
+    /* columns after those of all rows */
+    void (*report_last)(struct report *r, const struct run *run);
 };
 
 #endif

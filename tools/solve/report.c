@@ -214,6 +214,9 @@ solve_report(struct drive *d, const struct rc_model *m)
     report_columns_at(r, run, COLUMNS_OF_POINTS);
     report_columns_at(r, run, COLUMNS_LAST);
     report_number(r, "cylinder", run->physics->cylinder, "m");
+    for (size_t k = 0; solve_effects[k] != NULL; k++)
+        if (solve_effects[k]->report_last != NULL && is_active(run, solve_effects[k]))
+            solve_effects[k]->report_last(r, run);
 }
 
 /* ---- cost ---- */

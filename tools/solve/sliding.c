@@ -195,14 +195,27 @@ set_keys(struct run *run, struct rc_grid *g)
 }
 
 static void
-report(struct report *r, const struct run *run)
+report_by_name(struct report *r, const char *names)
 {
     const struct figures from[] = {{rc_figures("sliding"), own.found}, {NULL, NULL}};
 
+    report_named(r, from, names);
+}
+
+static void
+report(struct report *r, const struct run *run)
+{
     (void)run;
-    report_named(r, from,
-                 "speed friction friction_force friction_error_estimate dissipated_power track "
-                 "tan_delta_max contacts");
+    report_by_name(r,
+                   "speed friction friction_force friction_error_estimate dissipated_power track "
+                   "tan_delta_max contacts");
+}
+
+static void
+report_last(struct report *r, const struct run *run)
+{
+    (void)run;
+    report_by_name(r, "friction_by_heights");
 }
 
 static const char *
@@ -237,4 +250,5 @@ const struct effect solve_effect_sliding = {
     .off = "left out: no --speed",
     .state = state,
     .report = report,
+    .report_last = report_last,
 };
