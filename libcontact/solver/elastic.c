@@ -449,7 +449,8 @@ read_pressure(struct elastic *e, struct rc_state *s, double load)
 
 /* The numbers of an iteration in a state. */
 struct iteration {
-    double load, number, error, convolutions, top; /* top: of the heights of the solver */
+    double load, number, error, load_error, convolutions;
+    double top; /* of the heights of the solver */
     size_t iterations;
     bool pressed, fresh;
 };
@@ -483,7 +484,7 @@ read_inside(struct elastic *e, struct rc_state *s, const struct iteration *it, b
     if (status == RC_SHORT ||
         (status == RC_OK && (e->apart || !e->base.moved || it->error <= e->solver->posed.tol))) {
         if (!e->apart)
-            rc_solver_found(e->solver, it->error, it->iterations, it->convolutions);
+            rc_solver_found(e->solver, it->error, it->load_error, it->iterations, it->convolutions);
         e->solved = status;
         e->again = e->base.moved;
         if (e->base.moved)
@@ -513,6 +514,7 @@ state(struct rc_model *m, struct rc_state *s)
         it.load = way ? e->start.load : rc_solver_load(v);
         it.fresh = way ? e->start.fresh : rc_nested_untouched(v);
         it.error = v->it.error;
+        it.load_error = way ? 0 : rc_load_error(v);
         it.top = v->posed.top;
         it.iterations = v->it.iterations;
         it.convolutions = v->it.convolutions;
@@ -520,7 +522,7 @@ state(struct rc_model *m, struct rc_state *s)
     RC_STATE_FLAGS(s, &dented, &e->apart, &it.pressed, &it.fresh);
     RC_STATE_NUMBERS(s, &e->first_top, &e->top, &e->height_error, &e->off, &it.load, &it.number,
                      &it.top, &it.convolutions);
-    RC_STATE_OPEN(s, &it.error);
+    RC_STATE_OPEN(s, &it.error, &it.load_error);
     RC_STATE_COUNTS(s, &it.iterations);
     if (rc_state_refused(s))
         return;

@@ -296,6 +296,8 @@ rc_solver_result(struct rc_solver *s, double *displacement, double *gap, struct 
     c->pressure_error = rc_tilt_error(s, s->it.error) + c->inherited_error;
     c->converged =
         c->pressure_error <= s->posed.tol && rc_iterate_keeps_load(s) && rc_load_reached(s);
+    s->load.error = rc_load_error(s);
+    c->pressure_error += s->load.error;
     c->convolutions = s->it.convolutions;
     c->discretization = left_out(s, c);
     s->stage = RC_STAGE_JUDGED;

@@ -408,6 +408,7 @@ rc_solver_step(struct rc_solver *s)
     enum rc_status status;
 
     s->stage = RC_STAGE_STEPPED;
+    s->load.error = NAN;
     if (s->nested.ahead) {
         rc_nested_step(s);
         return RC_MORE;
@@ -555,7 +556,8 @@ rc_solver_lasting(const struct rc_solver *s, double *none)
 }
 
 void
-rc_solver_found(struct rc_solver *s, double error, size_t iterations, double convolutions)
+rc_solver_found(struct rc_solver *s, double error, double load_error, size_t iterations,
+                double convolutions)
 {
     s->load.tol = s->posed.tol; /* that of the end of a search */
     rc_iterate_displace(s);
@@ -564,6 +566,7 @@ rc_solver_found(struct rc_solver *s, double error, size_t iterations, double con
     s->it.iterations = iterations;
     s->it.convolutions = convolutions;
     rc_iterate_checked(s, error, 1);
+    s->load.error = load_error;
     s->stage = RC_STAGE_STEPPED;
 }
 

@@ -124,8 +124,12 @@ struct rc_load {
     double tol;          /* tolerance for this load: larger during the search */
     double target;       /* m: the wanted shift; 0: the load is given */
     double low, high;    /* loads with a smaller and a larger shift; 0, INFINITY: none yet */
-    double last_load, last_shift; /* load and shift of the last solution; 0: none */
-    double power; /* d log load / d log shift                                           */
+    /* load, shift and estimated error of the last solution; 0: none */
+    double last_load, last_shift, last_error;
+    double power; /* d log load / d log shift, for the next load */
+    /* the same from two loads that are well apart, and the logarithm of their ratio */
+    double slope, apart;
+    double error; /* relative error of the load; NAN: unknown until rc_load_error finds it */
 };
 
 /* The start from coarser grids. */
@@ -269,6 +273,9 @@ void rc_working_set_correct(struct rc_solver *solver, rc_row *done, void *ctx);
 /* Subtracts the pressure of a common shift, `share` times rc_load_share of each node, from z. Returns the
  * estimated error: the relative L1 norm of the remaining z. */
 double rc_working_set_error(struct rc_solver *solver, double share);
+/* The shift of the solution under this load, from the present gaps: their mean over the set, each with the
+ * share of its node in the load of a common shift. */
+double rc_working_set_shift(struct rc_solver *solver);
 /* The correction z and its estimated error. */
 double rc_working_set_estimate(struct rc_solver *solver);
 
@@ -293,8 +300,9 @@ enum rc_status rc_solver_check(const struct rc_shape *shape, const struct rc_pro
                                struct rc_err *err);
 /* The number that the method keeps for later loads, or `none`. */
 double *rc_solver_lasting(const struct rc_solver *solver, double *none);
-/* After a start from a pressure: it is the solution, with this error, of an iteration that took so much. */
-void rc_solver_found(struct rc_solver *solver, double error, size_t iterations,
+/* After a start from a pressure: it is the solution, with these errors of contact and load, of an iteration
+ * that took so much. */
+void rc_solver_found(struct rc_solver *solver, double error, double load_error, size_t iterations,
                      double convolutions);
 /* True if the caller cannot wait. */
 bool rc_solver_hurried(const struct rc_solver *solver);
@@ -313,9 +321,8 @@ struct rc_solver *rc_solver_coarse(const struct rc_solver *fine, const struct rc
 /* ---- load_search.c ---- */
 
 /* Tolerance of the load in a search, as a fraction of the tolerance of the pressure. It is small beside
- * the tolerance of the contact. Half takes 0.7 % more convolutions. With double the error of one
- * pressure of 14 was 2.2 times its estimate, because no estimate contains the error of the load
- * (bench/constants.py). */
+ * the tolerance of the contact. Half takes 0.7 % more convolutions. The estimate of the pressure
+ * contains the error of the load. */
 #define RC_LOAD_TOL 0.1
 
 /* RC_FAIL when this load exceeds the upper bounds of all nodes of the map. */
@@ -331,6 +338,9 @@ enum rc_status rc_load_next(struct rc_solver *solver, double load, double approa
                             struct rc_err *err);
 /* After a solution: RC_OK when it has the wanted shift, else sets the next load. */
 enum rc_status rc_load_search(struct rc_solver *solver);
+/* The estimated relative error of the load, which is that of the pressure, too: no pressure decreases as
+ * the load increases. 0 if the load was given. */
+double rc_load_error(struct rc_solver *solver);
 /* True if the wanted approach is reached, or if the load was given. */
 bool rc_load_reached(const struct rc_solver *solver);
 

@@ -549,9 +549,10 @@ rc_working_set_error(struct rc_solver *s, double share)
     return caution(s) * (total[0] + s->set.left_out) / unit + rc_iterate_operator_error(s);
 }
 
-enum { /* sums of the shift */
+enum { /* sums of the shift; GAP: by the shares */
     Z,
-    LOAD
+    LOAD,
+    GAP = Z
 };
 
 static void
@@ -579,4 +580,28 @@ rc_working_set_estimate(struct rc_solver *s)
     rc_working_set_correct(s, NULL, NULL);
     rc_reduce_blocks(s, share_block, s, total);
     return rc_working_set_error(s, total[Z] / total[LOAD]);
+}
+
+static void
+gap_block(void *at, size_t first, size_t n, double *sums)
+{
+    const struct rc_solver *s = at;
+    const float *node = rc_preconditioner_nodes(s->preconditioner);
+
+    for (size_t k = first; k < first + n; k++) {
+        const double share = s->set.w[k] ? (double)rc_load_share(node[k]) : 0;
+        sums[GAP] += share * s->it.v[k];
+        sums[LOAD] += share;
+    }
+}
+
+double
+rc_working_set_shift(struct rc_solver *s)
+{
+    double total[RC_SUMS];
+
+    if (s->set.size < 2)
+        return s->it.shift;
+    rc_reduce_blocks(s, gap_block, s, total);
+    return total[GAP] / total[LOAD];
 }

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Loads in sequence, approaches, stiffness, yielding and discretization error. Each is compared with a
- * separate solution, Hertz, or its definition. */
+ * separate solution, Hertz, or its definition. Estimates at an approach contain the error of the load. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -154,6 +154,95 @@ any_approach_is_met(void **state)
         solved_free(&s);
         free(h);
     }
+}
+
+static uint64_t drawn;
+
+static double
+draw(double low, double high)
+{
+    drawn = drawn * 6364136223846793005ULL + 1442695040888963407ULL;
+    return low + (high - low) * (double)(drawn >> 11) / 9007199254740992.0;
+}
+
+/* A ball or a rough map or profile of random size, at an approach that touches few or nearly all nodes. */
+static struct rc_problem
+random_approach(struct rc_shape *s, double *h)
+{
+    const bool line = draw(0, 1) < 0.2;
+    const size_t on = (size_t)draw(0, line ? 1.99 : BOUNDARIES - 0.01);
+    struct rc_problem problem = {.boundary = each_boundary[on],
+                                 .pair.estar = estar,
+                                 .tol = pow(10, draw(-5, -2)),
+                                 .threads = 1,
+                                 .method = contact_method};
+    double top = -INFINITY, mean = 0;
+    struct rc_err err;
+
+    *s = (struct rc_shape){(size_t)draw(12, line ? 64 : 33), line ? 1 : (size_t)draw(12, 33), 1e-6,
+                           1e-6};
+    if (draw(0, 1) < 0.3 && !line) {
+        rc_synth_sphere(s, 1e-4, h);
+    } else {
+        const struct rc_selfaffine rough = {.hurst = 0.8,
+                                            .rms_slope = 0.1,
+                                            .seed = (uint64_t)draw(1, 1e6),
+                                            .short_cut = draw(2e-6, 6e-6)};
+        assert_int_equal(rc_synth_selfaffine(s, &rough, h, &err), RC_OK);
+    }
+    for (size_t k = 0; k < s->nx * s->ny; k++) {
+        top = fmax(top, h[k]);
+        mean += h[k] / (double)(s->nx * s->ny);
+    }
+    if (draw(0, 1) < 0.2)
+        problem.hardness = estar * draw(0.02, 0.1);
+    problem.approach = pow(10, draw(-2, -0.05)) * (top - mean);
+    return problem;
+}
+
+static int
+ascending(const void *a, const void *b)
+{
+    const double x = *(const double *)a, y = *(const double *)b;
+
+    return (x > y) - (x < y);
+}
+
+/* The truth is the contact under the load that gives this approach to 1e-9. */
+static void
+estimate_contains_the_load(void **state)
+{
+    static double h[64 * 64];
+    static double ratios[8000];
+    size_t n = 0, below = 0;
+
+    (void)state;
+    drawn = 5;
+    for (size_t k = 0; k < thorough(6000, 60); k++) {
+        struct rc_shape s;
+        struct rc_problem problem = random_approach(&s, h), tight = problem;
+        struct solved found = solve(s, h, problem), truth;
+        double error;
+        tight.tol = 1e-9;
+        truth = solve(s, h, tight);
+        if (truth.status == RC_OK && found.status == RC_OK) {
+            error = distance(s.nx * s.ny, found.p, truth.p);
+            assert_true(truth.c.pressure_error < 2e-9);
+            assert_true(found.c.pressure_error <= 1.01 * problem.tol);
+            if (error > 1e-5) {
+                ratios[n++] = found.c.pressure_error / error;
+                below += ratios[n - 1] < 0.99;
+            }
+        }
+        solved_free(&found);
+        solved_free(&truth);
+    }
+    qsort(ratios, n, sizeof *ratios, ascending);
+    print_message(
+        "%s: %zu errors above 1e-5 at an approach: %zu estimates below; estimate over error: "
+        "least %.3f, median %.2f, 90 %% %.2f\n",
+        contact_method, n, below, ratios[0], ratios[n / 2], ratios[9 * n / 10]);
+    assert_true(below == 0 && ratios[n / 2] < 2);
 }
 
 /* The approach of a periodic surface is limited by complete contact, and the load by the hardness. The
@@ -512,6 +601,7 @@ main(void)
         cmocka_unit_test(loads_are_independent),
         cmocka_unit_test(approach_is_inverted),
         cmocka_unit_test(any_approach_is_met),
+        cmocka_unit_test(estimate_contains_the_load),
         cmocka_unit_test(impossible_is_refused),
         cmocka_unit_test(stiffness_is_the_slope),
         cmocka_unit_test(yielded_shape_holds),
