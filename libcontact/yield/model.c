@@ -165,7 +165,7 @@ find_slabs(const struct rc_yield_problem *asked, const struct rc_shape *shape, c
            struct rc_yield_depths *depths, struct rc_err *err)
 {
     const double yield = rc_yield_law_stress(&asked->law, 0);
-    struct rc_yield_depths d;
+    struct rc_yield_depths d = {.halved = depths->halved};
     const enum rc_status status = rc_yield_depths(shape, &asked->contact, p, yield, &d, err);
 
     if (status != RC_OK)
@@ -173,6 +173,7 @@ find_slabs(const struct rc_yield_problem *asked, const struct rc_shape *shape, c
     depths->most = d.most / yield;
     depths->deepest = d.deepest;
     depths->part = d.part;
+    depths->halved = d.halved;
     depths->slabs = d.slabs == 0 || asked->slabs == 0 ? d.slabs : asked->slabs;
     free(depths->thickness);
     depths->thickness = NULL;

@@ -126,9 +126,10 @@ RC_OWNER(rc_yield_solver)
 enum rc_status rc_yield_solver_check(const struct rc_yield_problem *problem, struct rc_err *err);
 /* Slabs for a body that would yield under the elastic contact pressure p (nx ny, Pa). The first is half a
  * node thick, and each next one is thicker by a quarter. The last one is below the depth where the Mises
- * stress falls below the yield stress. */
+ * stress falls below the yield stress. Slabs whose middles miss the largest Mises stress are halved. */
 struct rc_yield_depths {
     size_t slabs;         /* 0: no stress reaches the yield stress */
+    size_t halved;        /* how often each slab was halved; before the call: how often at least */
     double *thickness;    /* m, of each slab; the caller frees it; NULL: none */
     double part;          /* part of the nodes of these slabs whose Mises stress exceeds `yield` */
     double most, deepest; /* Pa, the largest Mises stress; m, its depth */

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""estimates.py hist|adhesion|tilt|maps SEED COUNT BIN: compares estimated and true error of the pressure
+"""estimates.py hist|adhesion|tilt|maps|first SEED COUNT BIN: compares estimated and true error of the pressure
 for random contacts.
 
 hist      lists of loads with a hardness and --history         truth: the same list with --tol 1e-8
@@ -7,11 +7,15 @@ adhesion  paths with --adhesion, a fifth on 64 to 150 nodes     truth: the same 
 tilt      --tilt free, most of them with a hardness            truth: the same contact with --tol 1e-9
 maps      free maps, of them two thirds with --yield and one   truth: the contact on a map that is two or three times
           third with a hardness                                as wide, in 96 increments, with --tol 1e-6
+first     bodies with --yield near first yield, all boundaries  truth: rc-stress: its largest Mises stress is 1.02 to 1.3
+                                                               times the yield stress, so that the body yields
 BIN holds rc-solve and rc-synth. Case c of SEED draws from the seed SEED * 100003 + c. Prints a line for each state whose
 estimate is below 0.99 of an error above 1e-6, and at the end the shares of such states. Status 1 where an error above 1e-5
-has such an estimate.
+has such an estimate. "first" prints the bodies that remain elastic. Status 1 where one above 1.05 has no warning, or where they
+are more than 2 %.
 """
 import json
+import math
 import os
 import random
 import subprocess
@@ -126,6 +130,76 @@ def wide_map(r):
     return Case(small, options + ['--increments', '16'], ['--increments', '96', '--tol', '1e-6'], wide=large)
 
 
+def anywhere(r):
+    """A rough map, a ball or a rough ball on a map or a profile with any boundary: heights, options, Poisson's ratio."""
+    nx = r.choice([16, 24, 32, 48])
+    ny = r.choice([nx, nx, r.choice([16, 24, 32]), 1])
+    random_of = numpy.random.default_rng(r.randrange(10 ** 9))
+    side, flat = max(nx, ny), ny == 1
+    y, x = numpy.mgrid[:ny, :nx].astype(float)
+    kind = r.choice(['rough', 'rough', 'ball', 'rough ball'])
+    heights = numpy.zeros((ny, nx))
+    if kind != 'ball':
+        waves = numpy.fft.rfft2(random_of.standard_normal((ny, nx)))
+        q = numpy.hypot(*numpy.meshgrid(numpy.fft.fftfreq(ny), numpy.fft.rfftfreq(nx), indexing='ij'))
+        cut, hurst = min(1 / r.choice([2, 3, 4, 6, 8]), 0.25 if flat else 1), r.uniform(0.3, 1)
+        waves *= (q > 0) * (q <= cut) * numpy.maximum(q, 1 / side) ** -(hurst + (0.5 if flat else 1))
+        rough = numpy.fft.irfft2(waves, (ny, nx))
+        heights += rough / rough.std() * STEP * 10 ** r.uniform(-2, -0.5)
+    if kind != 'rough':
+        radius = STEP * side * r.uniform(1, 20)
+        away = (x - nx / 2 + r.random()) ** 2 + (0 if flat else (y - ny / 2 + r.random()) ** 2)
+        heights -= away * STEP ** 2 / (2 * radius)
+    sides = r.choice([[], [], ['--periodic'], ['--periodic'], ['--periodic=x', '--datum', '1mm'], ['--periodic=y', '--datum', '1mm']])
+    if flat and 'x' in ''.join(sides[:1]) + 'x' * (not sides):
+        sides = ['--periodic']  # a profile does not exist on a free map
+    nu = r.uniform(0, 0.45)
+    slope = numpy.sqrt(numpy.mean(numpy.diff(heights, axis=1) ** 2)) / STEP
+    mean = MODULUS * slope * 10 ** r.uniform(-2.3, -0.5)
+    return heights, sides + ['--E1', repr(MODULUS), '--nu1', repr(nu), '--E2', 'rigid', '--mean-pressure', repr(mean)], nu
+
+
+def tool(name, options, data):
+    return subprocess.run([os.path.join(BIN, name), *options], input=data, capture_output=True,
+                          env={**os.environ, 'RC_THREADS': '1'})
+
+
+def report_of(done, table):
+    with open(table) as file:
+        return json.loads(file.readline()) if done.returncode in (0, 3) else None
+
+
+def first_yield(seed, count, table):
+    missed, silent, high, pressure, cases = 0, 0, 0, [], 0
+    for c in range(count):
+        r = random.Random(seed * 100003 + c)
+        heights, options, nu = anywhere(r)
+        surface = rcg.dumps([rcg.frame('height', heights, STEP)])
+        elastic = tool('rc-solve', ['--quiet', '--output', 'pressure', *options], surface)
+        inside = tool('rc-stress', ['--nu', repr(nu), '--depths', 'auto', '--components', 'mises'], elastic.stdout)
+        ratio = 10 ** r.uniform(math.log10(1.02), math.log10(1.3))
+        stress = max((float(f.values.max()) for f in rcg.loads(inside.stdout)), default=0) / ratio
+        law = ['--yield', '%r,%r' % (stress, stress * r.uniform(0.5, 10)), '--output', 'pressure', '--report', table]
+        done = tool('rc-solve', options + law, surface)
+        ours = report_of(done, table)
+        fine = ours and report_of(tool('rc-solve', options + law + ['--quiet', '--slabs', '32'], surface), table)
+        if not ours:
+            print(f'case {c}: {done.stderr.decode()}')
+            continue
+        cases += 1
+        if fine and (fine['max_plastic_strain'] or 0) > 0:
+            pressure.append(abs(ours['max_pressure'] / fine['max_pressure'] - 1))
+        if not (ours['max_plastic_strain'] or 0) > 0:
+            warned = b'is below it: take a finer grid' in done.stderr
+            missed, high, silent = missed + 1, high + (ratio > 1.05), silent + (ratio > 1.05 and not warned)
+            print(f'elastic: case {c}, Mises stress {ratio:.3f} of the yield stress, {ours["contact_nodes"]} nodes in contact',
+                  'warned' if warned else 'SILENT', *options, flush=True)
+    print(f'{cases} bodies, {missed} remain elastic, {high} of them above 1.05, {silent} without a warning')
+    print(f'largest pressure against 32 slabs, {len(pressure)} bodies: median {numpy.median(pressure):.1e}, '
+          f'90 % {numpy.quantile(pressure, 0.9):.1e}, most {max(pressure):.1e}')
+    return 1 if silent or high > 0.02 * cases else 0
+
+
 def solve(surface, options, table):
     done = subprocess.run([os.path.join(BIN, 'rc-solve'), '--quiet', '--output', 'pressure', '--report', table, *options],
                           input=surface, capture_output=True, env={**os.environ, 'RC_THREADS': '1'})
@@ -158,7 +232,13 @@ def states(case, kind, table):
         yield error, report, theirs
 
 
+ALONE = {'first': first_yield}
+
+
 def main(kind, seed, count):
+    if kind in ALONE:
+        with tempfile.TemporaryDirectory() as where:
+            return ALONE[kind](seed, count, os.path.join(where, 'report'))
     draw = {'hist': lambda r: hist_or_path(r, 'hist'), 'adhesion': lambda r: hist_or_path(r, 'adhesion'),
             'tilt': tilted, 'maps': wide_map}[kind]
     rows, convolutions, short, below = [], 0, 0, 0

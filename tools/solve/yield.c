@@ -387,6 +387,12 @@ warn_of_slabs(struct run *run, const char *where, const struct rc_yield_load *f)
         bottom += own.found->thickness[k];
         within += above < f->depth;
     }
+    if (f->max_strain == 0 && run->solution.contact.load > 0)
+        course_warn(
+            &run->d.course, "the voxels do not resolve the first yield",
+            "%s: the largest Mises stress is above the yield stress, but the mean stress of "
+            "each voxel is below it: take a finer grid, or thinner --slabs",
+            where);
     if (f->depth > above)
         course_warn(
             &run->d.course, "the lowest slab yields",

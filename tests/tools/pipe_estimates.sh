@@ -1,0 +1,12 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+# A part of the campaigns of tests/long/estimates.py.
+. "$(dirname "$0")/../pipe.sh"
+. "$RC_SOURCE/tests/python.sh"
+if ! python=$(python_with numpy 2>why.txt); then
+    skip "$(cat why.txt)"
+fi
+estimates() { # KIND SEED COUNT
+    RC_THREADS=1 "$python" "$RC_SOURCE/tests/long/estimates.py" "$@" "$RC_BIN"
+}
+
+claim "bodies yield where their largest Mises stress is 1.02 to 1.3 times the yield stress" estimates first 1 20
