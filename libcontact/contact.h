@@ -266,7 +266,9 @@ struct rc_problem {
     const volatile sig_atomic_t *hurry;
 };
 
-/* Estimated relative errors of contact area, largest pressure and approach; NAN: unknown. */
+/* Estimated relative errors of contact area, largest pressure and approach; NAN: unknown, also that of
+ * the last two for a contact at a free edge of the map, and that of the largest pressure at a node with
+ * a neighbour out of contact. */
 struct rc_discretization {
     double contact_area, max_pressure, approach;
 };
@@ -287,6 +289,8 @@ struct rc_contact {
     double plastic_area, yielded_area;
     /* load on the outer 2 % of the map */
     double edge_load_fraction;
+    /* Pa: the largest pressure of the nodes at the free edges of the map; 0: no edge is free */
+    double edge_pressure;
     /* m, from first touch, that of the highest node; NAN when no node is elastic, unless the
      * approach was given and suits the contact. With a free tilt: at the point where the load
      * acts, from the position where a rigid body would rest. */

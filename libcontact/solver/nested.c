@@ -432,8 +432,8 @@ refine(struct rc_solver *s, struct rc_solver *c)
     rc_projection_balance(s, s->it.v);
 }
 
-/* Figures of the coarse solution. If the approach is given, it is equal on both grids, and its difference is
- * no estimate. */
+/* Figures of the coarse solution, its approach from the highest node of the fine grid. If the approach is
+ * given, it is equal on both grids, and its difference is no estimate. */
 static void
 compare(struct rc_solver *s, struct rc_solver *c)
 {
@@ -444,7 +444,9 @@ compare(struct rc_solver *s, struct rc_solver *c)
     s->coarse.contact_area = (double)rc_ranks_sum(c->posed.rows.ranks, contact) * c->posed.cell;
     s->coarse.max_pressure = rc_ranks_most(c->posed.rows.ranks, rc_highest(c->it.p, c->posed.n));
     rc_iterate_shift(c);
-    s->coarse.approach = c->it.elastic > 0 && s->load.target == 0 ? rc_tilt_approach(c) : NAN;
+    s->coarse.approach = c->it.elastic > 0 && s->load.target == 0
+                             ? rc_tilt_approach(c) - (s->tilt != NULL ? 0 : c->posed.top)
+                             : NAN;
 }
 
 void

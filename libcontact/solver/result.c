@@ -70,6 +70,24 @@ edge_load(const struct rc_solver *s)
     return total[0] / s->load.sum;
 }
 
+/* The largest pressure at the free edges of the map; 0: none is free. */
+static double
+edge_pressure(const struct rc_solver *s)
+{
+    const size_t nx = s->posed.whole.nx, ny = s->posed.whole.ny;
+    double most = 0;
+
+    for (size_t j = 0; j < s->posed.shape.ny; j++) {
+        const size_t y = s->posed.rows.first + j;
+        const double *p = s->it.p + j * nx;
+        if (!s->posed.boundary.y && ny > 1 && (y == 0 || y + 1 == ny))
+            most = fmax(most, rc_highest(p, nx));
+        if (!s->posed.boundary.x && nx > 1)
+            most = fmax(most, fmax(p[0], p[nx - 1]));
+    }
+    return rc_ranks_most(s->posed.rows.ranks, most);
+}
+
 struct figures {
     const struct rc_solver *s;
     const double *v; /* of the solver, if it is known */
@@ -164,47 +182,156 @@ yielded(const struct rc_solver *s, struct figures *f)
     return (size_t)total[0];
 }
 
-/* Nodes in contact with a neighbour out of contact. */
-static size_t
-edge_nodes(const struct rc_solver *s)
+/* ---- the error of the grid ---- */
+
+enum {
+    LEFT,
+    RIGHT,
+    ABOVE,
+    BELOW,
+    SIDES
+};
+
+/* What the neighbours of the nodes tell about a finer grid. */
+struct between {
+    double low; /* Pa: pressure out of contact */
+    double top; /* m: highest point between the nodes, over the highest node */
+    double peak,
+        inner;    /* Pa: largest pressure, between and at nodes whose neighbours are in contact */
+    size_t open;  /* sides between a node in contact and one that is not */
+    bool outside; /* a node in contact lies at a free edge of the map */
+};
+
+/* A node with the value `at` and its neighbours; NAN: none, beyond a free edge of the map. */
+typedef void visit(struct between *b, double at, const double beside[SIDES]);
+
+/* A line of one or two nodes has no neighbours in its direction. */
+static void
+visit_nodes(const struct rc_solver *s, const double *v, visit *do_it, struct between *b)
 {
     const struct rc_rows *rows = &s->posed.rows;
-    size_t nx = s->posed.shape.nx, ny = s->posed.shape.ny, count = 0;
-    const double low = s->posed.bounds.box.low;
+    const size_t nx = s->posed.shape.nx, ny = s->posed.shape.ny, all = s->posed.whole.ny;
+    const bool round = s->posed.boundary.y;
     double before[RC_ROW_PIECE], after[RC_ROW_PIECE];
-    bool has[2] = {false, false};
+    bool has[2] = {round, round};
 
     for (size_t first = 0; first < nx; first += RC_ROW_PIECE) {
-        size_t last = nx - first < RC_ROW_PIECE ? nx : first + RC_ROW_PIECE;
-        if (rows->ranks != NULL)
-            rc_ranks_beside(rows, false, (last - first) * sizeof *before, s->it.p + first,
-                            s->it.p + (ny > 0 ? (ny - 1) * nx : 0) + first, before, after, has);
-        for (size_t j = 0; j < ny; j++) {
-            const double *p = s->it.p + j * nx;
-            const double *above = j > 0 ? p + first - nx : has[0] ? before : p + first;
-            const double *below = j + 1 < ny ? p + first + nx : has[1] ? after : p + first;
-            for (size_t i = first; i < last; i++)
-                count +=
-                    p[i] > low && ((i > 0 && p[i - 1] <= low) || (i + 1 < nx && p[i + 1] <= low) ||
-                                   above[i - first] <= low || below[i - first] <= low);
+        const size_t n = nx - first < RC_ROW_PIECE ? nx - first : RC_ROW_PIECE;
+        const double *last = v + (ny > 0 ? (ny - 1) * nx : 0) + first;
+        if (rows->ranks != NULL) {
+            rc_ranks_beside(rows, round, n * sizeof *before, v + first, last, before, after, has);
+        } else {
+            memcpy(before, last, n * sizeof *before);
+            memcpy(after, v + first, n * sizeof *after);
         }
+        for (size_t j = 0; j < ny; j++)
+            for (size_t i = first; i < first + n; i++) {
+                const double *at = v + j * nx + i;
+                const bool wide = nx > 2, wraps = s->posed.boundary.x;
+                double beside[SIDES] = {
+                    [LEFT] = i > 0   ? at[-1]
+                             : wraps ? at[nx - 1]
+                                     : NAN,
+                    [RIGHT] = i + 1 < nx ? at[1]
+                              : wraps    ? v[j * nx]
+                                         : NAN,
+                    [ABOVE] = j > 0    ? *(at - nx)
+                              : has[0] ? before[i - first]
+                                       : NAN,
+                    [BELOW] = j + 1 < ny ? at[nx]
+                              : has[1]   ? after[i - first]
+                                         : NAN,
+                };
+                if (!wide)
+                    beside[LEFT] = beside[RIGHT] = *at;
+                if (all <= 2)
+                    beside[ABOVE] = beside[BELOW] = *at;
+                do_it(b, *at, beside);
+            }
     }
-    return rc_ranks_sum(rows->ranks, count);
 }
 
-/* The discretization error, from a comparison with half the nodes a side. Peak pressure and approach converge
- * at least with the first power of the spacing. So their error is at most the difference of the two grids.
- * The error of the area is erratic, and at most half a cell along the edge. */
+/* The top of the parabola through three nodes, over the middle one; it is at most an eighth of their second
+ * difference. 0: the top is not near the middle node. */
+static double
+rise(double before, double at, double after)
+{
+    const double bend = 2 * at - before - after, slope = (after - before) / 2;
+
+    return bend > 0 && fabs(slope) <= bend ? slope * slope / (2 * bend) : 0;
+}
+
+/* A summit lies anywhere between two nodes: over the higher one by at most this part of its second difference
+ * with its neighbours, for waves of four or more nodes. It is (1 - cos(pi/4))/(2 cos(pi/4)), and an eighth for
+ * a parabola. */
+static const double summit = 0.2071;
+
+static void
+visit_height(struct between *b, double h, const double beside[SIDES])
+{
+    double more = 0;
+
+    for (size_t q = 0; q < SIDES; q += 2)
+        more += fmax(summit * (2 * h - beside[q] - beside[q + 1]), 0); /* NAN: 0 */
+    b->top = fmax(b->top, h + more);
+}
+
+static void
+visit_pressure(struct between *b, double p, const double beside[SIDES])
+{
+    size_t open = 0;
+    bool outside = false;
+
+    if (p <= b->low)
+        return;
+    for (size_t q = 0; q < SIDES; q++) {
+        outside = outside || isnan(beside[q]);
+        open += beside[q] <= b->low;
+    }
+    b->outside = b->outside || outside;
+    b->open += open;
+    if (open > 0 || outside)
+        return;
+    b->inner = fmax(b->inner, p);
+    b->peak = fmax(b->peak, p + rise(beside[LEFT], p, beside[RIGHT]) +
+                                rise(beside[ABOVE], p, beside[BELOW]));
+}
+
+/* The discretization error, from a comparison with half the nodes a side, and from the values between nodes.
+ * - Area: half a cell along the edge of the contact. In a profile the errors of the two ends of a spot do not
+ *   average, and each is at most a cell.
+ * - Approach, from the mean heights: it converges at least with the first power of the spacing, so that its
+ *   error is at most the difference of the two grids. The highest point, from which the approach counts,
+ *   lies between nodes: a higher one. The two errors are not of one sign, and the larger one is told.
+ * - Largest pressure, at a node whose neighbours are in contact: it converges nearly with the second power,
+ *   so that its error is at most half of the difference; and it may lie between nodes.
+ * At a free edge of the map the pressure of a contact has no bound, and where the largest pressure has a
+ * neighbour out of contact the grid does not resolve it: then there is no estimate. */
 static struct rc_discretization
 left_out(const struct rc_solver *s, const struct rc_contact *c)
 {
+    const struct rc_ranks *ranks = s->posed.rows.ranks;
+    const bool line = s->posed.whole.nx == 1 || s->posed.whole.ny == 1;
     struct rc_discretization d = {NAN, NAN, NAN};
+    struct between b = {.low = s->posed.bounds.box.low};
 
     if (isnan(s->coarse.max_pressure))
         return d;
-    d.max_pressure = fabs(s->coarse.max_pressure / c->max_pressure - 1);
-    d.approach = fabs(s->coarse.approach / c->approach - 1);
-    d.contact_area = 0.5 * (double)edge_nodes(s) / (double)c->contact_nodes;
+    visit_nodes(s, s->it.p, visit_pressure, &b);
+    visit_nodes(s, s->posed.h, visit_height, &b); /* the largest h is 0 */
+    b.open = rc_ranks_sum(ranks, b.open);
+    b.outside = rc_ranks_sum(ranks, b.outside) > 0;
+    b.peak = rc_ranks_most(ranks, b.peak);
+    b.inner = rc_ranks_most(ranks, b.inner);
+    b.top = rc_ranks_most(ranks, b.top);
+    d.contact_area = (line ? 1 : 0.5) * (double)b.open / (double)c->contact_nodes;
+    if (c->hardness_active)
+        d.max_pressure = fabs(s->coarse.max_pressure / c->max_pressure - 1);
+    else if (!b.outside && b.inner >= c->max_pressure)
+        d.max_pressure =
+            fabs(s->coarse.max_pressure / c->max_pressure - 1) / 2 + (b.peak / c->max_pressure - 1);
+    if (!b.outside)
+        d.approach = fmax(fabs(s->coarse.approach - c->approach), b.top) / c->approach;
     return d;
 }
 
@@ -262,6 +389,7 @@ rc_solver_result(struct rc_solver *s, double *displacement, double *gap, struct 
     c->plastic_area = s->posed.cell * (double)c->plastic_nodes;
     c->hardness_active = c->plastic_nodes > 0;
     c->edge_load_fraction = edge_load(s);
+    c->edge_pressure = edge_pressure(s);
     c->approach = /* the largest h is 0 */
         s->it.elastic > 0 || s->load.target > 0 ? rc_tilt_approach(s) : NAN;
     for (size_t a = 0; a < 2; a++)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""estimates.py hist|adhesion|tilt|maps|first SEED COUNT BIN: compares estimated and true error of the pressure
+"""estimates.py hist|adhesion|tilt|maps|first|grid SEED COUNT BIN: compares estimated and true error of the pressure
 for random contacts.
 
 hist      lists of loads with a hardness and --history         truth: the same list with --tol 1e-8
@@ -9,10 +9,13 @@ maps      free maps, of them two thirds with --yield and one   truth: the contac
           third with a hardness                                as wide, in 96 increments, with --tol 1e-6
 first     bodies with --yield near first yield, all boundaries  truth: rc-stress: its largest Mises stress is 1.02 to 1.3
                                                                times the yield stress, so that the body yields
+grid      elastic contacts with --discretization, all           truth: figures of the same waves on nodes 4 and 8 times as
+          boundaries                                            dense, extrapolated
 BIN holds rc-solve and rc-synth. Case c of SEED draws from the seed SEED * 100003 + c. Prints a line for each state whose
 estimate is below 0.99 of an error above 1e-6, and at the end the shares of such states. Status 1 where an error above 1e-5
 has such an estimate. "first" prints the bodies that remain elastic. Status 1 where one above 1.05 has no warning, or where they
-are more than 2 %.
+are more than 2 %. "grid" leaves out a figure whose two truths differ by more than a tenth of its error. Status 1 where a figure
+whose estimate is below its error, or where the largest pressure grows by half without a warning.
 """
 import json
 import math
@@ -232,7 +235,89 @@ def states(case, kind, table):
         yield error, report, theirs
 
 
-ALONE = {'first': first_yield}
+class Waves:
+    """Random waves of 4 to 12 nodes and more, a ball where no axis repeats, or both, on any grid of one area."""
+
+    def __init__(self, r):
+        self.nx = r.choice([16, 20, 24, 32, 40])
+        self.ny = r.choice([self.nx, self.nx, r.choice([16, 24, 32]), 1])
+        x, y = r.choice([(1, 1), (1, 1), (0, 0), (0, 0), (1, 0), (0, 1)])
+        self.sides = (x, 1 if self.ny == 1 else y)
+        random_of = numpy.random.default_rng(r.randrange(10 ** 9))
+        cut, hurst, rms = r.uniform(4, 12) * STEP, r.uniform(0.3, 1), 10 ** r.uniform(-2, -0.5) * STEP
+        periods = [n * STEP * (1 if side else 1.37) for n, side in zip((self.nx, self.ny), self.sides)]
+        most = [int(p / cut) if n > 1 else 0 for p, n in zip(periods, (self.nx, self.ny))]
+        self.waves = []
+        for a in range(-most[0], most[0] + 1):
+            for b in range(0 if a > 0 else 1, most[1] + 1):
+                q = 2 * numpy.pi * numpy.array([a / periods[0], b / periods[1]])
+                length = numpy.hypot(*q)
+                if length <= 2 * numpy.pi / cut:
+                    height = random_of.normal() * length ** -(hurst + (0.5 if self.ny == 1 else 1))
+                    self.waves.append((*q, height, random_of.uniform(0, 2 * numpy.pi)))
+        kind = r.choice(['rough', 'rough', 'ball', 'rough ball']) if sum(self.sides) == 0 else 'rough'
+        self.radius = STEP * max(self.nx, self.ny) * r.uniform(1, 30) if 'ball' in kind else numpy.inf
+        self.away = r.uniform(-0.5, 0.5) * STEP, r.uniform(-0.5, 0.5) * STEP
+        spread = numpy.sqrt(sum(w[2] ** 2 for w in self.waves) / 2)
+        self.scale = 0 if kind == 'ball' else rms / spread
+        self.options = {(1, 1): ['--periodic'], (0, 0): []}.get(self.sides, ['--periodic=' + 'yx'[self.sides[0]], '--datum', '1mm'])
+
+    def heights(self, times):
+        """Heights at the middles of the cells."""
+        nx, ny = self.nx * times, self.ny * times if self.ny > 1 else 1
+        x = (numpy.arange(nx) + 0.5) * STEP / times
+        y = ((numpy.arange(ny) + 0.5) * STEP / times if ny > 1 else numpy.zeros(1))[:, None]
+        heights = numpy.zeros((ny, nx))
+        for qx, qy, a, phase in self.waves:
+            heights += a * self.scale * numpy.cos(qx * x + qy * y + phase)
+        middle = [n * STEP / 2 + away for n, away in zip((self.nx, self.ny), self.away)]
+        return heights - ((x - middle[0]) ** 2 + (y - middle[1]) ** 2) / (2 * self.radius)
+
+
+def grid(seed, count, table):
+    rows = {'contact_fraction': [], 'max_pressure': [], 'approach': []}
+    below, silent, raised, unknown, work = 0, 0, 0, 0, 0
+    for c in range(count):
+        r = random.Random(seed * 100003 + c)
+        s = Waves(r)
+        slope = numpy.sqrt(numpy.mean(numpy.diff(s.heights(1), axis=1) ** 2)) / STEP
+        mean = MODULUS * slope * 10 ** r.uniform(-2.2, -0.3)
+        options = s.options + ['--estar', repr(MODULUS), '--mean-pressure', repr(mean), '--tol', '1e-4']
+        data = {k: rcg.dumps([rcg.frame('height', s.heights(k), STEP / k)]) for k in (1, 4, 8)}
+        run = ['--output', 'pressure', '--report', table]
+        done = tool('rc-solve', options + run + ['--discretization'], data[1])
+        ours = report_of(done, table)
+        if not ours or ours['contact_area_error_estimate'] is None:
+            continue
+        four, eight = (report_of(tool('rc-solve', options + run, data[k]), table) for k in (4, 8))
+        work += ours['convolutions']
+        unknown += ours['max_pressure_error_estimate'] is None
+        if eight['max_pressure'] > 1.5 * ours['max_pressure']:
+            raised += 1
+            silent += b'edge of the map' not in done.stderr and b'does not resolve' not in done.stderr
+        for name in rows:
+            told = ours[('contact_area' if name == 'contact_fraction' else name) + '_error_estimate']
+            if told is None or ours[name] is None or eight[name] is None:
+                continue
+            error = abs((2 * eight[name] - four[name]) / ours[name] - 1)
+            if abs(eight[name] - four[name]) > 0.1 * error * ours[name] and name != 'contact_fraction':
+                continue
+            rows[name].append((error, told))
+            if error > 1e-5 and told < 0.99 * error:
+                below += 1
+                print(f'below: case {c}, {name}, {s.nx} x {s.ny} nodes, {ours["contact_nodes"]} in contact, told {told:.2e} '
+                      f'error {error:.2e}', *options, flush=True)
+    for name in rows:
+        error, told = numpy.array(rows[name]).T
+        ratio = told[error > 1e-5] / error[error > 1e-5]
+        print(f'{name}: {len(ratio)} errors above 1e-5, below 0.99: {(ratio < 0.99).sum()}, least {ratio.min():.2f}, '
+              f'median {numpy.median(ratio):.2f}, 90 % {numpy.quantile(ratio, 0.9):.1f}')
+    print(f'largest pressure without an estimate: {unknown}; larger by half on a finer grid: {raised}, {silent} without a warning; '
+          f'{work:.0f} convolutions')
+    return 1 if below or silent else 0
+
+
+ALONE = {'first': first_yield, 'grid': grid}
 
 
 def main(kind, seed, count):

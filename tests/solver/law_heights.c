@@ -90,7 +90,7 @@ as_a_new_solver(void **state)
 static void
 grid_error_is_its_own(void **state)
 {
-    struct rc_problem problem = problem_of(0, false);
+    struct rc_problem problem = problem_of(1, false);
     struct rc_solver *s, *t;
     struct rc_contact c, d;
 

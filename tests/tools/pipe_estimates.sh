@@ -10,3 +10,4 @@ estimates() { # KIND SEED COUNT
 }
 
 claim "bodies yield where their largest Mises stress is 1.02 to 1.3 times the yield stress" estimates first 1 20
+claim "errors of the grid are below their estimates, and a warning names each contact at the edge of the map" estimates grid 1 20

@@ -53,7 +53,11 @@ between 1e-12 "$(cell 2 yielded_area)" 1 "  the second load yields"
 near "$(cell 3 yielded_area)" 0 "$same" "  the third, smaller one does not"
 near "$(cell 3 load_per_metre)" 5e4 "$summed" "  and carries its load"
 rc-pick --channel height y.rcg | rc-solve --quiet --estar 114GPa --periodic=y --load 1e5N/m --hardness 2GPa --discretization --report d.json -o d.rcg
-between 0 "$(field approach_error_estimate d.json)" 0.2 "--discretization estimates the error of the grid"
+between 1e-3 "$(field contact_area_error_estimate d.json)" 1 "--discretization estimates the error of the grid"
+claim "  but not that of the approach of a contact at a free edge" grep -q '"approach_error_estimate": null' d.json
+rc-synth wave --amplitude 20nm --nx 64 --ny 48 --dx 2um --wavelength 128um -o w.rcg
+rc-solve --quiet --estar 114GPa --periodic=y --load 1e3N/m --radius 10mm --discretization --report d.json -o d.rcg w.rcg
+between 1e-4 "$(field approach_error_estimate d.json)" 0.1 "  which it tells of a contact inside"
 # ---- refusals ----
 
 refuses 2 '--tilt free does not work with --periodic' "no tilt" 'rc-solve --periodic=y --tilt free --load 1N --estar 1GPa y.rcg >/dev/null'

@@ -26,6 +26,20 @@ set_problem(struct run *run, struct rc_problem *problem)
     problem->discretization = true;
 }
 
+static void
+judge(struct run *run, const char *where, const struct solution *s)
+{
+    const struct rc_contact *c = &s->contact;
+
+    if (c->edge_pressure > 0 && !c->hardness_active)
+        course_warn(
+            &run->d.course, "no error of the grid at the edge of the map",
+            "%s: the contact is at the edge of the map, where a finer grid raises the pressure "
+            "without limit: largest pressure and approach have no estimate of the grid: take a "
+            "wider map",
+            where);
+}
+
 static const char *
 state(const struct run *run)
 {
@@ -38,6 +52,7 @@ const struct effect solve_effect_discretization = {
     .options = options,
     .ask = ask,
     .problem = set_problem,
+    .judge = judge,
     .off = "left out: no --discretization",
     .state = state,
 };

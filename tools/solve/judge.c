@@ -100,6 +100,19 @@ solve_warn_of_theory(struct run *run, const char *where, const struct solution *
 
 /* ---- beyond the grid ---- */
 
+/* At a sharp edge the pressure of a punch has no bound. */
+static void
+warn_of_edge(struct run *run, const char *where, const struct solution *s)
+{
+    const struct rc_contact *c = &s->contact;
+
+    if (c->edge_pressure > 0 && c->edge_pressure >= c->max_pressure && !c->hardness_active)
+        course_warn(&run->d.course, "the largest pressure is at the edge of the map",
+                    "%s: the largest pressure, %s, is at the edge of the map, as under a punch: a "
+                    "finer grid raises it without limit: take a wider map, or other figures",
+                    where, shown_in_unit(c->max_pressure, "Pa"));
+}
+
 static void
 warn_of_grid(struct run *run, const struct rc_grid *g, const char *where, const struct solution *s)
 {
@@ -110,7 +123,8 @@ warn_of_grid(struct run *run, const struct rc_grid *g, const char *where, const 
         return;
     course_warn(&run->d.course, "the grid does not resolve the contact",
                 "%s: %zu %s in contact, in %zu %s: the grid does not resolve it: area and "
-                "largest pressure may be far off: --discretization estimates by how much",
+                "largest pressure may be far off: take a finer grid; --discretization estimates "
+                "the error of the area",
                 where, nodes, nodes == 1 ? "node" : "nodes", s->patches.count,
                 s->patches.count == 1 ? "patch" : "patches");
 }
@@ -212,6 +226,7 @@ judge_pressure(struct run *run, const char *where, const struct solution *s)
     if (tool_interrupted() == 0 && s->contact.contact_nodes > 0) {
         solve_warn_of_theory(run, where, s);
         warn_of_grid(run, run->g, where, s);
+        warn_of_edge(run, where, s);
     }
     solve_warn_of_end(run, where, s);
 }
