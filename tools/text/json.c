@@ -2,6 +2,8 @@
 #include "json.h"
 
 #include <math.h>
+#include <stdlib.h>
+#include <string.h>
 
 #include "formats/core/core.h"
 
@@ -91,4 +93,109 @@ json_close(struct json *j)
 {
     fputs("}\n", j->file);
     fflush(j->file);
+}
+
+/* ---- the reader ---- */
+
+static const char *
+skip_blanks(const char *s)
+{
+    return s + strspn(s, " \t\r\n");
+}
+
+/* Past the text that begins here. */
+static const char *
+past_text(const char *s)
+{
+    for (s++; *s != '"' && *s != '\0'; s++)
+        s += *s == '\\' && s[1] != '\0';
+    return *s == '"' ? s + 1 : s;
+}
+
+static const char *
+past_value(const char *s)
+{
+    int depth = 0;
+
+    do {
+        if (*s == '"') {
+            s = past_text(s);
+            continue;
+        }
+        if (depth == 0 && strchr(",:]}", *s) != NULL)
+            return s;
+        depth += (*s == '{' || *s == '[') - (*s == '}' || *s == ']');
+        s += *s != '\0';
+    } while (*s != '\0' && (depth > 0 || strchr(",]}", *s) == NULL));
+    return s;
+}
+
+const char *
+json_first(const char *s)
+{
+    if (s == NULL || (*s != '{' && *s != '['))
+        return NULL;
+    s = skip_blanks(s + 1);
+    return *s == '}' || *s == ']' || *s == '\0' ? NULL : s;
+}
+
+const char *
+json_next(const char *s)
+{
+    s = skip_blanks(past_value(s));
+    if (*s == ':')
+        s = skip_blanks(past_value(skip_blanks(s + 1)));
+    return *s == ',' ? skip_blanks(s + 1) : NULL;
+}
+
+const char *
+json_member(const char *object, const char *name)
+{
+    const size_t n = strcspn(name, ".");
+
+    if (object == NULL || *object != '{')
+        return NULL;
+    for (const char *at = json_first(object); at != NULL; at = json_next(at)) {
+        if (*at != '"' || strncmp(at + 1, name, n) != 0 || at[1 + n] != '"')
+            continue;
+        at = skip_blanks(past_text(at));
+        at = *at == ':' ? skip_blanks(at + 1) : at;
+        return name[n] == '.' ? json_member(at, name + n + 1) : at;
+    }
+    return NULL;
+}
+
+double
+json_real(const char *value)
+{
+    char *end;
+    double number;
+
+    if (value == NULL)
+        return NAN;
+    if (strncmp(value, "true", 4) == 0 || strncmp(value, "false", 5) == 0)
+        return *value == 't';
+    number = strtod(value, &end);
+    return end == value ? NAN : number;
+}
+
+bool
+json_is(const char *value, const char *text)
+{
+    const size_t n = strlen(text);
+
+    return value != NULL && *value == '"' && strncmp(value + 1, text, n) == 0 &&
+           value[1 + n] == '"';
+}
+
+const char *
+json_copy(const char *value, char *text, size_t size)
+{
+    size_t n = 0;
+
+    for (const char *s = value == NULL || *value != '"' ? "" : value + 1;
+         *s != '"' && *s != '\0' && n + 1 < size; s++)
+        text[n++] = *s == '\\' && s[1] != '\0' ? *++s : *s;
+    text[n] = '\0';
+    return text;
 }
