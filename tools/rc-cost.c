@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The cost of accuracy in time: one contact solved in many ways, compared with an accurate solution. */
+/* The cost of accuracy in time: one command run with many values of its options, compared with an accurate
+ * run. */
 #include <errno.h>
 #include <fcntl.h>
 #include <math.h>
@@ -8,65 +9,36 @@
 #include <unistd.h>
 
 #include "tools/cost/cost.h"
-#include "tools/problem/problem.h"
 
 static struct args {
-    struct physics physics;
-    const char *yield, *adhesion; /* words of the command line, or NULL */
-    struct tilt_args tilt;
-    size_t kernels, methods; /* bits */
-    double limit, budget, error;
-    const char *depths; /* for rc-stress */
-    double nu, mu;
-    const char *plot, *report, *leak;
+    const char *tol, *grid, *of;
+    struct steps lists; /* --vary and --reference */
+    double limit, budget;
+    const char *error;
+    const char *plot, *report;
     bool dry_run;
-} args = {.physics = PHYSICS_NONE,
-          .kernels = SIZE_MAX,
-          .methods = SIZE_MAX,
-          .limit = 60,
-          .budget = NAN,
-          .error = NAN,
-          .nu = NAN};
+} args = {.limit = 60, .budget = NAN};
 
 #define AT(field) .at = offsetof(struct args, field)
 #define ABOVE_0 .min = 0, .max = INFINITY, .above = true
 /* clang-format off */
 static const struct opt opts[] = {
-    {.group = physics_options, AT(physics)},
-    {.group = yield_option, AT(yield)},
-    {.group = adhesion_option, AT(adhesion)},
-    {.group = history_option, AT(physics.history)},
-    {.group = tilt_options, AT(tilt)},
-    {.name = "kernel", .alias = "engine", .type = OPT_WORDS, AT(kernels), .words = words_engine,
-     .arg = "LIST",
-     .against = RULES({.with = "yield", .because = "the trials vary increments and slabs, with pcg and fft"},
-                      {.with = "adhesion", .because = "there is only one method"}),
-     .help = "try only these, of %s (default: all)"},
-    {.name = "method", .type = OPT_WORDS, AT(methods), .words = words_method, .arg = "LIST",
-     .against = RULES({.with = "yield", .because = "the trials vary increments and slabs, with pcg and fft"},
-                      {.with = "adhesion", .because = "there is only one method"}),
-     .help = "try only these, of %s (default: all)"},
-    {.name = "depths", .type = OPT_TEXT, AT(depths), .arg = "LIST",
-     .needs = RULES({.with = "nu|nu1", .because = "stresses depend on Poisson's ratio"}),
-     .against = RULES({.with = "yield", .remedy = "compute these stresses with rc-stress from the frames of "
-                                                  "rc-solve"}),
-     .help = "stresses too, at these depths: a,b,c, a:b:n, a:b:log:n or auto"},
-    {.name = "nu", .type = OPT_NUMBER, AT(nu), .min = -1, .max = 0.5, .above = true, .arg = "RATIO",
-     .needs = RULES({.with = "depths"}),
-     .against = RULES({.with = "layer", .because = "each layer has its own Poisson's ratio"}),
-     .help = "Poisson's ratio for the stresses (default: --nu1)"},
-    {.name = "mu", .type = OPT_NUMBER, AT(mu), .min = -10, .max = 10, .arg = "COEFFICIENT",
-     .needs = RULES({.with = "depths"}),
-     .help = "for the stresses: the surface also carries mu times the pressure along +x"},
-    {.name = "leak", .type = OPT_CHOICE, AT(leak), .arg = "x|y",
-     .help = "leakage through the gap too, in this direction, with its discretization error"},
+    {.name = "tol", .type = OPT_TEXT, AT(tol), .result = true, .arg = "LIST",
+     .help = "values of --tol, in each program that has it (default 1e-1,1e-2,1e-3,1e-4,1e-6)"},
+    {.name = "grid", .type = OPT_TEXT, AT(grid), .result = true, .arg = "LIST",
+     .help = "grids with 1/k of the nodes a side: 4,2,1 (default 8,4,2,1 if no list is given)"},
+    {.name = "vary", .type = OPT_TEXTS, AT(lists), .result = true, .arg = "[N.]OPTION=LIST",
+     .help = "values of an option of the command, or of its program N; again for further options"},
+    {.name = "reference", .type = OPT_TEXTS, AT(lists), .result = true, .arg = "[N.]OPTION=VALUE",
+     .help = "the value of the reference (default: one step beyond the list)"},
+    {.name = "of", .type = OPT_TEXT, AT(of), .result = true, .arg = "NAME",
+     .help = "the frame or figure whose error is ranked (default: the first frame that differs)"},
     {.name = "budget", .type = OPT_NUMBER, .unit = UNIT_S, AT(budget), ABOVE_0, .arg = "TIME",
-     .help = "print the most accurate rc-solve command within this time instead of the table"},
-    {.name = "error", .type = OPT_NUMBER, AT(error), .min = 0, .max = 1, .above = true,
-     .arg = "ERROR",
+     .help = "print the most accurate command within this time instead of the table"},
+    {.name = "error", .type = OPT_TEXT, AT(error), .arg = "ERROR",
      .against = RULES({.with = "budget", .because = "one selects the fastest trial, the other the most "
                                                  "accurate one"}),
-     .help = "print the fastest rc-solve command with at most this error instead of the table"},
+     .help = "print the fastest command with at most this error instead of the table"},
     {.name = "limit", .type = OPT_NUMBER, .unit = UNIT_S, AT(limit), ABOVE_0, .arg = "TIME",
      .help = "time limit after the reference; trials that do not fit are left out (default 60s)"},
     {.name = "plot", .type = OPT_TEXT, AT(plot), .arg = "FILE",
@@ -81,104 +53,158 @@ static const struct opt opts[] = {
 
 static const struct tool_info info = {
     .name = "rc-cost",
-    .summary = "Time against accuracy, for a surface and a load",
-    .operands = "[FILE...]",
+    .summary = "Time against accuracy, for a command of these tools",
+    .operands = "[FILE...] -- COMMAND [\"|\" COMMAND]...",
     .examples =
         "  rc-synth selfaffine --nx 64 --dx 1um --hurst 0.8 --rms-slope 0.1 --seed 1 -o rough.rcg\n"
-        "  rc-cost --periodic --mean-pressure 500MPa --estar 114GPa --plot cost.png rough.rcg\n"
-        "  rc-cost --periodic --mean-pressure 500MPa --estar 114GPa --error 1e-3 rough.rcg\n",
+        "  rc-cost --plot cost.png rough.rcg -- \\\n"
+        "      rc-solve --periodic --mean-pressure 500MPa --estar 114GPa\n"
+        "  rc-cost --error 1e-3 rough.rcg -- rc-solve --periodic --mean-pressure 500MPa --estar "
+        "114GPa\n"
+        "  rc-cost --grid 4,2,1 --of flow_conductance rough.rcg -- \\\n"
+        "      rc-solve --periodic --mean-pressure 500MPa --estar 114GPa '|' rc-leak\n",
     .opts = opts,
     .reads = READS_STREAM,
     .writes = WRITES_TEXT,
 };
 
-struct costs {
+static struct costs {
     struct tool t;
-    size_t cases;
     struct report report;
-};
+    struct cost_case c;
+} run;
 
 /* ---- the command line ---- */
 
-static bool
-choosing(void)
+static void
+read_lists(struct tool *t, struct cost_case *c)
 {
-    return !isnan(args.budget) || !isnan(args.error);
+    const bool none = args.tol == NULL && args.grid == NULL && args.lists.n == 0;
+    bool tol = args.tol != NULL;
+
+    for (size_t k = 0; k < c->command.programs; k++)
+        tol = tol || (none && cost_option(&c->command.program[k], "tol") != NULL);
+    if (args.grid != NULL || none)
+        cost_list_add(c, "--grid", "grid", args.grid != NULL ? args.grid : "8,4,2,1");
+    for (size_t k = 0; k < args.lists.n; k++)
+        if (strcmp(args.lists.step[k].opt->name, "vary") == 0)
+            cost_list_vary(c, args.lists.step[k].text);
+    if (tol)
+        cost_list_add(c, "--tol", "tol", args.tol != NULL ? args.tol : "1e-1,1e-2,1e-3,1e-4,1e-6");
+    for (size_t k = 0; k < args.lists.n; k++)
+        if (strcmp(args.lists.step[k].opt->name, "reference") == 0)
+            cost_list_reference(c, args.lists.step[k].text);
+    if (c->lists == 0)
+        tool_usage(t, "--reference needs a list: give --tol, --grid or --vary");
 }
 
-static void
-check_arguments(struct costs *run)
+/* The number of --error, 1e-3 or 5%; NAN: not given. */
+static double
+error_of(struct tool *t, const char *text)
 {
-    struct tool *t = &run->t;
-    struct physics *physics = &args.physics;
+    char *end = NULL;
+    double error = text == NULL ? NAN : strtod(text, &end);
 
-    physics->pulls = args.adhesion != NULL;
-    physics_check(t, physics);
-    if (physics_steps(physics)->n > 1 && !physics->history)
-        tool_usage(t, "one load at a time: %zu were given", physics_steps(physics)->n);
-    ending_demand_picture(t, "--plot", args.plot);
-    tool_demand_writable(t, "--plot", args.plot);
-    report_open(&run->report, t, args.report);
+    if (text == NULL)
+        return NAN;
+    error = strcmp(end, "%") == 0 ? error / 100 : error;
+    if (end == text || (*end != '\0' && strcmp(end, "%") != 0) || !(error > 0) || error > 1)
+        tool_usage(t, "--error %s: a number above 0, up to 1 is expected, as in 1e-3 or 5%%", text);
+    return error;
 }
 
 /* Prints on a terminal, or with --progress. */
 static void
-tell(struct costs *run, const char *text)
+tell(const struct tool *t, const char *text)
 {
-    if (!run->t.quiet && (run->t.progress != NULL || run->t.verbose || isatty(STDERR_FILENO)))
+    if (!t->quiet && (t->progress != NULL || t->verbose || isatty(STDERR_FILENO)))
         fprintf(stderr, "%s: %s\n", info.name, text);
+}
+
+/* ---- the input ---- */
+
+/* Copies the input to a file for the programs. */
+static void
+copy_input(struct tool *t, struct cost_case *c)
+{
+    int again;
+    FILE *file;
+    struct rc_writer *writer;
+    struct rc_grid *g;
+
+    c->input = cost_file(t);
+    again = dup(c->input);
+    rc_err_set(&t->err, "a temporary file cannot be written");
+    if (again < 0 || (file = fdopen(again, "wb")) == NULL ||
+        (writer = rc_writer_new(file, &t->err)) == NULL)
+        tool_die(t, "%s", t->err.text);
+    while (tool_interrupted() == 0 && (g = tool_read(t)) != NULL) {
+        if (rc_writer_put(writer, g, &t->err) != RC_OK)
+            tool_refuse(t, g, "%s", t->err.text);
+        if (c->first == NULL) {
+            c->first = g;
+            c->shape = rc_grid_shape(g);
+            continue;
+        }
+        rc_grid_free(g);
+    }
+    if (rc_writer_end(writer, &t->err) != RC_OK || fclose(file) != 0)
+        tool_die(t, "%s", t->err.text);
+    rc_writer_free(writer);
+    if (c->first == NULL && tool_interrupted() == 0)
+        tool_die(t, "the input has no frame");
 }
 
 /* ---- expected times ---- */
 
 static void
-plan(struct costs *run, struct cost_case *c)
+plan(struct tool *t, struct cost_case *c)
 {
-    char text[160], name[128];
     double all = 0;
     size_t n = 0, out = 0;
+    char text[200], name[160];
 
-    cost_plan(c, &c->reference);
-    for (size_t k = 0; k < c->pressures; k++) {
-        struct cost_trial *m = &c->trial[k];
+    for (size_t k = 0; k < c->trials; k++) {
+        struct cost_trial *trial = &c->trial[k];
 
-        cost_plan(c, m);
-        m->expected = m->planned;
-        if (m->state != COST_OPEN)
+        cost_plan(c, trial);
+        if (trial->state != COST_OPEN)
             continue;
         n++;
-        if (all + m->expected > c->limit) {
+        if (all + trial->expected > c->limit) {
             out++;
             continue;
         }
-        for (size_t runs = 0; runs == 0 || cost_again((double)runs, m->expected); runs++)
-            all += m->expected;
+        for (size_t runs = 0; runs == 0 || cost_again((double)runs, trial->expected); runs++)
+            all += isnan(trial->expected) ? 0 : trial->expected;
     }
-    c->reference.expected = c->reference.planned;
     snprintf(text, sizeof text,
-             "%zu ways to solve %zu x %zu nodes, about %.2g s after %.2g s for the reference; "
-             "%zu of them are expected beyond --limit",
-             n, c->shape.nx, c->shape.ny, all, c->reference.expected, out);
+             "%zu trials on %zu x %zu nodes, about %.2g s for %s after the reference; %zu of them "
+             "are expected "
+             "beyond --limit",
+             n, c->shape.nx, c->shape.ny, all, c->command.program[0].name, out);
     if (!args.dry_run) {
-        tell(run, text);
+        tell(t, text);
         return;
     }
-    fprintf(run->t.output.file, "%s\n", text);
-    for (size_t k = 0; k < c->pressures; k++) {
-        struct cost_trial *m = &c->trial[k];
+    fprintf(t->output.file, "%s\n", text);
+    for (size_t k = 0; k < c->trials; k++) {
+        const struct cost_trial *trial = &c->trial[k];
 
-        if (m->state == COST_OPEN)
-            fprintf(run->t.output.file, "  %-40s about %8.2g s, %.0f MiB\n", cost_name(name, m),
-                    m->expected, m->mebibytes);
+        cost_name(c, trial, false, name);
+        if (trial->state == COST_OPEN && !isnan(trial->expected))
+            fprintf(t->output.file, "  %-40s about %8.2g s, %.0f MiB\n", name, trial->expected,
+                    c->run[trial->run[0]].mebibytes);
         else
-            fprintf(run->t.output.file, "  %-40s %s\n", cost_name(name, m), m->why);
+            fprintf(t->output.file, "  %-40s %s\n", name,
+                    trial->state == COST_OPEN ? "time unknown" : trial->why);
     }
 }
 
 /* ---- results ---- */
 
 static void
-write_plot(struct costs *run, const struct cost_case *c)
+write_plot(struct tool *t, const struct cost_case *c)
 {
     size_t bytes;
     struct whole_file whole;
@@ -187,127 +213,88 @@ write_plot(struct costs *run, const struct cost_case *c)
 
     if (args.plot == NULL)
         return;
-    if ((picture = cost_plot(c, ending_of(args.plot), &bytes, &run->t.err)) == NULL)
-        tool_die(&run->t, "--plot %s: %s", args.plot, run->t.err.text);
+    if ((picture = cost_plot(c, ending_of(args.plot), &bytes, &t->err)) == NULL)
+        tool_die(t, "--plot %s: %s", args.plot, t->err.text);
     if ((file = whole_file_open(&whole, args.plot)) == NULL ||
         fwrite(picture, 1, bytes, file) != bytes || !whole_file_put(&whole, file))
-        tool_die(&run->t, "--plot %s: %s", args.plot, strerror(errno));
+        tool_die(t, "--plot %s: %s", args.plot, strerror(errno));
     free(picture);
 }
 
+/* Ends the tool if --of is neither a frame nor a figure. */
 static void
-tell_results(struct costs *run, struct cost_case *c)
+check_of(struct tool *t, const struct cost_case *c)
 {
-    cost_mark(c);
-    cost_report(c, &run->report);
-    write_plot(run, c);
-    for (size_t k = 0; k < c->pressures; k++)
-        if (c->trial[k].optimistic) {
-            char name[128];
-            tool_warn(&run->t, "%s: the estimate %.1e is below the true error %.1e",
-                      cost_name(name, &c->trial[k]), c->trial[k].is.estimate, c->trial[k].is.error);
-        }
-    if (run->t.output.report_alone)
+    char nearest[NAME_SIZE] = "", meant[NAME_MEANT];
+
+    if (c->of == NULL || cost_object_named(c, c->of).known)
         return;
-    if (choosing())
-        cost_command(c, run->t.output.file);
-    else
-        cost_table(c, run->t.output.file);
-}
-
-/* ---- the run ---- */
-
-/* Writes the case to a file for the programs. */
-static int
-write_map(struct costs *run, const struct rc_grid *g, const struct rc_grid *hardness)
-{
-    int fd = cost_file(&run->t), again = dup(fd);
-    FILE *file = again < 0 ? NULL : fdopen(again, "wb");
-    struct rc_writer *writer;
-
-    rc_err_set(&run->t.err, "a temporary file cannot be written");
-    if (file == NULL || (writer = rc_writer_new(file, &run->t.err)) == NULL ||
-        rc_writer_put(writer, g, &run->t.err) != RC_OK ||
-        (hardness != NULL && rc_writer_put(writer, hardness, &run->t.err) != RC_OK) ||
-        rc_writer_end(writer, &run->t.err) != RC_OK || fclose(file) != 0)
-        tool_refuse(&run->t, g, "%s", run->t.err.text);
-    rc_writer_free(writer);
-    return fd;
-}
-
-static const char *
-number(double value, char text[RC_NUMBER_SIZE])
-{
-    return isnan(value) ? NULL : rc_number_text(text, value);
+    for (size_t k = 0; k < c->channels; k++)
+        name_nearer(c->of, c->channel[k].name, nearest);
+    for (size_t k = 0; k < c->figures; k++)
+        name_nearer(c->of, c->figure[k].name, nearest);
+    tool_usage(t, "--of %s: the command gives no such frame or figure%s", c->of,
+               name_meant(nearest, meant));
 }
 
 static void
-do_case(struct costs *run, struct rc_grid *g, const struct rc_grid *hardness)
+study(struct tool *t, struct cost_case *c)
 {
-    const bool stresses = tool_given(&run->t, "depths");
-    char nu[RC_NUMBER_SIZE], mu[RC_NUMBER_SIZE];
-    struct cost_case c = {.tool = &run->t,
-                          .heights = g,
-                          .shape = rc_grid_shape(g),
-                          .about = COST_PRESSURE,
-                          .line.boundary = args.physics.boundary,
-                          .line.leak = args.leak,
-                          .line.depths = stresses ? args.depths : NULL,
-                          .line.nu = number(args.nu, nu),
-                          .line.mu = args.mu == 0 ? NULL : number(args.mu, mu),
-                          .limit = args.limit,
-                          .budget = args.budget,
-                          .error = args.error,
-                          .choosing = choosing(),
-                          .shown = args.plot != NULL || args.report != NULL,
-                          .files.grid = {-1, -1, -1, -1}};
-
-    if (++run->cases > 1 && (choosing() || args.plot != NULL))
-        tool_refuse(&run->t, g, "%s is for one case: give one height map",
-                    args.plot != NULL ? "a picture" : "a command");
-    c.about |= (args.yield != NULL ? COST_YIELD : 0) | (args.adhesion != NULL ? COST_ADHESION : 0) |
-               (args.leak != NULL ? COST_LEAK : 0) | (stresses ? COST_STRESS : 0);
-    c.line.words = tool_result_words(&run->t, c.line.word, COST_WORDS / 2);
-    cost_trials(&c, args.kernels, args.methods);
-    c.files.grid[0] = write_map(run, g, hardness);
-    c.files.solution = cost_file(&run->t);
-    c.files.output = cost_file(&run->t);
-    if ((c.files.nowhere = open("/dev/null", O_WRONLY | O_CLOEXEC)) < 0)
-        tool_die(&run->t, "/dev/null: %s", strerror(errno));
-    plan(run, &c);
-    if (!args.dry_run && tool_interrupted() == 0) {
-        cost_solve_reference(&c);
-        cost_run_trials(&c);
-        tell_results(run, &c);
-    }
-    for (size_t k = 0; k < sizeof c.files.grid / sizeof *c.files.grid; k++)
-        if (c.files.grid[k] >= 0)
-            close(c.files.grid[k]);
-    close(c.files.solution);
-    close(c.files.output);
-    close(c.files.nowhere);
-    free(c.pressure);
-    free(c.solved);
-    free(c.stressed);
-    free(c.said);
-    free(c.trial);
+    cost_trials(c);
+    copy_input(t, c);
+    if (tool_interrupted() != 0)
+        return;
+    if (!args.dry_run)
+        cost_find_directions(c);
+    for (size_t l = 0; l < c->lists; l++)
+        cost_list_close(c, &c->list[l]);
+    plan(t, c);
+    if (args.dry_run || tool_interrupted() != 0)
+        return;
+    cost_run_reference(c);
+    check_of(t, c);
+    cost_run_trials(c);
+    cost_report(c, &run.report);
+    write_plot(t, c);
+    cost_warn(c);
+    if (t->output.report_alone)
+        return;
+    if (c->choosing)
+        cost_show_command(c, t->output.file);
+    else
+        cost_show_table(c, t->output.file);
 }
 
 int
 main(int argc, char **argv)
 {
-    static struct costs run;
-    struct rc_grid *g, *hardness;
+    struct tool *t = &run.t;
+    struct cost_case *c = &run.c;
+    int end = 1;
 
-    tool_start(&run.t, &info, argc, argv, &args);
-    check_arguments(&run);
+    while (end < argc && strcmp(argv[end], "--") != 0)
+        end++;
+    tool_start(t, &info, end, argv, &args);
+    if (end + 1 >= argc)
+        tool_usage(t, "a command is missing: rc-cost FILE -- rc-solve --load 1N --estar 1GPa");
+    ending_demand_picture(t, "--plot", args.plot);
+    tool_demand_writable(t, "--plot", args.plot);
     tool_catch_signals();
-    while (tool_interrupted() == 0 &&
-           (g = tool_channel_beside(&run.t, "height", "hardness", &hardness)) != NULL) {
-        do_case(&run, g, hardness);
-        rc_grid_free(g);
-        rc_grid_free(hardness);
-    }
+    *c = (struct cost_case){.tool = t,
+                            .command.tool = t,
+                            .limit = args.limit,
+                            .budget = args.budget,
+                            .error = error_of(t, args.error),
+                            .choosing = !isnan(args.budget) || args.error != NULL,
+                            .shown = args.plot != NULL || args.report != NULL,
+                            .of = args.of};
+    if ((c->nowhere = open("/dev/null", O_RDWR | O_CLOEXEC)) < 0)
+        tool_die(t, "/dev/null: %s", strerror(errno));
+    c->command.nowhere = c->nowhere;
+    cost_command_read(&c->command, argv + end + 1, (size_t)(argc - end - 1));
+    read_lists(t, c);
+    report_open(&run.report, t, args.report);
+    study(t, c);
     report_close(&run.report);
-    return tool_finish(&run.t);
+    return tool_finish(t);
 }

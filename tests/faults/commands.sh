@@ -89,9 +89,9 @@ commands=$(
 3 rc-render --raw --channel pressure c.rcg -o out.png
 6 rc-render --figure --channel pressure c.rcg -o out.pdf
 6 rc-render --curve x:y --by k --spread table.tsv -o out.pdf
-32 rc-cost --quiet --periodic --estar 1GPa --load 1mN --kernel fft --method pk99 --plot plot.png h.rcg -o out
-32 rc-cost --quiet --periodic --estar 1GPa --load 1mN --kernel fft --method pk99 --nu 0.3 --depths 1um,2um h.rcg -o out
-1 rc-cost --quiet --estar 1GPa --load 1mN --kernel direct --dry-run h.rcg
+32 rc-cost --quiet --tol 1e-2 --plot plot.png -o out h.rcg -- rc-solve --periodic --estar 1GPa --load 1mN --method pk99
+32 rc-cost --quiet --grid 2,1 -o out h.rcg -- rc-solve --periodic --estar 1GPa --load 1mN | rc-stress --nu 0.3 --depths 1um,2um
+1 rc-cost --quiet --tol 1e-2,1e-3 --dry-run h.rcg -- rc-solve --estar 1GPa --load 1mN --kernel direct
 LIST
 )
 commands="$commands
@@ -100,7 +100,8 @@ commands="$commands
 
 # written COMMAND: prints the file that the command writes, nothing for standard output.
 written() {
-    case $1 in *' -o '*) echo "${1##* -o }" ;; esac
+    local name=${1##* -o }
+    case $1 in *' -o '*) echo "${name%% *}" ;; esac
 }
 
 # A further file of a command is complete or absent, and a checkpoint can be resumed.
@@ -122,8 +123,9 @@ others() {
 # costs_of FILE: prints settings and errors of a table of rc-cost. It omits times and memory, which change
 # from run to run, and prints nothing for other files.
 costs_of() {
-    awk '$1 ~ /^(pcg|pk99)$/ { print $1, $2, $3, $4, $5, $8, $10, $11, $12, $13, $14 }
-        $1 ~ /^(fft|mlms|direct)$/ { print $1, $2, $5, $7, $8, $9 }' "$1" 2>/dev/null
+    awk '/^#/ || !NF { next }
+        !heads { heads = NF; for (k = 1; k <= NF; k++) skips[k] = $k ~ /^(time|cpu|runs|memory|note)/; next }
+        { for (k = 1; k <= heads; k++) printf "%s ", skips[k] ? "" : $k; print "" }' "$1" 2>/dev/null
 }
 
 # without_result FILE: the trials without a result, with the reason.

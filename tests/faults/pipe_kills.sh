@@ -153,7 +153,7 @@ costs() {
     rc-synth wave --nx 16 --dx 1um --amplitude 10nm --wavelength 8um -o wave.rcg
     for ((k = 0; k < 3 + kills / 2; k++)); do
         rm -f plot.png cost.txt
-        rc-cost --quiet --periodic --load 1mN --estar 1GPa --plot plot.png -o cost.txt wave.rcg &
+        rc-cost --quiet --plot plot.png -o cost.txt wave.rcg -- rc-solve --periodic --load 1mN --estar 1GPa &
         sleep "$(awk -v r=$RANDOM 'BEGIN { print 0.6 * r / 32768 }')"
         kill -TERM $! 2>/dev/null
         wait $!
@@ -169,6 +169,6 @@ claim "a new map replaces the old one" bash -c '
 refuses 2 'rc-solve: --checkpoint -: .*give a file name' "a checkpoint is not a pipe" \
     "rc-solve --estar 1GPa --load 0.1N --checkpoint - -o x.rcg rough.rcg"
 refuses 2 'rc-cost: --plot -: a picture is' "a plot has to say what it is" \
-    "rc-cost --estar 1GPa --load 0.1N --plot - rough.rcg"
+    "rc-cost --plot - rough.rcg -- rc-solve --estar 1GPa --load 0.1N"
 refuses 2 'rc-info: --psd-map -: ' "a map of waves is not a pipe" "rc-info --psd --psd-map - rough.rcg"
 claim "no file has the name -" test ! -e -

@@ -198,6 +198,6 @@ size=256x256
 rc-synth $rough --nx 256 -o s.rcg
 rc-solve --quiet $load --output pressure s.rcg -o p.rcg
 row "rc-solve --kernel direct" "rc-solve --kernel direct --tol 1e-2 --verbose $load s.rcg"
-row "rc-cost" "rc-cost --verbose --limit 60s $load s.rcg"
-row "rc-cost --plot" "rc-cost --verbose --limit 60s --plot cost.png $load s.rcg"
+row "rc-cost" "rc-cost --verbose --limit 60s s.rcg -- rc-solve $load"
+row "rc-cost --plot" "rc-cost --verbose --limit 60s --plot cost.png s.rcg -- rc-solve $load"
 cat table.txt

@@ -39,7 +39,7 @@ fails '2 2' '^rc-import: ' "rc-import" 'rc-import --nothing | rc-info'
 # ---- tools at the end of a pipe leave nothing ----
 
 for last in 'rc-render -o out.png' 'rc-export -o out.csv' 'rc-info -o out.txt' "$press -o out.rcg" \
-    'rc-cost --load 1 --estar 1GPa -o out.table' 'rc-deflect -o out.u' 'rc-stress --nu 0.3 --depths 0 -o out.s' \
+    'rc-cost -o out.table -- rc-solve --load 1 --estar 1GPa' 'rc-deflect -o out.u' 'rc-stress --nu 0.3 --depths 0 -o out.s' \
     'rc-detrend --plane -o out.level'; do
     fails '2 2' '^rc-solve: ' "$last is silent" "rc-solve --lod 3 ball.rcg | $last"
 done

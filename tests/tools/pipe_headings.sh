@@ -59,7 +59,7 @@ report rc-leak "rc-leak --viscosity 1mPas --pressure-drop 1kPa --threads 1 --qui
 report rc-deflect "rc-deflect --threads 1 --quiet --report \$r -o d.rcg p.rcg"
 report rc-info "rc-info --areal --psd --profile rows --report \$r rough.rcg"
 report "rc-info --patches" "rc-info --areal --patches --report \$r one.rcg"
-report rc-cost "rc-cost --load 1mN --estar 100GPa --kernel fft --limit 2s --threads 1 --quiet --report \$r rough.rcg"
+report rc-cost "rc-cost --grid 2,1 --tol 1e-1,1e-3 --threads 1 --quiet --report \$r rough.rcg -- rc-solve --load 1mN --estar 100GPa"
 
 # The list in a page has every column, and otherwise only those of several processes.
 page_words() { # PAGE SECTION PATTERN: prints the words of matching lines; those of rc-solve include the pages of its effects

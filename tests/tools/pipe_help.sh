@@ -99,8 +99,6 @@ same_by() {
 claim "rc-solve: --engine is --kernel" same_by mlms rc-solve --load 2N --estar 114GPa --quiet ball.rcg
 claim "rc-stress: --engine is --kernel" same_by mlms rc-stress --tol 1e-2 --nu 0.3 --depths 5um pressed.rcg
 claim "rc-deflect: --engine is --kernel" same_by mlms rc-deflect --tol 1e-2 pressed.rcg
-plan_of_cost() { rc-cost --load 2N --estar 114GPa --method pcg --dry-run ball.rcg "$@" | sed 's/, [0-9]* MiB//; s/ *[0-9.e+-]* s\b//g'; } # memory of the process, time of the machine
-claim "rc-cost: --engine is --kernel" same_by fft,direct plan_of_cost
 refuses 2 'must be one of auto\|fft\|fft64\|mlms\|direct' "an engine that is none, naming those there are" \
     "rc-solve --load 2N --estar 114GPa --engine fast ball.rcg"
 

@@ -91,7 +91,7 @@ for format in png pdf; do
 done
 awk 'BEGIN { print "x/m\ty/m"; for (k = 0; k < 100000; k++) printf "%de-6\t%.6f\n", k, sin(k / 3000) }' >long.tsv
 
-before_release && estimated "rc-cost, with the processes that it starts" "rc-cost --verbose --kernel fft --method pcg --limit 10s $load small.rcg"
+before_release && estimated "rc-cost, with the processes that it starts" "rc-cost --verbose --limit 10s small.rcg -- rc-solve $load"
 
 # ---- numbers of the report and of the plan ----
 
@@ -174,7 +174,7 @@ refuses 1 "$more 8 MiB: .*rc-pick" "rc-render --sheet" "rc-render --memory 8M --
 refuses 1 "$more [0-9.]+ MiB: give fewer rows" "rc-render --curve" "rc-render --memory 3M --curve x:y long.tsv -o never.png"
 refuses 1 "$more 8 MiB: the file itself takes memory too" "rc-import, for the process that reads the file" "rc-import --memory 8M made.park -o never.rcg"
 refuses 1 "$more 4 MiB" "rc-synth" "rc-synth --memory 4M $rough --nx 1024 -o never.rcg"
-refuses 1 "$more [0-9.]+ MiB" "rc-cost" "rc-cost --memory 3M --limit 60s $load odd.rcg"
+refuses 1 "$more [0-9.]+ MiB" "rc-cost" "rc-cost --memory 3M --limit 60s odd.rcg -- rc-solve $load"
 refuses 1 "$more 1 MiB" "a frame that is read" "rc-info --memory 1M odd.rcg"
 claim "no file is left" bash -c '! ls never* 2>/dev/null'
 claim "a run within the limit finishes" rc-solve --quiet --memory 60M $load odd.rcg -o done.rcg

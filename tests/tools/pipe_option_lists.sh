@@ -38,7 +38,7 @@ refuses 2 'from 0 to 1: a range by ratio needs both ends above 0' "an end at 0" 
 refuses 2 "a:b:log:n must be a whole number" "half a value" "rc-solve --load 1:2:log:2.5 --estar 1GPa ball.rcg"
 refuses 2 "a range is a:b:n, n values from a to b, or a:b:log:n" "no number of values" \
     "rc-solve --load 1:2:log --estar 1GPa ball.rcg"
-for option in 'rc-solve --load' 'rc-cost --load' 'rc-stress --depths' 'rc-cost --depths'; do
+for option in 'rc-solve --load' 'rc-stress --depths'; do
     claim "$option: --help explains the range" \
         bash -c "${option% *} --help | grep -A 1 '^  $(sed 's/.* //' <<<"$option") ' | says a:b:log:n cat"
 done

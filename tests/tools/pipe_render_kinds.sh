@@ -12,7 +12,7 @@ for name in b.eps b.svgz b b. bpng b.png.txt b.jpeg .pngx; do
     refuses 2 "rc-render: -o $name: a picture is a PNG, SVG or PDF: its name has to end in .png, .svg or .pdf" "rc-render -o $name" \
         "rc-render -o $name sphere.rcg"
     refuses 2 "rc-cost: --plot $name: a picture is a PNG, SVG or PDF" "rc-cost --plot $name" \
-        "rc-cost --load 1mN --estar 100GPa --plot $name sphere.rcg"
+        "rc-cost --plot $name sphere.rcg -- rc-solve --load 1mN --estar 100GPa"
 done
 claim "refused commands leave no file" test "$(echo *)" = "refuses.err refuses.out sphere.rcg"
 refuses 2 'has to end in .png, .svg or .pdf' "before anything is read" 'rc-render -o b.eps nowhere.rcg'

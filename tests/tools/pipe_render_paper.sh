@@ -92,5 +92,5 @@ for ending in svg pdf; do
         "rc-render -o full.$ending ramp.rcg"
 done
 claim "rc-cost draws a PDF too" bash -c '
-    rc-synth sphere --nx 16 --dx 1um --radius 1mm | rc-cost --load 1mN --estar 100GPa --limit 1s --kernel fft --plot cost.pdf - >/dev/null &&
+    rc-synth sphere --nx 16 --dx 1um --radius 1mm | rc-cost --vary increments=8,16 --quiet --plot cost.pdf - -- rc-solve --load 1mN --E1 100GPa --nu1 0.3 --E2 rigid --yield 1GPa >/dev/null &&
     pdftotext cost.pdf - | says "time \(s\)" cat'

@@ -243,7 +243,7 @@ rc-solve --radius 7.5mm --load 240N --estar 113.93GPa --hardness 6GPa --tol 1e-4
 quoted=$(sed -n 's/^takes \([0-9]*\) in \([0-9]*\)\.$/\1 \2/p' "$pages/contact-theory.7")
 near "$(field convolutions work.json)" "${quoted% *}" 0.25 "  those of pk99"
 near "$(field iterations work.json)" "${quoted#* }" 0.25 "  and its steps"
-# The same contact on steel, with a film and without, as in contact-theory(7) and rc-cost(1).
+# The same contact on steel, with a film and without, as in contact-theory(7).
 rc-import --quiet "$samples/rough-sphere.x3p" -o steel.rcg
 of_steel() { # of_steel TOL [OPTION]...: prints the convolutions
     rc-solve --radius 7.5mm --load 240N --E1 208GPa --nu1 0.3 --E2 208GPa --nu2 0.3 --tol "$@" --quiet --report work.json \
@@ -258,8 +258,6 @@ while read -r name film_4 steel_4 film_10 steel_10; do
 done <<END
 contact-theory(7) $(tr '\n' ' ' <"$pages/contact-theory.7" |
     sed -nE 's/.* takes ([0-9.]+) convolutions to 1e.-4, ([0-9.]+) without the film, and ([0-9.]+) and ([0-9.]+) to 1e.-10\..*/\1 \2 \3 \4/p')
-rc-cost(1) $(tr '\n' ' ' <"$pages/rc-cost.1" |
-    sed -nE 's/.* 1e-4 takes ([0-9.]+) convolutions with the film and ([0-9.]+) without it; an error of 1e-10.{0,60} takes ([0-9.]+) and ([0-9.]+)\..*/\1 \2 \3 \4/p')
 END
 
 # ---- real files ----

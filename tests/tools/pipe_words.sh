@@ -56,4 +56,4 @@ claim "    the file has this name" perl -MJSON::PP -0777 -e '
     exit($wanted ne $got)' <(printf 'x%s\ny' "$escape") shown.out
 shown "rc-solve --dry-run" "rc-solve $contact --dry-run source.rcg"
 shown "a report's table" "rc-solve $contact --report words.tsv source.rcg -o x.rcg && tr '\t' ' ' <words.tsv"
-shown "rc-cost" "rc-cost $contact --quiet --limit 5 source.rcg"
+shown "rc-cost" "rc-cost --quiet --limit 5 source.rcg -- rc-solve $contact"

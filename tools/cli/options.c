@@ -275,7 +275,7 @@ print_help(struct tool *t, const char *group)
 
     if (group != NULL) {
         help_rows(t, heading_named(t, group));
-        exit(fflush(stdout) == 0 ? 0 : EXIT_IMPOSSIBLE);
+        exit(fflush(stdout) == 0 && !ferror(stdout) ? 0 : EXIT_IMPOSSIBLE);
     }
     printf("Usage: %s [OPTION]... %s\n%s.\n\n", info->name, info->operands, info->summary);
     for (size_t k = 0; (title = heading(t, k)) != NULL; k++)
@@ -291,7 +291,7 @@ print_help(struct tool *t, const char *group)
     if (info->examples != NULL)
         printf("\nExamples:\n%s", info->examples);
     printf("\nThe manual is %s(1); the grid stream is described in rcg(5).\n", info->name);
-    exit(fflush(stdout) == 0 ? 0 : EXIT_IMPOSSIBLE);
+    exit(fflush(stdout) == 0 && !ferror(stdout) ? 0 : EXIT_IMPOSSIBLE);
 }
 
 /* ---- values ---- */
@@ -465,7 +465,7 @@ set_common(struct tool *t, const struct opt *o, const char *text)
         print_help(t, text);
     if (strcmp(o->name, "version") == 0) {
         printf("%s (libcontact) %s\n", t->info->name, rc_version());
-        exit(fflush(stdout) == 0 ? 0 : EXIT_IMPOSSIBLE);
+        exit(fflush(stdout) == 0 && !ferror(stdout) ? 0 : EXIT_IMPOSSIBLE);
     }
     if (strcmp(o->name, "memory") == 0) {
         t->memory = unit_size(number(t, o, text));
@@ -676,7 +676,7 @@ options_read(struct tool *t, int argc, char **argv)
     add_rows(t, t->info->opts, NULL, 0, has_headings(t->info->opts) ? "other" : NULL);
     /* for the build, which installs completions; not in the table and not in --help */
     if (argc == 3 && strcmp(argv[1], "--completions") == 0 && completions_print(t, argv[2]))
-        exit(fflush(stdout) == 0 ? 0 : EXIT_IMPOSSIBLE);
+        exit(fflush(stdout) == 0 && !ferror(stdout) ? 0 : EXIT_IMPOSSIBLE);
     if ((table = getopt_table(t)) == NULL)
         tool_die(t, "out of memory");
     opterr = 0;

@@ -57,27 +57,18 @@ start(const char *const word[], int in, int out, int said, const char *folder)
     return child;
 }
 
-void
-process_wait(int process, bool kills)
+/* True if the process has ended and waits for waitpid. */
+static bool
+has_ended(pid_t child)
 {
-    if (kills)
-        kill(process, SIGKILL);
-    while (waitpid(process, NULL, 0) < 0 && errno == EINTR)
-        ;
-}
+    siginfo_t how = {0};
 
-static void
-make_pipe(struct tool *t, int end[2])
-{
-    if (pipe(end) != 0)
-        tool_die(t, "no pipe can be made: %s", strerror(errno));
-    fcntl(end[0], F_SETFD, FD_CLOEXEC);
-    fcntl(end[1], F_SETFD, FD_CLOEXEC);
+    return waitid(P_PID, (id_t)child, &how, WEXITED | WNOHANG | WNOWAIT) == 0 && how.si_pid != 0;
 }
 
 /* Reads the output of the process until it ends or must be stopped. */
 static enum process_end
-listen_to(struct tool *t, struct process *p, int from, double until)
+listen_to(struct tool *t, struct process *p, pid_t child, int from, double until)
 {
     size_t n = 0, room = 0;
 
@@ -90,8 +81,11 @@ listen_to(struct tool *t, struct process *p, int from, double until)
         if (tool_now() > until)
             return PROCESS_LATE;
         tool_progress(t, NAN, "%s", p->doing);
-        if (poll(&at, 1, 50) <= 0)
+        if (poll(&at, 1, 50) <= 0) {
+            if (has_ended(child)) /* and the other end is still open */
+                return PROCESS_ENDED;
             continue;
+        }
         if (n + 4096 > room) {
             char *more = realloc(p->said, room = 2 * room + 8192);
             if (more == NULL)
@@ -104,7 +98,7 @@ listen_to(struct tool *t, struct process *p, int from, double until)
         n += got > 0 ? (size_t)got : 0;
         p->said[n] = '\0';
         if (got <= 0)
-            return PROCESS_ENDED;
+            return got == 0 ? PROCESS_ENDED : PROCESS_DIED;
     }
 }
 
@@ -118,38 +112,27 @@ process_run(struct tool *t, const char *const word[], struct process *p)
 
     p->status = -1;
     p->said = NULL;
-    make_pipe(t, said);
+    if (pipe(said) != 0)
+        tool_die(t, "no pipe can be made: %s", strerror(errno));
+    fcntl(said[0], F_SETFD, FD_CLOEXEC);
+    fcntl(said[1], F_SETFD, FD_CLOEXEC);
     child = start(word, p->in, p->out >= 0 ? p->out : said[1], said[1], p->folder);
     close(said[1]);
-    end = child < 0 ? PROCESS_DIED : listen_to(t, p, said[0], until);
+    end = child < 0 ? PROCESS_DIED : listen_to(t, p, child, said[0], until);
     close(said[0]);
     tool_progress_end(t);
     if (child < 0)
         return end;
-    if (end != PROCESS_ENDED) {
-        process_wait(child, true);
-        return end;
-    }
+    if (end != PROCESS_ENDED)
+        kill(child, SIGKILL);
     while (waitpid(child, &how, 0) < 0 && errno == EINTR)
         ;
+    if (end != PROCESS_ENDED)
+        return end;
     if (tool_interrupted() != 0) /* Ctrl-C reaches both processes */
         return PROCESS_INTERRUPTED;
     if (!WIFEXITED(how))
         return PROCESS_DIED;
     p->status = WEXITSTATUS(how);
     return p->status == 0 || p->status == EXIT_SHORT ? PROCESS_ENDED : PROCESS_FAILED;
-}
-
-int
-process_start(struct tool *t, const char *const word[], int in, FILE **out)
-{
-    int from[2];
-    pid_t child;
-
-    make_pipe(t, from);
-    child = start(word, in, from[1], STDERR_FILENO, NULL);
-    close(from[1]);
-    if (child < 0 || (*out = fdopen(from[0], "rb")) == NULL)
-        tool_die(t, "%s cannot be run: %s", word[0], strerror(errno));
-    return child;
 }

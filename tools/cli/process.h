@@ -27,9 +27,4 @@ struct process {
 /* Runs a command: the tool with this name in the folder of this tool, otherwise on PATH. It reads `in` from
  * the beginning, and is killed when this tool ends. */
 enum process_end process_run(struct tool *tool, const char *const word[], struct process *process);
-/* Starts a command whose standard output can be read from *out; process_wait awaits its end. */
-int process_start(struct tool *tool, const char *const word[], int in, FILE **out);
-/* Waits for a process; with `kills` kills it first. */
-void process_wait(int process, bool kills);
-
 #endif

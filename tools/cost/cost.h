@@ -1,8 +1,10 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
- * The interface of this folder: rc-cost. A trial is one way to solve the contact, or to compute its stresses.
- * The reference is the most accurate solution. rc-solve, rc-stress and rc-leak do the work, one process per
- * trial, and rc-pick makes the coarser maps. The cost of each trial is in the reports of these tools.
+ * The interface of this folder: rc-cost. A study varies options of a command, which is one program or several
+ * in a pipe. A list has the values of one option, or the grids. A trial has one value of each list; the
+ * reference has the tightest ones. A run is one program with its words and its input; trials share runs.
+ * Nothing here knows what an option means: `--completions json` of the programs says which options they have
+ * and what their figures are.
  */
 #ifndef RC_COST_H
 #define RC_COST_H
@@ -14,37 +16,66 @@
 #include "libcontact/contact.h"
 #include "tools/cli/cli.h"
 
-/* ---- figures ---- */
-
-struct cost_figures { /* NAN: unknown */
-    double increments, slabs, applications, cohesive_nodes, seconds, runs, coarse_depths;
-    double convolutions, memory, iterations, estimate, error, contact_area_error;
-    double max_pressure_error, approach_error, rms_error, mises_error, flow_conductance;
-    double flow_error, flow_seconds;
+enum {
+    COST_WORDS = 128,    /* most words of a program */
+    COST_PROGRAMS = 8,   /* most programs of a command */
+    COST_LISTS = 6,      /* most lists */
+    COST_VALUES = 64,    /* most values of a list */
+    COST_TRIALS = 256,   /* most trials */
+    COST_CHANNELS = 64,  /* most channels of the last program */
+    COST_FIGURES = 160,  /* most figures of all programs */
+    COST_ESTIMATES = 48, /* most estimates of all programs */
+    COST_SHOWN = 4,      /* most figures in the table */
+    COST_NAME = 64
 };
 
-enum { /* subjects of a trial and of a case */
-    COST_PRESSURE = 1,
-    COST_YIELD = 2,
-    COST_ADHESION = 4,
-    COST_LEAK = 8,
-    COST_STRESS = 16,
+/* ---- command.c: the command ---- */
+
+struct cost_program {
+    const char *name;
+    char *json; /* its --completions json */
+    const char *word[COST_WORDS];
+    size_t words;
+    bool reads; /* a stream, on standard input; else files, with - among its words */
+    bool streams, reports, plans; /* it writes a stream, has --report and --dry-run */
 };
 
-/* A figure has a source and a format. */
-struct cost_column {
-    struct rc_figure figure;   /* in rc-cost's report; without a name: the end        */
-    unsigned of;               /* bits: its subjects                                  */
-    const char *head, *format; /* in the table; NULL: not in the table                */
-    const char *from;          /* its key in the report of the tool; NULL: none       */
-    bool relative;             /* relative difference from the reference              */
-    bool early;                /* known before the run                                */
-    double scale;              /* divides it in the table; 0: 1                       */
+struct cost_command {
+    struct tool *tool;
+    int nowhere; /* /dev/null */
+    struct cost_program program[COST_PROGRAMS];
+    size_t programs;
 };
-extern const struct cost_column cost_columns[];
-double *cost_value(const struct cost_column *column, struct cost_figures *figures);
 
-/* ---- trials.c: the list of trials ---- */
+/* Takes the words after `--`, or a single one that is split as a shell would; ends the tool if they are not
+ * a pipe of tools of this family whose results can be compared. */
+void cost_command_read(struct cost_command *command, char **word, size_t words);
+/* The object of an option in the program's list; NULL: it has none of this name or alias. */
+const char *cost_option(const struct cost_program *program, const char *name);
+/* Ends the tool if the option may not be varied. */
+void cost_option_check(struct tool *tool, const char *option, const char *from);
+/* Gives an option the value in place of the one that the words have; returns their new number. "no" takes
+ * the option away, and "yes" is the option alone, if it takes no argument or can be without. The words
+ * are copied into `text`, which must last as long as they. */
+size_t cost_option_put(struct tool *tool, const struct cost_program *program, const char *word[],
+                       size_t words, const char *name, const char *value, char text[320]);
+
+/* ---- trials.c: lists and trials ---- */
+
+struct cost_list {
+    char name[COST_NAME], option[COST_NAME]; /* "2.tol", "tol" */
+    size_t program;                          /* SIZE_MAX: each program with the option */
+    bool grid;                               /* values are 8 for 1/8 of the nodes a side */
+    const char *value[COST_VALUES];
+    size_t n, given; /* values with the reference; of the command line */
+    bool numbers;    /* each value is a plain number */
+    double number[COST_VALUES];
+    bool whole;             /* whole numbers */
+    int tight;              /* -1: small numbers are accurate, 1: large ones; 0: not known yet */
+    bool fixed;             /* --reference gave its value */
+    size_t reference, last; /* of the values: the tightest one; the tightest one of the others */
+    double least, most;     /* bounds of the option; NAN: none */
+};
 
 enum cost_state {
     COST_OPEN,
@@ -53,133 +84,177 @@ enum cost_state {
     COST_STOPPED,  /* started, no result: `why` */
 };
 
+struct cost_run {
+    size_t level; /* 0: rc-pick; k: program k - 1 of the command */
+    size_t from;  /* the run whose output it reads; SIZE_MAX: the input */
+    const char **word;
+    int output; /* -1: none, or released */
+    enum cost_state state;
+    bool converged, compared;
+    char *report, why[256];
+    size_t lines, runs, turn;
+    double seconds, processor, memory, convolutions; /* NAN: unknown; s, s, B */
+    double planned, mebibytes;
+    double channel[COST_CHANNELS]; /* error of each channel; NAN: unknown */
+};
+
 struct cost_trial {
-    unsigned about; /* COST_STRESS; else COST_PRESSURE and the bits of the case */
-    bool reference;
-    const char *method, *kernel;
-    const char *arithmetic; /* arithmetic of the convolutions */
-    unsigned coarse;        /* nodes of the map per node of the solved grid, along a side */
-    double tol;             /* 0: rounding                                                */
-    double goal; /* --tol of rc-solve; 0: its default. For a body that yields, the asked error */
-    size_t increments;         /* only for a body that yields */
-    double stack;              /* number of its slabs, relative to rc-solve's default */
-    struct rc_shape shape;     /* nodes of the solved grid */
-    double planned, mebibytes; /* s and memory by rc-solve --dry-run; NAN: unknown */
+    size_t pick[COST_LISTS];
+    size_t run[COST_PROGRAMS + 1],
+        runs;    /* from the first program to the last; rc-pick is not one */
+    size_t grid; /* the run of rc-pick; SIZE_MAX: the input */
+    unsigned coarse;
+    bool reference, converged, front, optimistic, unjudged;
     enum cost_state state;
     char why[256];
-    double expected; /* s, before the run */
-    struct cost_figures is;
-    bool converged;
-    bool front;      /* no other trial is both faster and more accurate */
-    bool optimistic; /* its estimated error is below its error by more than 1 % */
+    double expected, seconds, processor, memory, convolutions; /* NAN: unknown */
+    double estimate, error, bound;
+    double figure[COST_FIGURES],
+        judged[COST_ESTIMATES]; /* errors with sign; estimates; NAN: unknown */
 };
 
-enum {
-    COST_WORDS = 192 /* most words of a command line */
+struct cost_channel {
+    char name[COST_NAME];
+    bool passed; /* the input of the last program has it */
+    bool whole;  /* whole numbers up to 10 */
+    bool differs;
+    double sum;
 };
 
-/* The contact as options of rc-solve, and text of the command line, or NULL. */
-struct cost_line {
-    const char *word[COST_WORDS];
-    size_t words;
-    struct rc_boundary boundary;
-    const char *leak, *depths, *nu, *mu;
+struct cost_figure { /* of the results, or an estimate */
+    size_t program;
+    char name[COST_NAME], of[COST_NAME], by[COST_NAME], column[COST_NAME];
+    char unit[16];
+    bool differs;
 };
 
-struct cost_files {
-    int grid[4]; /* the map, and the map with 1/2, 1/4, 1/8 of its nodes a side; -1: not made */
-    int solution, output; /* solution of the reference, output of the last trial */
-    int nowhere;          /* /dev/null */
+/* What an error belongs to: channel k, or figure k. */
+struct cost_object {
+    bool frame, known;
+    size_t k;
 };
 
 struct cost_case {
     struct tool *tool;
-    const struct rc_grid *heights;
+    struct cost_command command;
+    struct cost_list list[COST_LISTS];
+    size_t lists, points;        /* `points`: the list along whose values the picture draws lines */
+    const struct rc_grid *first; /* the first map of the input, without values */
     struct rc_shape shape;
-    unsigned about;
-    struct cost_line line;
-    double limit, began; /* s: limit of all trials; start of the first one */
-    /* s, relative error: wanted time or accuracy of the command; NAN: not given */
-    double budget, error;
-    bool choosing, shown; /* a command is wanted; all trials are shown nevertheless */
-    double around;        /* s of a process besides its solution */
-    struct cost_trial reference;
-    double *pressure;         /* pressure of the reference */
-    char *solved;             /* its report */
-    char *stressed;           /* the report of the most accurate stresses, or NULL */
-    double base_slabs;        /* slabs by default of rc-solve; NAN: not known yet */
-    struct cost_trial *trial; /* trials of pressures, then of stresses */
-    size_t pressures, trials, room;
-    struct cost_files files;
-    char *said; /* standard error of the last program */
+    double limit, began, budget, error; /* s, s, s, -; NAN: not given */
+    bool choosing, shown;               /* a command is wanted; all trials are shown nevertheless */
+    const char *of;                     /* --of, or NULL */
+    double around;                      /* s of a process besides its work */
+    int input, nowhere;
+    size_t turn;
+    bool usage; /* a program has refused its command line */
+    struct cost_run *run;
+    size_t runs, run_room;
+    struct cost_trial *trial; /* the reference is trial[reference] */
+    size_t trials, room, reference;
+    size_t cases;
+    struct cost_channel channel[COST_CHANNELS];
+    size_t channels;
+    struct cost_figure figure[COST_FIGURES], estimate[COST_ESTIMATES];
+    size_t figures, estimates;
+    struct cost_object ranked, judged; /* `judged`: what the estimate of the table belongs to */
+    double reference_error;            /* of the ranked object */
+    char *said;                        /* standard error of the last process */
 };
 
-/* Makes all trials of the case; c->about and c->boundary must be set. `kernels` and `methods`: bit k stands
- * for row k of libcontact's tables. Ends the tool when memory is short. */
-void cost_trials(struct cost_case *c, size_t kernels, size_t methods);
-/* Index of the trial's series among all series, the name of the series, and of a point in it. */
-size_t cost_series(const struct cost_trial *trial);
-const char *cost_series_name(char text[64], const struct cost_trial *trial);
-const char *cost_point_name(char text[32], const struct cost_trial *trial);
-/* "method, engine, tol 1e-04, 512 x 512" */
-const char *cost_name(char text[128], const struct cost_trial *trial);
-/* Appends the options of the trial for rc-solve after n words; returns the number of words. Valid until the
- * next call. */
-size_t cost_trial_words(const struct cost_trial *trial, const char *word[], size_t n);
+/* Adds a list, "1e-2,1e-4" or with ';' between the values; `name`: "tol", "2.increments", "grid"; `from`: the
+ * option of rc-cost, for messages. Ends the tool if a program or an option does not exist. */
+void cost_list_add(struct cost_case *c, const char *from, const char *name, const char *values);
+/* The list of --vary, "2.increments=4,8". */
+void cost_list_vary(struct cost_case *c, const char *text);
+/* Sets the reference of a list, "tol=1e-9". */
+void cost_list_reference(struct cost_case *c, const char *text);
+/* The value of the reference, once the direction is known. */
+void cost_list_close(struct cost_case *c, struct cost_list *list);
+/* Makes the tightest value of the command line the reference. */
+void cost_list_shorten(struct cost_list *list);
+/* The place of a value from the loosest, 0, to the tightest. */
+size_t cost_list_rank(const struct cost_list *list, size_t value);
+/* Makes all trials of the lists, without the reference. */
+void cost_trials(struct cost_case *c);
+/* The place of the trial of these values; SIZE_MAX: none, unless it `adds` one. */
+size_t cost_trial_find(struct cost_case *c, const size_t pick[COST_LISTS], bool adds);
+/* "grid 1/2, tol 1e-4"; with `series` without the grid and the list of the points. */
+const char *cost_name(const struct cost_case *c, const struct cost_trial *t, bool series,
+                      char text[160]);
+/* "1/8" for a grid, else the value. */
+const char *cost_value(const struct cost_list *list, size_t value, char text[COST_NAME]);
+/* The grid of the trial. */
+struct rc_shape cost_shape(const struct cost_case *c, const struct cost_trial *t);
 
-/* ---- run.c: programs ---- */
+/* ---- files.c: programs, files, reports ---- */
 
 /* An unnamed file, deleted when its last descriptor is closed. Ends the tool on failure. */
 int cost_file(struct tool *tool);
 /* Opens it for reading from the beginning; the caller closes it. */
 FILE *cost_file_read(struct tool *tool, int file);
-
 /* Runs a command. `in` and `out`: its standard input and output, which is emptied first (-1: the output is
- * captured). Its standard error is then in c->said, its exit status in *status. `doing`: for the progress
- * line. */
-enum process_end cost_run(struct cost_case *c, const char *const word[], int in, int out,
-                          double allowed, const char *doing, int *status);
-/* The number, or true or false, under this key in the last object of a report; NAN: none. */
-double cost_number(const char *report, const char *key);
+ * captured). Its standard error is then in c->said, its exit status in *status. */
+enum process_end cost_process(struct cost_case *c, const char *const word[], int in, int out,
+                              double allowed, const char *doing, int *status);
 /* The last message of a tool, without the tool's name and the place of the frame; "": none. Valid until the
  * next call. */
 const char *cost_message(const char *said);
+/* The next line of a report that is an object, and moves *at past it; NULL: none. */
+const char *cost_line(const char **at);
 
-/* ---- measure.c ---- */
+/* ---- measure.c: runs and errors ---- */
 
-/* Sets the expected cost of a trial, as far as rc-solve gives it; leaves out a trial that is not possible. */
-void cost_plan(struct cost_case *c, struct cost_trial *trial);
-/* Runs a trial once more, keeps the shortest time, and computes its error against the reference. False when
- * the tool was interrupted. */
-bool cost_trial_run(struct cost_case *c, struct cost_trial *trial, double allowed);
-/* Solves the reference; ends the tool on failure. */
-void cost_solve_reference(struct cost_case *c);
+/* Finds or adds the runs of a trial, and its expected cost; leaves out a trial that is not possible. */
+void cost_plan(struct cost_case *c, struct cost_trial *t);
+/* Runs the programs of a trial that have not run, and compares the results with the reference, if it is
+ * known. False when the tool was interrupted. */
+bool cost_trial_run(struct cost_case *c, size_t trial, double allowed);
+/* One more run of a program; the shortest time counts. */
+void cost_run_again(struct cost_case *c, const struct cost_trial *t, size_t run, double allowed);
+/* Sets time, memory and work of a trial from its runs. */
+void cost_trial_sum(const struct cost_case *c, struct cost_trial *t);
+/* Reads channels and figures of the reference, and compares the trials that have run before it. */
+void cost_reference_read(struct cost_case *c);
+/* Compares the results of a trial with the reference. */
+void cost_compare(struct cost_case *c, struct cost_trial *t);
+/* Relative error of a figure or a frame of the trial, with sign; NAN: unknown. */
+double cost_error_of(const struct cost_case *c, const struct cost_trial *t,
+                     struct cost_object object);
+/* The largest estimate for the object; NAN: none. On a coarser grid only estimates of its error hold, but
+ * with `any` the others count too. */
+double cost_estimate_of(const struct cost_case *c, const struct cost_trial *t,
+                        struct cost_object object, bool any);
+struct cost_object cost_object_named(const struct cost_case *c, const char *name);
+const char *cost_object_name(const struct cost_case *c, struct cost_object object);
+/* The error of the reference: its estimate, or the last change along a list, whichever is larger. */
+double cost_reference_error(const struct cost_case *c, struct cost_object object);
+/* True if the estimate for an object is below 0.9 of its error, less the estimate of the reference. */
+bool cost_is_optimistic(const struct cost_case *c, const struct cost_trial *t,
+                        struct cost_object object);
+/* Chooses the ranked object, and sets error, estimate, bound and marks of all trials. */
+void cost_judge(struct cost_case *c);
 
 /* ---- schedule.c ---- */
 
-/* True if a trial with this many runs and this time is run again. Short trials are repeated in turns: the
- * shortest time is that of the work; the excess is due to other programs. */
+/* True if a run of this number of repetitions and this time is repeated. Short runs are repeated in turns:
+ * the shortest time is that of the work; the excess is due to other programs. */
 bool cost_again(double runs, double seconds);
-/* True if --error may choose it. By the triangle inequality the error is at most the distance from the
- * reference plus the error of the reference. On a coarser grid it is the error of the pressures there, which
- * are means over its cells. For a body that yields, rc-solve's estimate must be small enough too. */
-bool cost_is_near(const struct cost_case *c, const struct cost_trial *trial);
+/* True if --error may choose it: by the triangle inequality its true error is at most `bound`. */
+bool cost_is_near(const struct cost_case *c, const struct cost_trial *t);
+/* Finds which end of each list is the tight one, by the work of the trials at both ends. */
+void cost_find_directions(struct cost_case *c);
+/* Runs the reference and its neighbours; ends the tool on failure. */
+void cost_run_reference(struct cost_case *c);
 /* Runs the trials that fit into the time limit, the fastest first; short ones several times. */
 void cost_run_trials(struct cost_case *c);
 
 /* ---- show.c, plot.c: results ---- */
 
-enum {
-    COST_BODY = 48
-};
-
-/* Sets `front` and `optimistic` of all trials. */
-void cost_mark(struct cost_case *c);
 /* Prints the command for a time or an accuracy; ends the tool when there is none. */
-void cost_command(const struct cost_case *c, FILE *out);
-void cost_table(const struct cost_case *c, FILE *out);
-/* Writes "2 layers" after `between`; nothing for uniform bodies. */
-const char *cost_body(const struct cost_case *c, const char *between, char text[COST_BODY]);
+void cost_show_command(const struct cost_case *c, FILE *out);
+void cost_show_table(const struct cost_case *c, FILE *out);
+void cost_warn(const struct cost_case *c);
 void cost_report(const struct cost_case *c, struct report *out);
 /* A plot of error against time as a PNG, SVG or PDF (`ending`: "png", ...) in memory, which the caller
  * frees. */

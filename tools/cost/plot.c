@@ -1,7 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/*
- * Error against time: a graph of the pressures and, if there are stresses, one below for them.
- */
+/* Error against time: a point for each trial. */
 #define _GNU_SOURCE /* open_memstream, in POSIX since 2008 */
 #include "cost.h"
 
@@ -22,52 +20,47 @@ struct drawing {
     struct graph_series series[SERIES];
     double x[SERIES][POINTS], y[SERIES][POINTS];
     struct graph_point point[SERIES][POINTS];
-    char name[SERIES][64], subtitle[400];
+    char name[SERIES][160], title[128], subtitle[400], x_name[128], y_name[128];
 };
 
-/* Error of a stress relative to the largest pressure, on maps of some million nodes. */
-static const double rounding = 1e-14;
-
 static void
-describe(const struct cost_case *c, struct drawing *d, bool stress)
+describe(const struct cost_case *c, struct drawing *d)
 {
-    const char *source = rc_grid_get(c->heights, "source");
-    const double approach = cost_number(c->solved, "asked_approach");
-    char body[COST_BODY];
+    const char *source = rc_grid_get(c->first, "source");
+    const bool labels = c->list[c->points].grid || strcmp(c->list[c->points].name, "tol") == 0;
+    size_t n;
 
-    snprintf(d->subtitle, sizeof d->subtitle,
-             "%.60s%s%zu × %zu nodes, %s%s · %s %s · %.3g %% contact · %zu threads",
-             source == NULL ? "" : source, source == NULL ? "" : " · ", c->shape.nx, c->shape.ny,
-             rc_boundary_word(c->line.boundary), cost_body(c, " · ", body),
-             isnan(approach) ? "load" : "approach",
-             isnan(approach) ? scale_value(cost_number(c->solved, "load"), "N")
-                             : scale_value(approach, "m"),
-             100 * cost_number(c->solved, "contact_fraction"), c->tool->threads);
+    snprintf(d->subtitle, sizeof d->subtitle, "%.60s%s%zu × %zu nodes · ",
+             source == NULL ? "" : source, source == NULL ? "" : " · ", c->shape.nx, c->shape.ny);
+    for (size_t k = 0; k < c->command.programs; k++) {
+        n = strlen(d->subtitle);
+        snprintf(d->subtitle + n, sizeof d->subtitle - n, "%s%s", k > 0 ? " | " : "",
+                 c->command.program[k].name);
+    }
+    n = strlen(d->subtitle);
+    snprintf(d->subtitle + n, sizeof d->subtitle - n, " · %zu thread%s", c->tool->threads,
+             c->tool->threads == 1 ? "" : "s");
+    snprintf(d->title, sizeof d->title, "What accuracy costs: %s", cost_object_name(c, c->ranked));
+    snprintf(d->x_name, sizeof d->x_name, labels ? "time" : "time (s); at the points: %s",
+             c->list[c->points].name);
+    snprintf(d->y_name, sizeof d->y_name, "%s of %s",
+             c->ranked.frame && c->channel[c->ranked.k].whole ? "share of other nodes"
+             : c->ranked.frame                                ? "relative L1 error"
+                                                              : "relative error",
+             cost_object_name(c, c->ranked));
     d->graph = (struct graph){
-        .paper = {.title = stress ? "What accuracy costs: the stresses"
-                                  : "What accuracy costs: the contact pressure",
-                  .subtitle = d->subtitle},
-        .x = {.quantity = (c->about & COST_YIELD) ? "time (s); at the points: increments" : "time",
-              .unit = "s",
-              .log = true,
-              .lo = NAN,
-              .hi = NAN,
-              .shown = "s"},
-        .y = {.quantity =
-                  stress ? "error over the largest pressure" : "relative L1 error of the pressure",
-              .unit = "1",
-              .log = true,
-              .lo = NAN,
-              .hi = NAN},
+        .paper = {.title = d->title, .subtitle = d->subtitle},
+        .x = {.quantity = d->x_name, .unit = "s", .log = true, .lo = NAN, .hi = NAN, .shown = "s"},
+        .y = {.quantity = d->y_name, .unit = "1", .log = true, .lo = NAN, .hi = NAN},
         .series = d->series,
-        .front = "front: nothing is both quicker and nearer",
-        .floor = stress ? rounding : c->reference.is.estimate,
-        .floor_text = stress ? "rounding" : "below the reference's own error"};
+        .front = "front: nothing is quicker or smaller, and as accurate",
+        .floor = c->reference_error,
+        .floor_text = "below the reference's own error"};
 }
 
 /* The entry for a further point of the series of that name; SERIES: too many series to draw. */
 static size_t
-series_of(struct drawing *d, const char *name, size_t place)
+series_of(struct drawing *d, const char *name)
 {
     size_t s = 0;
 
@@ -78,7 +71,7 @@ series_of(struct drawing *d, const char *name, size_t place)
     if (s == d->graph.n) {
         snprintf(d->name[s], sizeof d->name[s], "%s", name);
         d->series[s] = (struct graph_series){
-            .name = d->name[s], .place = place, .x = d->x[s], .y = d->y[s], .point = d->point[s]};
+            .name = d->name[s], .place = s, .x = d->x[s], .y = d->y[s], .point = d->point[s]};
         d->graph.n++;
     }
     return s;
@@ -91,29 +84,29 @@ stretch(struct graph_axis *a, double value)
     a->hi = fmax(a->hi, value);
 }
 
-/* Trials from `from` to `to`; the exact stresses, which are the first, come last. */
 static void
-draw_trials(const struct cost_case *c, struct drawing *d, size_t from, size_t to)
+draw_trials(const struct cost_case *c, struct drawing *d)
 {
-    const bool stress = from > 0;
-
-    describe(c, d, stress);
-    for (size_t k = 0; k < to - from; k++) {
-        const struct cost_trial *m = &c->trial[from + (k + stress) % (to - from)];
+    describe(c, d);
+    for (size_t k = 0; k < c->trials; k++) {
+        const struct cost_trial *t = &c->trial[k];
         size_t s, n;
-        char name[64], label[32];
+        char name[160], label[COST_NAME];
 
-        cost_series_name(name, m);
-        if (m->state != COST_DONE || (s = series_of(d, name, cost_series(m))) == SERIES)
+        cost_name(c, t, true, name);
+        if (t->state != COST_DONE || isnan(t->error) || (t->reference && c->trials > 1) ||
+            (s = series_of(d, name[0] == '\0' ? "trials" : name)) == SERIES)
             continue;
         n = d->series[s].n++;
-        d->x[s][n] = m->is.seconds;
-        d->y[s][n] = fmax(m->reference ? 0 : m->is.error, fmax(d->graph.floor / 10, 1e-15));
-        d->point[s][n] = (struct graph_point){.hollow = m->coarse > 1, .front = m->front};
-        snprintf(d->point[s][n].label, sizeof d->point[s][n].label, "%s",
-                 cost_point_name(label, m));
-        if (m->coarse > 1)
-            d->graph.hollow = "on 1/2, 1/4, 1/8 of the nodes a side";
+        d->x[s][n] = t->seconds;
+        d->y[s][n] = fmax(t->error, fmax(d->graph.floor / 10, 1e-15));
+        d->point[s][n] = (struct graph_point){.hollow = t->coarse > 1, .front = t->front};
+        for (size_t l = 0; l < c->lists; l++)
+            if (t->coarse > 1 ? c->list[l].grid : l == c->points)
+                snprintf(d->point[s][n].label, sizeof d->point[s][n].label, "%.15s",
+                         cost_value(&c->list[l], t->pick[l], label));
+        if (t->coarse > 1)
+            d->graph.hollow = "on a coarser grid: a part of the nodes a side";
         stretch(&d->graph.x, d->x[s][n]);
         stretch(&d->graph.y, d->y[s][n]);
     }
@@ -131,12 +124,10 @@ draw_trials(const struct cost_case *c, struct drawing *d, size_t from, size_t to
 unsigned char *
 cost_plot(const struct cost_case *c, const char *ending, size_t *bytes, struct rc_err *err)
 {
-    const size_t n = c->stressed != NULL ? 2 : 1;
     const struct picture_text text[] = {{"Title", "What accuracy costs"},
                                         {"Description", tool_history(c->tool)},
                                         {"Software", "rc-cost"}};
-    struct drawing *d = calloc(n, sizeof *d);
-    struct graph graph[2];
+    struct drawing *d = calloc(1, sizeof *d);
     struct canvas *canvas;
     char *picture = NULL, warning[512];
     enum rc_status status = RC_FAIL;
@@ -145,12 +136,8 @@ cost_plot(const struct cost_case *c, const char *ending, size_t *bytes, struct r
     rc_err_set(err, "out of memory");
     if (d == NULL)
         return NULL;
-    draw_trials(c, &d[0], 0, c->pressures);
-    if (n > 1)
-        draw_trials(c, &d[1], c->pressures, c->trials);
-    for (size_t k = 0; k < n; k++)
-        graph[k] = d[k].graph;
-    canvas = graphs_draw(graph, n, err);
+    draw_trials(c, d);
+    canvas = graph_draw(&d->graph, err);
     if (canvas != NULL && (file = open_memstream(&picture, bytes)) != NULL) {
         status = canvas_write(canvas, canvas_format(ending), text, sizeof text / sizeof *text, file,
                               err);

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
- * Selects, orders and repeats the trials. The expected time of each is rc-solve's, corrected by the measured
- * times of earlier trials on this map. A machine may differ by several times, and a surface may need fewer or
- * more convolutions.
+ * Selects, orders and repeats the trials. The expected time of each is that of the nearest measured trial,
+ * corrected by the forecasts of the first program. A machine may differ by several times, and a surface may
+ * need fewer or more convolutions.
  */
 #include "cost.h"
 
@@ -11,20 +11,25 @@
 
 /* ---- expected times ---- */
 
-/* The measured trial on the map's own grid with the nearest tolerance, the same engine and, if there is one,
- * the same method. Without such a trial it is the reference. */
+/* The measured trial with the nearest values of all lists. */
 static const struct cost_trial *
 nearest(const struct cost_case *c, const struct cost_trial *t)
 {
-    const struct cost_trial *near = &c->reference;
+    const struct cost_trial *near = NULL;
     double least = INFINITY;
 
-    for (size_t k = 0; k < c->pressures; k++) {
+    for (size_t k = 0; k < c->trials; k++) {
         const struct cost_trial *m = &c->trial[k];
-        double off = fabs(log(m->tol / t->tol)) + (strcmp(m->method, t->method) == 0 ? 0 : 1e3);
+        double off = 0;
 
-        if (m->state == COST_DONE && m->coarse == 1 && strcmp(m->kernel, t->kernel) == 0 &&
-            off <= least) {
+        for (size_t l = 0; l < c->lists; l++) {
+            const struct cost_list *list = &c->list[l];
+            const double ratio = list->number[m->pick[l]] / list->number[t->pick[l]];
+
+            if (m->pick[l] != t->pick[l])
+                off += list->numbers && ratio > 0 ? fabs(log(ratio)) : 1e3;
+        }
+        if (m->state == COST_DONE && off < least) {
             least = off;
             near = m;
         }
@@ -32,56 +37,33 @@ nearest(const struct cost_case *c, const struct cost_trial *t)
     return near;
 }
 
-/* Convolutions per depth, in units of one for displacements: with the transforms of the first engine all
- * components share a plan. With other engines they do not. The error needs the exact stresses, and a second
- * computation of the stresses of the trial. */
-static double
-expect_stress(const struct cost_case *c, const struct cost_trial *t)
-{
-    const struct cost_trial *exact = &c->trial[c->pressures];
-    const double sums = t->kernel == exact->kernel ? 1 : 7.0 / 3;
-    const struct rc_conv_options by = {.boundary = c->line.boundary,
-                                       .engine = t->kernel,
-                                       .tol = t->tol,
-                                       .threads = c->tool->threads},
-                                 of = {.boundary = by.boundary,
-                                       .engine = exact->kernel,
-                                       .threads = c->tool->threads};
-    double each;
-
-    if (exact->state != COST_DONE)
-        return c->reference.is.seconds;
-    each = exact->is.seconds * sums * rc_conv_seconds(&c->shape, &by) /
-           rc_conv_seconds(&c->shape, &of);
-    return 2 * each + exact->is.seconds + 3 * c->around;
-}
-
-/* Expected seconds. They come from trials measured on this map, else from the plan. */
+/* Expected seconds of the programs that have not run. */
 static double
 expect(const struct cost_case *c, const struct cost_trial *t)
 {
-    const struct cost_trial *near;
+    const struct cost_trial *near = nearest(c, t);
+    double sum = 0, ratio;
 
-    if (t->about & COST_STRESS)
-        return expect_stress(c, t);
-    near = nearest(c, t);
-    if (near->state != COST_DONE)
-        return t->planned;
-    return t->planned * near->is.seconds / near->planned + c->around;
+    if (near == NULL || t->runs == 0)
+        return c->run == NULL || t->runs == 0 ? NAN : c->run[t->run[0]].planned;
+    ratio = c->run[t->run[0]].planned / c->run[near->run[0]].planned;
+    if (!(ratio > 0)) {
+        const struct rc_shape own = cost_shape(c, t), of = cost_shape(c, near);
+
+        ratio = (double)(own.nx * own.ny) / (double)(of.nx * of.ny);
+    }
+    for (size_t k = 0; k < t->runs; k++)
+        if (c->run[t->run[k]].state == COST_OPEN)
+            sum += c->run[near->run[k]].seconds * ratio + c->around;
+    return sum;
 }
 
 /* ---- the order ---- */
 
 bool
-cost_is_near(const struct cost_case *c, const struct cost_trial *m)
+cost_is_near(const struct cost_case *c, const struct cost_trial *t)
 {
-    const double error = m->is.error;
-
-    if (m->state != COST_DONE || !m->converged)
-        return false;
-    if (m->about & COST_YIELD)
-        return error <= c->error && !isnan(m->is.estimate);
-    return error + c->reference.is.estimate <= c->error;
+    return t->state == COST_DONE && t->converged && !t->optimistic && t->bound <= c->error;
 }
 
 /* Seconds beyond which a trial is not needed for the choice, once something has been measured. They are three
@@ -91,60 +73,55 @@ static double
 too_slow(const struct cost_case *c)
 {
     double least = INFINITY;
-    bool any = false;
 
-    for (size_t k = 0; k < c->pressures; k++) {
-        const struct cost_trial *m = &c->trial[k];
-
-        if (m->state != COST_DONE)
-            continue;
-        any = true;
-        if (cost_is_near(c, m))
-            least = fmin(least, m->is.seconds);
-    }
-    if (!c->choosing || c->shown || !any)
+    if (!c->choosing || c->shown)
         return INFINITY;
+    for (size_t k = 0; k < c->trials; k++)
+        if (cost_is_near(c, &c->trial[k]))
+            least = fmin(least, c->trial[k].seconds);
     return 3 * (isnan(c->budget) ? least : c->budget) + c->around;
 }
 
 static bool
-fits(const struct cost_case *c, struct cost_trial *m, double left)
+fits(const struct cost_case *c, struct cost_trial *t, double left)
 {
-    if (m->expected > left)
-        snprintf(m->why, sizeof m->why,
-                 "left out: it would take about %.2g s, and %.2g s are left %s", m->expected,
-                 fmax(left, 0), m->about & COST_STRESS ? "for stresses" : "of --limit");
-    else if (!(m->about & COST_STRESS) && m->expected > too_slow(c))
-        snprintf(m->why, sizeof m->why, "left out: about %.2g s, it would not be chosen",
-                 m->expected);
+    if (t->expected > left)
+        snprintf(t->why, sizeof t->why,
+                 "left out: it would take about %.2g s, and %.2g s are left of --limit",
+                 t->expected, fmax(left, 0));
+    else if (t->expected > too_slow(c))
+        snprintf(t->why, sizeof t->why, "left out: about %.2g s, it would not be chosen",
+                 t->expected);
     else
         return true;
-    m->state = COST_LEFT_OUT;
+    t->state = COST_LEFT_OUT;
     return false;
 }
 
 static double
-left(double began, double limit)
+left(const struct cost_case *c)
 {
-    return limit - (tool_now() - began);
+    return c->limit - (tool_now() - c->began);
 }
 
 /* Fraction of the limit: trials with a longer expected time come last, because they may use up the time.
- * Before them fast trials are repeated and the stresses are computed. */
+ * Before them fast trials are repeated. */
 static const double slow = 1 / 30.0;
 
-/* True if the trial took longer than another trial with the same and further work: other programs then took
- * part of its time. */
+/* True if the trial took longer than another one that does the same and further work: other programs then
+ * took part of its time. */
 static bool
-disturbed(const struct cost_trial *trial, size_t pressures, const struct cost_trial *m)
+disturbed(const struct cost_case *c, const struct cost_trial *t)
 {
-    for (size_t k = 0; k < pressures; k++) {
-        const struct cost_trial *o = &trial[k];
+    for (size_t k = 0; k < c->trials; k++) {
+        const struct cost_trial *o = &c->trial[k];
+        bool more = o->state == COST_DONE && t->seconds > 1.1 * o->seconds;
 
-        if (o->state == COST_DONE && strcmp(o->method, m->method) == 0 &&
-            strcmp(o->kernel, m->kernel) == 0 && o->coarse <= m->coarse && o->tol <= m->tol &&
-            o->increments >= m->increments && o->stack >= m->stack &&
-            m->is.seconds > 1.1 * o->is.seconds)
+        for (size_t l = 0; l < c->lists && more; l++)
+            more = o->pick[l] == t->pick[l] ||
+                   (c->list[l].numbers && cost_list_rank(&c->list[l], o->pick[l]) >=
+                                              cost_list_rank(&c->list[l], t->pick[l]));
+        if (more)
             return true;
     }
     return false;
@@ -156,19 +133,7 @@ cost_again(double runs, double seconds)
     return runs < 5 && runs * seconds < 0.5;
 }
 
-static bool
-again(const struct cost_case *c, const struct cost_trial *m)
-{
-    const double runs = m->is.runs, seconds = m->is.seconds;
-
-    if (m->state != COST_DONE || seconds + c->around > left(c->began, c->limit))
-        return false;
-    return cost_again(runs, seconds) || (runs < 2 && seconds < slow * c->limit) ||
-           (runs < 5 && disturbed(c->trial, c->pressures, m));
-}
-
-/* Repeats trials in turns, so that a disturbance does not affect one trial alone; not while repetitions
- * fail. */
+/* Repeats trials in turns, so that a disturbance does not affect one trial alone. */
 static void
 repeat(struct cost_case *c)
 {
@@ -176,48 +141,156 @@ repeat(struct cost_case *c)
 
     while (more && tool_interrupted() == 0) {
         more = false;
-        for (size_t k = 0; k < c->pressures && tool_interrupted() == 0; k++)
-            if (again(c, &c->trial[k])) {
-                const double runs = c->trial[k].is.runs;
+        c->turn++;
+        for (size_t k = 0; k < c->trials && tool_interrupted() == 0; k++) {
+            struct cost_trial *t = &c->trial[k];
 
-                cost_trial_run(c, &c->trial[k], left(c->began, c->limit));
-                more = more || c->trial[k].is.runs > runs;
+            for (size_t i = 0; i < t->runs && t->state == COST_DONE; i++) {
+                struct cost_run *r = &c->run[t->run[i]];
+                const size_t runs = r->runs;
+
+                if (r->turn == c->turn || r->seconds + c->around > left(c) ||
+                    !(cost_again((double)runs, r->seconds) ||
+                      (runs < 2 && r->seconds < slow * c->limit) || (runs < 9 && disturbed(c, t))))
+                    continue;
+                r->turn = c->turn;
+                cost_run_again(c, t, t->run[i], left(c));
+                more = more || c->run[t->run[i]].runs > runs;
             }
-    }
-}
-
-/* Runs the stresses in half of the remaining time. */
-static void
-run_stresses(struct cost_case *c)
-{
-    double end = tool_now() + left(c->began, c->limit) / 2;
-
-    for (size_t k = c->pressures; k < c->trials && tool_interrupted() == 0; k++) {
-        struct cost_trial *m = &c->trial[k];
-        double rest = fmax(end - tool_now(), 0);
-
-        m->expected = expect(c, m);
-        if (fits(c, m, rest))
-            cost_trial_run(c, m, rest);
+            if (t->state == COST_DONE)
+                cost_trial_sum(c, t);
+        }
     }
 }
 
 /* The fastest trial that has not been run. */
-static struct cost_trial *
+static size_t
 next(struct cost_case *c)
 {
-    struct cost_trial *least = NULL;
+    size_t least = SIZE_MAX;
 
-    for (size_t k = 0; k < c->pressures; k++) {
-        struct cost_trial *m = &c->trial[k];
+    for (size_t k = 0; k < c->trials; k++) {
+        struct cost_trial *t = &c->trial[k];
 
-        if (m->state != COST_OPEN)
+        if (t->state != COST_OPEN)
             continue;
-        m->expected = expect(c, m);
-        if (least == NULL || m->expected < least->expected)
-            least = m;
+        t->expected = expect(c, t);
+        if (least == SIZE_MAX || t->expected < c->trial[least].expected)
+            least = k;
     }
     return least;
+}
+
+/* ---- the reference ---- */
+
+/* True if the first trial does much more work than the second. */
+static bool
+costs_more(const struct cost_trial *a, const struct cost_trial *b)
+{
+    return isnan(a->convolutions) || isnan(b->convolutions)
+               ? a->processor > 1.5 * b->processor
+               : a->convolutions > 1.1 * b->convolutions;
+}
+
+void
+cost_find_directions(struct cost_case *c)
+{
+    for (size_t l = 0; l < c->lists && tool_interrupted() == 0; l++) {
+        struct cost_list *list = &c->list[l];
+        size_t low = 0, high = 0, of[2];
+
+        if (!list->numbers || list->tight != 0)
+            continue;
+        for (size_t k = 0; k < list->given; k++) {
+            low = list->number[k] < list->number[low] ? k : low;
+            high = list->number[k] > list->number[high] ? k : high;
+        }
+        for (size_t k = 0; k < 2; k++) { /* with the last values of the other lists */
+            size_t pick[COST_LISTS];
+
+            for (size_t i = 0; i < c->lists; i++)
+                pick[i] = c->list[i].given - 1;
+            pick[l] = k == 0 ? low : high;
+            of[k] = cost_trial_find(c, pick, false);
+            cost_plan(c, &c->trial[of[k]]);
+            if (c->trial[of[k]].state == COST_OPEN && low != high)
+                cost_trial_run(c, of[k], c->limit);
+        }
+        if (low == high || c->trial[of[0]].state != COST_DONE || c->trial[of[1]].state != COST_DONE)
+            continue; /* cost_list_close chooses */
+        if (costs_more(&c->trial[of[0]], &c->trial[of[1]]))
+            list->tight = -1;
+        if (costs_more(&c->trial[of[1]], &c->trial[of[0]]))
+            list->tight = 1;
+    }
+}
+
+/* The trial of these values, with its plan. */
+static size_t
+add_trial(struct cost_case *c, const size_t pick[COST_LISTS], bool reference)
+{
+    const size_t k = cost_trial_find(c, pick, true);
+
+    c->trial[k].reference = reference;
+    cost_plan(c, &c->trial[k]);
+    return k;
+}
+
+/* Runs the trial of these values as the reference. */
+static const struct cost_trial *
+try_reference(struct cost_case *c, const size_t pick[COST_LISTS])
+{
+    c->reference = add_trial(c, pick, true);
+    if (c->trial[c->reference].state == COST_OPEN)
+        cost_trial_run(c, c->reference, c->limit);
+    if (tool_interrupted() != 0)
+        tool_die(c->tool, "interrupted before anything was measured");
+    return &c->trial[c->reference];
+}
+
+/* Runs the reference. If the step beyond the tightest values fails, these are the reference. */
+static void
+run_reference(struct cost_case *c)
+{
+    size_t pick[COST_LISTS], beyond = 0;
+    const struct cost_trial *t;
+
+    for (size_t l = 0; l < c->lists; l++)
+        pick[l] = c->list[l].reference;
+    t = try_reference(c, pick);
+    for (size_t l = 0; l < c->lists && t->state != COST_DONE; l++)
+        if (!c->list[l].fixed && !c->list[l].grid && c->list[l].last != SIZE_MAX &&
+            pick[l] >= c->list[l].given) {
+            cost_list_shorten(&c->list[l]);
+            pick[l] = c->list[l].reference;
+            beyond++;
+        }
+    if (beyond > 0 && strncmp(t->why, "stopped", 7) != 0) {
+        c->trial[c->reference].reference = false;
+        t = try_reference(c, pick);
+    }
+    if (t->state != COST_DONE)
+        tool_die_at(c->tool, c->usage ? NULL : c->first, c->usage ? EXIT_USAGE : EXIT_IMPOSSIBLE,
+                    "no reference: %s",
+                    strncmp(t->why, "left out: ", 10) == 0 ? t->why + 10 : t->why);
+}
+
+void
+cost_run_reference(struct cost_case *c)
+{
+    run_reference(c);
+    cost_reference_read(c);
+    for (size_t l = 0; l < c->lists && tool_interrupted() == 0; l++) {
+        size_t pick[COST_LISTS], k;
+
+        if (c->list[l].last == SIZE_MAX)
+            continue;
+        memcpy(pick, c->trial[c->reference].pick, sizeof pick);
+        pick[l] = c->list[l].last;
+        k = add_trial(c, pick, false);
+        if (c->trial[k].state == COST_OPEN)
+            cost_trial_run(c, k, c->limit);
+    }
 }
 
 void
@@ -227,17 +300,18 @@ cost_run_trials(struct cost_case *c)
 
     c->began = tool_now();
     while (tool_interrupted() == 0) {
-        struct cost_trial *m = next(c);
+        const size_t k = next(c);
 
-        if (quick && (m == NULL || m->expected > slow * c->limit)) {
+        cost_judge(c);
+        if (quick && (k == SIZE_MAX || c->trial[k].expected > slow * c->limit)) {
             quick = false;
             repeat(c);
-            run_stresses(c);
-        } else if (m == NULL) {
+        } else if (k == SIZE_MAX) {
             break;
-        } else if (fits(c, m, left(c->began, c->limit))) {
-            cost_trial_run(c, m, left(c->began, c->limit));
+        } else if (fits(c, &c->trial[k], left(c))) {
+            cost_trial_run(c, k, left(c));
         }
     }
     repeat(c);
+    cost_judge(c);
 }

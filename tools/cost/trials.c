@@ -1,304 +1,332 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
- * The trials in the order of the table: every method with every engine of libcontact's tables. The first of
- * each, which "auto" uses, are tried in small steps of the tolerance and on coarser grids. The others are
- * tried in larger steps for comparison. For a body that yields: every number of slabs with every number of
- * increments. For bodies that attract each other: the only method. Then come the stresses, with every engine.
+ * Lists, and the trials that they give: each value with each value of the other lists. The reference has a
+ * value of each list that is one step tighter than the tightest one, and the grid of the input.
  */
 #include "cost.h"
 
 #include <math.h>
+#include <stdlib.h>
 #include <string.h>
 
-/* Tolerances 1e-from, 1e-(from + step), ..., 1e-to; step 0: none. */
-struct range {
-    int from, to, step;
-};
-
-static struct range
-range_of(size_t method, size_t engine)
-{
-    const struct rc_method_info *m = rc_method_info(method);
-    const struct rc_engine_info *e = rc_engine_info(engine);
-    bool sums = e->order > 1;
-
-    if ((e->precise && !m->mixed) || (method > 0 && sums))
-        return (struct range){0, 0, 0}; /* under the first condition the trial equals that of the
-                                           previous engine */
-    if (method == 0)
-        return (struct range){2, 10, sums ? 4 : engine == 0 ? 1 : 2};
-    return (struct range){2, engine == 0 ? 8 : 4, 2};
-}
-
-/* On coarser grids the discretization error soon exceeds the effect of the tolerance. With adhesion an error
- * above 1e-3 may belong to another state, and a coarser grid has fewer nodes per cohesive length. */
-static const struct {
-    unsigned coarse;
-    struct range range;
-} coarser[] = {{8, {2, 2, 1}}, {4, {2, 2, 1}}, {2, {2, 3, 1}}},
-  adhesion[] = {{4, {3, 3, 1}}, {2, {3, 4, 1}}, {1, {3, 6, 1}}, {1, {8, 8, 1}}};
-
-/* The numbers of slabs are half of rc-solve's, as many, and twice as many. */
-static const double stacks[] = {0.5, 1, 2};
-static const size_t increments[] = {4, 8, 16, 32, 64};
-static const double contact_tol = 1e-4; /* tolerance of each contact, as in rc-solve */
-
-/* Stresses: the first engine is exact; with a tolerance it is faster, because deep slices use coarser grids.
- * Other engines whose time grows with the square of the nodes take no tolerance. */
-static const double first_tols[] = {0, 1e-2, 1e-3, 1e-4, 1e-6}, other_tols[] = {1e-2, 1e-4, 1e-6},
-                    rounding[] = {0};
-
-#define COUNT(array) (sizeof(array) / sizeof *(array))
+/* ---- values ---- */
 
 static void
-add(struct cost_case *c, struct cost_trial t)
+add_value(struct cost_case *c, struct cost_list *l, const char *value)
 {
-    for (const struct cost_column *col = cost_columns; col->figure.name != NULL; col++)
-        *cost_value(col, &t.is) = NAN;
-    t.is.runs = 0;
-    t.is.increments = t.increments > 0 ? (double)t.increments : NAN;
-    t.planned = t.mebibytes = NAN;
-    t.goal = !(t.about & COST_YIELD) || t.reference ? t.tol : isnan(c->error) ? 0 : c->error;
-    t.shape = c->shape;
-    /* so that both grids have the same area */
-    for (size_t side = 0; side < 2 && t.coarse > 1; side++) {
-        size_t *n = side == 0 ? &t.shape.nx : &t.shape.ny, nodes = *n;
-        double *d = side == 0 ? &t.shape.dx : &t.shape.dy;
-        *n = (nodes + t.coarse / 2) / t.coarse > 0 ? (nodes + t.coarse / 2) / t.coarse : 1;
-        *d *= (double)nodes / (double)*n;
+    if (l->n + 2 >= COST_VALUES)
+        tool_usage(c->tool, "--vary %s: more than %d values", l->name, COST_VALUES - 2);
+    l->value[l->n++] = value;
+}
+
+/* Numbers from a:b:n and a:b:log:n, or texts between separators. */
+static void
+split_values(struct cost_case *c, struct cost_list *l, const char *text)
+{
+    const char separator = strchr(text, ';') != NULL ? ';' : ',';
+    struct numbers numbers = {.n = 0};
+    struct rc_err err;
+
+    if (separator == ',' && strchr(text, ':') != NULL &&
+        unit_numbers(text, UNIT_NONE, &numbers, &err) == RC_OK) {
+        for (size_t k = 0; k < numbers.n; k++)
+            add_value(c, l, tool_copy(c->tool, rc_number(numbers.v[k])));
+        free(numbers.v);
+        return;
     }
-    c->trial = tool_grown(c->tool, c->trial, c->trials, &c->room, sizeof t, "a list of trials");
-    c->trial[c->trials++] = t;
-}
-
-static void
-add_range(struct cost_case *c, struct cost_trial t, unsigned coarse, struct range range)
-{
-    t.about = c->about & ~(unsigned)COST_STRESS;
-    t.coarse = coarse;
-    for (int digits = range.from; range.step > 0 && digits <= range.to; digits += range.step) {
-        t.tol = 1 / pow(10, digits);
-        add(c, t);
+    for (char *at = tool_copy(c->tool, text), *end; at != NULL; at = end) {
+        if ((end = strchr(at, separator)) != NULL)
+            *end++ = '\0';
+        if (*at != '\0')
+            add_value(c, l, at);
     }
 }
 
-static struct cost_trial
-elastic(size_t method, size_t engine)
-{
-    const struct rc_method_info *m = rc_method_info(method);
-    const struct rc_engine_info *e = rc_engine_info(engine);
-
-    return (struct cost_trial){.method = m->name,
-                               .kernel = e->name,
-                               .arithmetic = m->mixed && e->mixed ? "mixed" : "double"};
-}
-
+/* Whether all values are plain numbers. One with a unit is a quantity, and has no tight end. */
 static void
-add_elastic(struct cost_case *c, size_t kernels, size_t methods)
+find_numbers(struct cost_list *l)
 {
-    for (size_t m = 0; rc_method_info(m) != NULL; m++)
-        for (size_t e = 0; rc_engine_info(e) != NULL; e++) {
-            if (!(methods >> m & 1) || !(kernels >> e & 1))
-                continue;
-            for (size_t k = 0; k < COUNT(coarser) && m == 0 && e == 0; k++)
-                add_range(c, elastic(m, e), coarser[k].coarse, coarser[k].range);
-            add_range(c, elastic(m, e), 1, range_of(m, e));
-        }
-}
+    l->numbers = l->n > 0;
+    l->whole = true;
+    for (size_t k = 0; k < l->n; k++) {
+        char *end;
 
-static void
-add_yield(struct cost_case *c)
-{
-    for (size_t k = 0; k < COUNT(stacks) * COUNT(increments); k++) {
-        struct cost_trial t = elastic(0, 0);
-        t.about = c->about;
-        t.coarse = 1;
-        t.tol = contact_tol;
-        t.stack = stacks[k / COUNT(increments)];
-        t.increments = increments[k % COUNT(increments)];
-        add(c, t);
+        l->number[k] = strtod(l->value[k], &end);
+        l->numbers = l->numbers && end != l->value[k] && *end == '\0' && isfinite(l->number[k]);
+        l->whole = l->whole && l->number[k] == floor(l->number[k]);
     }
 }
 
+/* ---- lists ---- */
+
+/* Finds the programs of the option; ends the tool if there is none, or which of them is not clear. */
 static void
-add_adhesion(struct cost_case *c)
+find_programs(struct cost_case *c, struct cost_list *l, const char *from)
 {
-    struct cost_trial t = elastic(0, 0);
+    const char *name = l->name, *dot = strchr(name, '.'), *option = NULL;
+    size_t with = 0, only = SIZE_MAX;
 
-    t.method = "gap";
-    for (size_t k = 0; k < COUNT(adhesion); k++)
-        add_range(c, t, adhesion[k].coarse, adhesion[k].range);
-}
-
-static void
-add_stresses(struct cost_case *c)
-{
-    const struct rc_engine_info *e;
-
-    for (size_t k = 0; (e = rc_engine_info(k)) != NULL; k++) {
-        const double *tol = k == 0 ? first_tols : e->order == 1 ? other_tols : rounding;
-        size_t n = k == 0 ? COUNT(first_tols) : e->order == 1 ? COUNT(other_tols) : 1;
-
-        if (e->precise || (rc_repeats(c->line.boundary) > 0 && !e->periodic))
-            continue; /* stresses are always in double precision */
-        for (size_t i = 0; i < n; i++)
-            add(c, (struct cost_trial){.about = COST_STRESS,
-                                       .kernel = e->name,
-                                       .coarse = 1,
-                                       .tol = tol[i],
-                                       .reference = k == 0 && tol[i] == 0});
+    if (dot != NULL && strspn(name, "0123456789") == (size_t)(dot - name)) {
+        only = (size_t)strtoul(name, NULL, 10) - 1;
+        name = dot + 1;
+        if (only >= c->command.programs)
+            tool_usage(c->tool, "%s %s: the command has %zu program%s", from, l->name,
+                       c->command.programs, c->command.programs == 1 ? "" : "s");
     }
-}
+    for (size_t k = 0; k < c->command.programs; k++) {
+        const char *o = cost_option(&c->command.program[k], name);
 
-/* Double precision throughout, to 1e-12; for a body that yields, more increments than any trial and the most
- * slabs. */
-static struct cost_trial
-reference_of(unsigned about)
-{
-    struct cost_trial r = elastic(0, 0);
-    const struct rc_engine_info *e;
-
-    r.tol = about & COST_ADHESION ? 1e-11 : about & COST_YIELD ? 1e-6 : 1e-12;
-    if (about & COST_ADHESION) {
-        r.method = "gap";
-    } else if (about & COST_YIELD) {
-        r.increments = 2 * increments[COUNT(increments) - 1];
-        r.stack = stacks[COUNT(stacks) - 1];
-    } else {
-        for (size_t k = 0; (e = rc_engine_info(k)) != NULL && strcmp(r.arithmetic, "double") != 0;
-             k++)
-            if (e->precise)
-                r = (struct cost_trial){
-                    .method = r.method, .kernel = e->name, .arithmetic = "double", .tol = r.tol};
+        if (o == NULL || (only != SIZE_MAX && k != only))
+            continue;
+        with++;
+        l->program = k;
+        option = o;
     }
-    r.reference = true;
-    r.coarse = 1;
-    r.about = about & ~(unsigned)COST_STRESS;
-    return r;
+    if (with == 0)
+        tool_usage(c->tool, "%s: %s has no option --%s%s", from,
+                   only != SIZE_MAX ? c->command.program[only].name : "the command", name,
+                   strcmp(from, "--tol") == 0 ? ": give --vary OPTION=LIST or --grid LIST" : "");
+    if (with > 1 && strcmp(from, "--tol") != 0)
+        tool_usage(c->tool, "%s %s: %zu programs have --%s: write %zu.%s for %s", from, l->name,
+                   with, name, l->program + 1, name, c->command.program[l->program].name);
+    if (with > 1)
+        l->program = SIZE_MAX;
+    snprintf(l->option, sizeof l->option, "%s", name);
+    l->least = json_real(json_member(option, "least"));
+    l->most = json_real(json_member(option, "most"));
+    cost_option_check(c->tool, option, from);
 }
 
 void
-cost_trials(struct cost_case *c, size_t kernels, size_t methods)
+cost_list_add(struct cost_case *c, const char *from, const char *name, const char *values)
 {
-    add(c, reference_of(c->about));
-    c->reference = c->trial[0];
-    c->trials = 0;
-    if (c->about & COST_ADHESION)
-        add_adhesion(c);
-    else if (c->about & COST_YIELD)
-        add_yield(c);
-    else
-        add_elastic(c, kernels, methods);
-    c->pressures = c->trials;
-    if (c->about & COST_STRESS)
-        add_stresses(c);
+    struct cost_list *l = &c->list[c->lists];
+
+    for (size_t k = 0; k < c->lists; k++)
+        if (strcmp(c->list[k].name, name) == 0)
+            tool_usage(c->tool, "%s: --%s has a list already", from, name);
+    if (c->lists == COST_LISTS || strlen(name) >= sizeof l->name)
+        tool_usage(c->tool, "%s %s: more than %d lists", from, name, COST_LISTS);
+    *l = (struct cost_list){.grid = strcmp(from, "--grid") == 0, .least = NAN, .most = NAN};
+    snprintf(l->name, sizeof l->name, "%s", name);
+    if (!l->grid)
+        find_programs(c, l, from);
+    split_values(c, l, values);
+    find_numbers(l);
+    l->given = l->n;
+    if (l->n == 0)
+        tool_usage(c->tool, "%s %s: a value is missing", from, name);
+    if (strcmp(l->option, "tol") == 0 || l->grid)
+        l->tight = -1;
+    for (size_t k = 0; k < l->n && (l->grid || strcmp(from, "--tol") == 0); k++)
+        if (!l->numbers || l->number[k] <= 0 || (l->grid && (!l->whole || l->number[k] > 4096)))
+            tool_usage(c->tool, "%s %s: %s", from, values,
+                       l->grid ? "whole numbers k are expected, for 1/k of the nodes a side"
+                               : "tolerances above 0 are expected");
+    c->lists++;
+}
+
+void
+cost_list_vary(struct cost_case *c, const char *text)
+{
+    const size_t n = strcspn(text, "=");
+    char name[COST_NAME];
+
+    text += strncmp(text, "--", 2) == 0 ? 2 : 0;
+    if (text[strcspn(text, "=")] != '=' || n == 0 || n >= sizeof name)
+        tool_usage(c->tool, "--vary %s: OPTION=LIST is expected, as in --vary increments=8,16,32",
+                   text);
+    snprintf(name, sizeof name, "%.*s", (int)strcspn(text, "="), text);
+    cost_list_add(c, "--vary", name, text + strcspn(text, "=") + 1);
+}
+
+void
+cost_list_reference(struct cost_case *c, const char *text)
+{
+    const size_t n = strcspn(text, "=");
+
+    for (size_t k = 0; k < c->lists && text[n] == '='; k++) {
+        struct cost_list *l = &c->list[k];
+        double most = -INFINITY, least = INFINITY;
+
+        if (strlen(l->name) != n || strncmp(l->name, text, n) != 0 || l->grid || l->fixed)
+            continue;
+        for (size_t i = 0; i < l->n; i++) {
+            most = fmax(most, l->number[i]);
+            least = fmin(least, l->number[i]);
+        }
+        add_value(c, l, text + n + 1);
+        find_numbers(l);
+        l->fixed = true;
+        l->reference = l->n - 1;
+        if (l->tight == 0 && l->numbers && l->number[l->reference] >= most)
+            l->tight = 1;
+        if (l->tight == 0 && l->numbers && l->number[l->reference] <= least)
+            l->tight = -1;
+        return;
+    }
+    tool_usage(c->tool, "--reference %s: OPTION=VALUE is expected, for an option with a list",
+               text);
+}
+
+size_t
+cost_list_rank(const struct cost_list *l, size_t value)
+{
+    size_t rank = 0;
+
+    for (size_t k = 0; k < l->n && l->numbers; k++)
+        rank += (l->number[k] - l->number[value]) * l->tight < 0;
+    return rank;
+}
+
+/* Of the values, the tightest one whose number differs from that of `but`; SIZE_MAX: none. */
+static size_t
+tightest(const struct cost_list *l, size_t but)
+{
+    size_t best = SIZE_MAX;
+
+    for (size_t k = 0; k < l->n; k++)
+        if ((but == SIZE_MAX || l->number[k] != l->number[but]) &&
+            (best == SIZE_MAX || cost_list_rank(l, k) > cost_list_rank(l, best)))
+            best = k;
+    return best;
+}
+
+void
+cost_list_close(struct cost_case *c, struct cost_list *l)
+{
+    size_t a, b;
+    double ratio, next;
+    char text[64];
+
+    l->last = SIZE_MAX;
+    if (!l->numbers) {
+        l->reference = l->fixed ? l->reference : 0;
+        return;
+    }
+    if (l->tight == 0)
+        l->tight = l->whole ? 1 : -1;
+    a = tightest(l, SIZE_MAX);
+    b = tightest(l, a);
+    ratio = b == SIZE_MAX ? l->tight > 0 ? 2 : 0.1 : l->number[a] / l->number[b];
+    next = l->grid ? 1 : l->number[a] * ratio;
+    if (l->whole)
+        next = round(next);
+    next = next > l->most ? l->most : next < l->least ? l->least : next;
+    if (!l->fixed && (next - l->number[a]) * l->tight > 0 && isfinite(next) && next > 0) {
+        snprintf(text, sizeof text, "%.6g", next);
+        l->number[l->n] = strtod(text, NULL);
+        add_value(c, l, tool_copy(c->tool, text));
+    }
+    l->reference = l->fixed ? l->reference : tightest(l, SIZE_MAX);
+    l->last = l->grid ? SIZE_MAX : tightest(l, l->reference);
+}
+
+void
+cost_list_shorten(struct cost_list *l)
+{
+    l->n = l->given;
+    l->reference = tightest(l, SIZE_MAX);
+    l->last = tightest(l, l->reference);
+}
+
+/* ---- trials ---- */
+
+size_t
+cost_trial_find(struct cost_case *c, const size_t pick[COST_LISTS], bool adds)
+{
+    struct cost_trial *t;
+
+    for (size_t k = 0; k < c->trials; k++)
+        if (memcmp(c->trial[k].pick, pick, c->lists * sizeof *pick) == 0)
+            return k;
+    if (!adds)
+        return SIZE_MAX;
+    if (c->trials == COST_TRIALS)
+        tool_usage(c->tool, "the lists give more than %d trials: shorten them", COST_TRIALS);
+    c->trial = tool_grown(c->tool, c->trial, c->trials, &c->room, sizeof *t, "a list of trials");
+    t = &c->trial[c->trials];
+    *t = (struct cost_trial){.coarse = 1,
+                             .grid = SIZE_MAX,
+                             .expected = NAN,
+                             .seconds = NAN,
+                             .processor = NAN,
+                             .memory = NAN,
+                             .convolutions = NAN,
+                             .estimate = NAN,
+                             .error = NAN,
+                             .bound = NAN};
+    memcpy(t->pick, pick, c->lists * sizeof *pick);
+    for (size_t k = 0; k < c->lists; k++)
+        if (c->list[k].grid)
+            t->coarse = (unsigned)c->list[k].number[pick[k]];
+    for (size_t k = 0; k < COST_FIGURES; k++)
+        t->figure[k] = NAN;
+    for (size_t k = 0; k < COST_ESTIMATES; k++)
+        t->judged[k] = NAN;
+    return c->trials++;
+}
+
+void
+cost_trials(struct cost_case *c)
+{
+    size_t pick[COST_LISTS] = {0}, k;
+
+    c->points = c->lists - 1;
+    for (k = c->lists; k-- > 0;)
+        if (c->list[k].numbers && !c->list[k].grid)
+            c->points = k;
+    for (k = 0; k < c->lists; k++)
+        if (strcmp(c->list[k].name, "tol") == 0)
+            c->points = k;
+    do {
+        cost_trial_find(c, pick, true);
+        for (k = c->lists; k-- > 0 && ++pick[k] == c->list[k].given;)
+            pick[k] = 0;
+    } while (k != SIZE_MAX);
+}
+
+struct rc_shape
+cost_shape(const struct cost_case *c, const struct cost_trial *t)
+{
+    struct rc_shape shape = c->shape;
+
+    /* so that both grids have the same area */
+    for (size_t side = 0; side < 2 && t->coarse > 1; side++) {
+        size_t *n = side == 0 ? &shape.nx : &shape.ny, nodes = *n;
+        double *d = side == 0 ? &shape.dx : &shape.dy;
+        *n = (nodes + t->coarse / 2) / t->coarse > 0 ? (nodes + t->coarse / 2) / t->coarse : 1;
+        *d *= (double)nodes / (double)*n;
+    }
+    return shape;
 }
 
 /* ---- names ---- */
 
-size_t
-cost_series(const struct cost_trial *t)
+const char *
+cost_value(const struct cost_list *l, size_t value, char text[COST_NAME])
 {
-    size_t place = 0;
-
-    if (t->about & COST_STRESS)
-        return words_engine_place(t->kernel);
-    if (t->about & COST_YIELD) {
-        while (place + 1 < COUNT(stacks) && stacks[place] != t->stack)
-            place++;
-        return place;
-    }
-    for (size_t m = 0; rc_method_info(m) != NULL; m++)
-        for (size_t e = 0; rc_engine_info(e) != NULL; e++) {
-            if (strcmp(rc_method_info(m)->name, t->method) == 0 &&
-                strcmp(rc_engine_info(e)->name, t->kernel) == 0)
-                return place;
-            place += range_of(m, e).step > 0;
-        }
-    return 0;
-}
-
-/* "12 slabs"; before the number is known "1 x the slabs". */
-static const char *
-slabs_of(char text[32], const struct cost_trial *t)
-{
-    if (t->is.slabs > 0)
-        snprintf(text, 32, "%.0f slabs", t->is.slabs);
+    if (l->grid && l->number[value] > 1)
+        snprintf(text, COST_NAME, "1/%.40s", l->value[value]);
     else
-        snprintf(text, 32, "%g x the slabs", t->stack);
+        snprintf(text, COST_NAME, "%s", l->value[value]);
     return text;
 }
 
 const char *
-cost_series_name(char text[64], const struct cost_trial *t)
+cost_name(const struct cost_case *c, const struct cost_trial *t, bool series, char text[160])
 {
-    char slabs[32];
+    char value[COST_NAME];
+    size_t n = 0;
 
-    if (t->about & COST_STRESS)
-        snprintf(text, 64, "%s%s", t->kernel,
-                 t->kernel == rc_engine_info(0)->name ? ", deep slices coarser" : "");
-    else if (t->increments > 0)
-        snprintf(text, 64, "%s", slabs_of(slabs, t));
-    else
-        snprintf(text, 64, "%s, %s", t->method, t->kernel);
+    text[0] = '\0';
+    for (size_t k = 0; k < c->lists && n < 160; k++) {
+        const struct cost_list *l = &c->list[k];
+
+        if (series && (l->grid || k == c->points))
+            continue;
+        n += (size_t)snprintf(text + n, 160 - n, "%s%s %s", n > 0 ? ", " : "", l->name,
+                              cost_value(l, t->pick[k], value));
+    }
     return text;
-}
-
-const char *
-cost_point_name(char text[32], const struct cost_trial *t)
-{
-    if (t->increments > 0)
-        snprintf(text, 32, "%zu", t->increments);
-    else if (t->coarse > 1)
-        snprintf(text, 32, "1/%u", t->coarse);
-    else
-        snprintf(text, 32, t->tol > 0 ? "%.0e" : "exact", t->tol);
-    return text;
-}
-
-const char *
-cost_name(char text[128], const struct cost_trial *t)
-{
-    char slabs[32];
-
-    if (t->about & COST_STRESS)
-        snprintf(text, 128, "stresses by %s, tol %.0e", t->kernel, t->tol);
-    else if (t->increments > 0)
-        snprintf(text, 128, "%zu increments, %s, %zu x %zu", t->increments, slabs_of(slabs, t),
-                 t->shape.nx, t->shape.ny);
-    else
-        snprintf(text, 128, "%s, %s, tol %.0e, %zu x %zu", t->method, t->kernel, t->tol,
-                 t->shape.nx, t->shape.ny);
-    return text;
-}
-
-size_t
-cost_trial_words(const struct cost_trial *t, const char *word[], size_t n)
-{
-    static char tol[RC_NUMBER_SIZE], of[2][32];
-
-    if (t->about == COST_PRESSURE || t->about == (COST_PRESSURE | COST_LEAK)) {
-        word[n++] = "--method";
-        word[n++] = t->method;
-    }
-    /* yield and adhesion have only one method and kernel */
-    if (!(t->about & (COST_YIELD | COST_ADHESION))) {
-        word[n++] = "--kernel";
-        word[n++] = t->kernel;
-    }
-    if (t->increments > 0) {
-        snprintf(of[0], sizeof of[0], "%zu", t->increments);
-        snprintf(of[1], sizeof of[1], "%.0f", t->is.slabs);
-        word[n++] = "--increments";
-        word[n++] = of[0];
-        if (t->is.slabs > 0) {
-            word[n++] = "--slabs";
-            word[n++] = of[1];
-        }
-    }
-    if (t->goal > 0) {
-        word[n++] = "--tol";
-        word[n++] = rc_number_text(tol, t->goal);
-    }
-    return n;
 }

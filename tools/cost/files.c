@@ -39,8 +39,8 @@ cost_file_read(struct tool *t, int file)
 }
 
 enum process_end
-cost_run(struct cost_case *c, const char *const word[], int in, int out, double allowed,
-         const char *doing, int *status)
+cost_process(struct cost_case *c, const char *const word[], int in, int out, double allowed,
+             const char *doing, int *status)
 {
     struct process p = {.in = in, .out = out, .allowed = allowed, .doing = doing};
     enum process_end end;
@@ -56,27 +56,17 @@ cost_run(struct cost_case *c, const char *const word[], int in, int out, double 
 
 /* ---- their reports and messages ---- */
 
-double
-cost_number(const char *report, const char *key)
+const char *
+cost_line(const char **at)
 {
-    char name[64];
-    const char *last = report, *line = report;
+    const char *line = *at;
 
-    if (report == NULL)
-        return NAN;
-    for (; line != NULL; line = strchr(line, '\n')) {
-        line += *line == '\n';
-        last = *line == '{' ? line : last;
-    }
-    snprintf(name, sizeof name, "\"%s\": ", key);
-    while ((last = strstr(last, name)) != NULL) {
-        last += strlen(name);
-        if (*last == 't' || *last == 'f')
-            return *last == 't';
-        if (strchr("\"{[n", *last) == NULL)
-            return strtod(last, NULL);
-    }
-    return NAN;
+    while (line != NULL && *line != '{' && *line != '\0')
+        line += strcspn(line, "\n") + (line[strcspn(line, "\n")] == '\n');
+    if (line == NULL || *line == '\0')
+        return NULL;
+    *at = line + strcspn(line, "\n");
+    return line;
 }
 
 const char *
