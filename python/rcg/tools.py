@@ -276,7 +276,8 @@ def _reported(command, data, has_report, timeout=None, progress=False):
         return execute(command, data, timeout, progress) + ([],)
     with tempfile.TemporaryDirectory() as folder:
         name = os.path.join(folder, 'report.json')
-        found = execute(command + ['--report', name], data, timeout, progress)
+        at = command.index('--') if '--' in command else len(command)
+        found = execute(command[:at] + ['--report', name] + command[at:], data, timeout, progress)
         if not os.path.exists(name):
             return found + ([],)
         with open(name, encoding='utf-8') as file:
@@ -744,7 +745,17 @@ def make(shape, **given):
         return call('rc-synth', None, (shape,), **given)
 
 
-SPECIAL = {'open': open_file, 'render': draw, 'report': page, 'export': save_as, 'add': add_two, 'synth': make}
+def costs(surface, command, dx=None, timeout=None, progress=None, **given):
+    """The trials of a command as a table, a list of dicts: time, memory and error of each. The first one is the reference.
+
+    command: 'rc-solve --load 60N --estar 114GPa | rc-leak', or a list of its words. vary: 'increments=8,16', or a list of such texts.
+    """
+    words = ['rc-cost'] + arguments('rc-cost', given) + ['--'] + ([command] if isinstance(command, str) else [os.fspath(w) for w in command])
+    status, _, said, lines = _reported(words, _data(surface, dx), True, timeout, progress)
+    return _settled(status, said, Result('rc-cost', words, frames=[], lines=lines)).lines
+
+
+SPECIAL = {'cost': costs, 'open': open_file, 'render': draw, 'report': page, 'export': save_as, 'add': add_two, 'synth': make}
 
 
 def function(name):
@@ -771,7 +782,7 @@ def function(name):
     named = [inspect.Parameter(python, inspect.Parameter.KEYWORD_ONLY, default=None, annotation=_Hint(annotation(row) + ' | None'))
              for python, row in rows.items()]
     named += [p.replace(kind=inspect.Parameter.KEYWORD_ONLY) for p in own if p not in positional]
-    result = {'render': 'Picture', 'report': 'Page', 'export': 'None'}.get(name, 'Result')
+    result = {'render': 'Picture', 'report': 'Page', 'export': 'None', 'cost': 'list[dict[str, Any]]'}.get(name, 'Result')
     made.__signature__ = inspect.Signature(positional + named, return_annotation=_Hint(result))
     made.__name__ = made.__qualname__ = name
     made.__module__ = 'rcg'
@@ -787,7 +798,7 @@ class _Hint(str):
 # Type hints by the type of an option; those of other parameters. stubs.py explains the names.
 HINTS = {'flag': 'bool', 'number': 'Quantity', 'count': 'int', 'numbers': 'Quantity | list[Quantity]', 'words': 'str | list[str]',
          'step': 'bool | Quantity | list[Quantity | bool]'}
-OWN_HINTS = {'surface': 'Surface', 'a': 'Surface', 'b': 'Surface', 'path': 'Path', 'shape': 'str',
+OWN_HINTS = {'surface': 'Surface', 'command': 'str | list[str]', 'a': 'Surface', 'b': 'Surface', 'path': 'Path', 'shape': 'str',
              'dx': 'float | tuple[float, float]', 'timeout': 'float', 'progress': 'bool | Callable[[dict[str, Any]], object]'}
 
 

@@ -725,6 +725,20 @@ def hostile():
         assert isinstance(error, kind) and words in str(error) and not children(), (more, error)
 
 
+def costs(name):
+    """The table of rcg.cost() has the errors of the pressures of rcg.solve()."""
+    contact = {'load': '0.5N', 'estar': '114GPa', 'quiet': True}
+    rows = rcg.cost(name, 'rc-solve --load 0.5N --estar 114GPa', tol=[1e-2, 1e-4], quiet=True)
+    assert [row['what'] for row in rows] == ['reference', 'trial', 'trial'] and [row['tol'] for row in rows] == [1e-6, 1e-2, 1e-4], rows
+    best = rcg.solve(name, tol=1e-6, **contact).pressure
+    for row in rows[1:]:
+        off = numpy.abs(rcg.solve(name, tol=row['tol'], **contact).pressure - best).sum() / best.sum()
+        assert abs(row['error'] - off) <= 1e-9 * off and row['bound'] >= off and row['memory'] > 0, (row, off)
+    words = ['rc-solve', '--load', '0.5N', '--estar', '114GPa', '|', 'rc-stress', '--nu', '0.3', '--depths', '1um,2um']
+    assert len(rcg.cost(name, words, vary=['1.tol=1e-2,1e-3', '2.kernel=fft,mlms'], quiet=True)) == 5
+    assert 'no shell' in str(raised(rcg.Error, rcg.cost, name, 'sh -c true'))
+
+
 # ---- several processes ----
 
 def same(a, b):
