@@ -106,7 +106,8 @@ struct run {
     double coat;                /* m: least thickness left of the top layer before wear; 0: none */
     double left;                /* m: the same at the present point; below 0: worn through */
     double relief;              /* m: from the lowest to the highest node before wear */
-    size_t written;             /* steps in --steps                      */
+    size_t written;             /* steps at the last row of --steps      */
+    double slid;                /* m: distance of that row               */
     const struct numbers *list; /* of distances or cycles                              */
     double path;                /* m: of the node that slips most in a cycle; 1: distances */
     double k[2];                /* 1/Pa: of the options                                */
@@ -598,7 +599,7 @@ set_keys(struct drive *d, struct rc_model *m, struct rc_grid *g)
             f->pressure_error);
 }
 
-/* A row of --steps after each step. */
+/* A row of --steps after each step; none for a way that is taken again. */
 static void
 put_step(struct course *c, struct rc_model *m)
 {
@@ -606,9 +607,10 @@ put_step(struct course *c, struct rc_model *m)
     const struct rc_wear_figures *f = rc_wear_result(m);
     struct rc_point at = {0};
 
-    if (f->steps == run->written || !report_wanted(&run->steps))
+    if (f->steps == run->written || f->distance <= run->slid || !report_wanted(&run->steps))
         return;
     run->written = f->steps;
+    run->slid = f->distance;
     report_begin(&run->steps);
     report_count(&run->steps, "case", c->number, NULL);
     rc_point_set(&at, RC_LOAD, run->d.point->at[RC_LOAD]);
@@ -723,6 +725,7 @@ do_case(struct run *run, const struct rc_grid *g)
     rc_measure(&shape, g->v, &before);
     run->relief = before.maximum - before.minimum;
     run->written = 0;
+    run->slid = 0;
     if (run->law.two_bodies)
         add_counter(run, g);
     for (size_t k = 0; k < d->points; k++)

@@ -13,8 +13,13 @@
  * A step of length t is TR-BDF2 (Bank et al. 1985, IEEE Trans. CAD 4, 436; Hosea and Shampine 1996, Appl.
  * Numer. Math. 20, 21), with g = 2 - sqrt 2, d = g/2, w = sqrt(2)/4. The pressure p_a is that of the heights
  * h - d t W p0, and p1 that of h - w t W (p0 + p_a), both with D = d t W. The heights lose t W (w p0 + w p_a
- * + d p1). The step leaves ripples in the pressure where nodes have just come into contact. Steps of backward
- * Euler in the last part of the distance damp them.
+ * + d p1). The step leaves ripples in the pressure where nodes have just come into contact. The last part of
+ * the distance takes three steps of backward Euler, which damp them, and then steps of BDF2, which do not use
+ * the pressures before them. With the last step r times the one before, the heights lose t W q in a step, and
+ *
+ *     q = (r q' + (1 + r) p1)/(1 + 2 r),  q' that of the step before;  r = 0: backward Euler.
+ *
+ * The error of p1 is (t/3) times the change of slope of p between both steps (Hairer and Wanner 1996, VII.3).
  *
  * A given friction energy wears the heights by k times this energy instead, without a step: only the contact
  * of the worn heights is solved.
@@ -30,30 +35,40 @@ enum {
     /* Most from one step to the next. Half takes 4 % more convolutions. Double takes 1 % fewer, with
      * errors up to twice as large (26 runs of bench/constants.py). */
     GROWTH = 4,
-    STATE = 5 /* maps of the state at the last kept point */
+    MOST_TRIES = 3, /* more of a leg that is not accurate enough */
+    EULER = 3,      /* smoothing steps of backward Euler, after which the pressure has no ripples */
+    STATE = 7       /* maps beside the heights */
 };
 static const double g = 0.58578643762690495, d = 0.29289321881345248, w = 0.35355339059327376;
 /* Factor of the local error, t^3 k p'': |3 g^2 - 4 g + 2|/(12 (2 - g)) of Bank et al. 1985. */
 static const double third_order = 0.0404;
 /* Wear coefficients are rarely known to 10 %. */
 static const double usual_tol = 0.1;
-/* The steps of backward Euler before a point take this part of the distance. Over one of n such steps
- * the pressure changes by at most about 0.1/n of itself; n grows with the inverse of the tolerance. At
- * the default tolerance n is `fewest`. Double takes 5 % more convolutions and halves the estimated
- * error of the pressure (26 runs of bench/constants.py). Half and double of the part change the
- * convolutions by less than 1 %, and the errors by up to 2 and 4 times. */
-static const double last_part = 0.1, per_tolerance = 0.4;
-static const double fewest = 4;
+/* The smoothing steps before a point take this part of the distance, and at least `fewest` steps. */
+static const double last_part = 0.1, fewest = 4;
+/* Part of the tolerance for the errors of these steps: of the heights, and of the pressure after the last one.
+ * After the steps before it the pressure may be `loose` times less accurate, because BDF2 divides the error of
+ * a pressure by 3 in each step. */
+static const double of_last = 0.1, of_smooth = 0.3, loose = 10;
 /* The tolerance of their contacts, over the tolerance of the others. Where the last valleys close, a few
  * nodes can carry several times the mean pressure within the usual tolerance. The next contact starts there
  * and keeps it. The largest pressure was wrong by 165 %, and with a tenth of the tolerance by 1.0 %. The
  * tolerance bounds a sum over the map, so that one node of a larger map may be wrong by more: by 85 % of 1024
  * x 1024. The part therefore decreases with the number of nodes. */
 static const double accurate = 0.1, nodes_in_part = 750;
+/* The least part of the tolerance of a contact where most of the load is on nodes that do not wear. */
+static const double least_share = 1e-3;
 /* Part of the tolerance for the steps; the rest is for the contacts. Half takes 1 % more convolutions,
  * with errors down to a fifth. Double takes 1 % fewer, with errors up to 3.4 times as large (26 runs of
  * bench/constants.py). */
 static const double of_tol = 0.8;
+/* Part of the tolerance that the wear of a coefficient map may use until it ends. */
+static const double in_volume = 0.9;
+/* Over the distance: the longest step to an early end by area or spread, which rise and fall as nodes come
+ * into contact, and the last step. */
+static const double seen = 0.1, step_to_end = 0.02;
+/* Aim of a leg that is tried again, over the tolerance. */
+static const double aim = 0.6;
 /* The estimate of a step misses nodes that come into contact within it: at worst it is 0.55 of the
  * error. Nothing else depends on it. */
 static const double caution = 2;
@@ -61,10 +76,9 @@ static const double caution = 2;
  * convolutions, double 11 % fewer, with errors up to 2.3 times as large in both (21 runs of
  * bench/constants.py). */
 static const double first_step = 0.1;
-/* The error of the pressure is about its last change, because backward Euler is of first order;
- * remaining ripples add to it. Half left no estimate below the error of 26 runs (bench/constants.py);
- * nothing else depends on it. */
-static const double of_change = 2;
+/* Times the errors of the pressure by BDF2, and by the heights, whose estimate misses nodes as that of a step
+ * does. Without them 6 of 500 estimates were 0.8 to 0.98 of the error. */
+static const double of_change = 2, of_heights = 1.5;
 /* Times the side of the map over E*: above this compliance the error of the contact changes the heights
  * more than elasticity does. Not sensitive: half and double change convolutions and errors by at most
  * 2 % (26 runs of bench/constants.py). */
@@ -75,15 +89,14 @@ enum stage {
     PRESS, /* the contact of the present heights          */
     FIRST, /* the two contacts of a step of TR-BDF2       */
     SECOND,
-    LAST /* a step of backward Euler                    */
+    LAST /* a smoothing step                            */
 };
 
 enum { /* of error[] */
     VOLUME,
     OF_P0,
     OF_STEPS,
-    OF_ALL,   /* relative, of p0: due to all steps of TR-BDF2                                */
-    REPEATED, /* error of the pressure due to all steps over that of the last one            */
+    OF_ALL, /* relative, of p0: due to all steps of TR-BDF2                                */
     LEFT, /* relative, of the contacts of the last step of TR-BDF2: the heights keep a part of it */
     WEAR_P0, /* relative, of the wear under p0, pa and p1: that of the pressures, or less */
     WEAR_PA,
@@ -104,12 +117,19 @@ struct maps {
     double *h, *worn;     /* heights at the start, and worn depth of the bodies that stay */
     double *deep;         /* worn depth of each row of the body that passes               */
     double *p0, *pa, *p1; /* pressures of a step                                        */
-    double *e, *room;     /* error of a step; heights of the inner model, other numbers */
+    double *q, *change;   /* of the last smoothing step: q, and the change of the pressure;
+                             in steps of TR-BDF2 `change` has the error of all steps */
+    double *e, *room; /* error of a step, in smoothing steps of all; heights of the inner model */
 };
 
 struct way {
-    size_t stage, last;      /* last: steps of backward Euler since the last point         */
+    size_t stage, last;      /* last: smoothing steps since the last point                */
     double s, end, t, tried; /* m: distance slid, end of the leg, next step, present step */
+    double next, before;     /* m: next smoothing step, and the last one                  */
+    size_t tries;            /* repetitions of the leg                                    */
+    double strict;           /* the steps of the leg have this part of their tolerance    */
+    double spent;            /* m3: error of the worn volume at the start of the leg      */
+    double x, rise;          /* how far conditions of an early end are met; 1/m: its rate */
 };
 
 struct wear {
@@ -124,7 +144,7 @@ struct wear {
     bool kept;            /* the inner model has kept its contact                     */
     bool fitted;          /* the heights in contact were replaced by K p minus the shift */
     bool good;            /* all contacts have converged                              */
-    bool met;             /* one of the conditions law.until_... is met */
+    bool met;             /* one of the conditions law.until_... is met               */
     bool again;           /* a state was read: its contact must be solved again       */
     double in_contact;    /* part of the nodes in contact */
     struct rc_wear_figures f;
@@ -214,58 +234,6 @@ most_lost(const struct rates *rates, const struct rc_shape *s)
     return rates->k + rates->row * s->dx * (double)s->nx;
 }
 
-/* The tolerance of the contact of this stage, over the tolerance of the others. */
-static double
-accuracy(size_t stage, size_t n)
-{
-    return stage == LAST ? fmin(accurate, nodes_in_part / (double)n) : 1;
-}
-
-/* Gives the inner model these heights, and the compliance of this stage. */
-static enum rc_status
-pose_at(struct wear *v, const double *heights, struct rc_err *err)
-{
-    if (rc_model_set_compliance(v->base.inner, v->rates.k * v->over, v->rates.part,
-                                v->rates.row * v->over, err) != RC_OK)
-        return RC_FAIL;
-    rc_model_set_accuracy(v->base.inner, accuracy(v->way.stage, v->n));
-    return rc_model_set_heights(v->base.inner, heights, err);
-}
-
-/* The heights and the compliance of this stage. The heights of the last contact of a leg stay in pa,
- * for a state. */
-static enum rc_status
-pose(struct wear *v, struct rc_err *err)
-{
-    const bool halves = v->way.stage == FIRST || v->way.stage == SECOND;
-
-    v->over = halves ? d * v->way.tried : v->way.stage == LAST ? v->way.tried : 0;
-    for (size_t k = 0; k < v->n; k++)
-        v->maps.room[k] = v->maps.h[k] - depth(&v->maps, v->rates.row, v->base.shape.nx, k);
-    if (halves)
-        lose(&v->rates, &v->base.shape, -(v->way.stage == FIRST ? d : w) * v->way.tried, v->maps.p0,
-             v->maps.room, NULL);
-    if (v->way.stage == SECOND)
-        lose(&v->rates, &v->base.shape, -w * v->way.tried, v->maps.pa, v->maps.room, NULL);
-    if (!halves)
-        memcpy(v->maps.pa, v->maps.room, v->n * sizeof *v->maps.pa);
-    return pose_at(v, v->maps.room, err);
-}
-
-/* Starts the contact of a stage. Plastic dents of the last step stay. */
-static enum rc_status
-contact(struct wear *v, enum stage stage, struct rc_err *err)
-{
-    const double along = stage == PRESS ? 0 : stage == FIRST ? g : 1;
-    const struct rc_point to = rc_wear_load(&v->base, v->way.s + along * v->way.tried);
-
-    if (!v->kept && rc_model_keep(v->base.inner, err) != RC_OK)
-        return RC_FAIL;
-    v->kept = true;
-    v->way.stage = stage;
-    return pose(v, err) == RC_OK ? rc_model_go(v->base.inner, &to, err) : RC_FAIL;
-}
-
 /* The sum of W p. */
 static double
 rate(const struct rates *rates, const struct rc_shape *s, const double *p)
@@ -283,6 +251,92 @@ lost(const struct maps *maps, double row, const struct rc_shape *s)
 {
     return rc_sum(maps->worn, s->nx * s->ny) +
            (row > 0 ? (double)s->nx * rc_sum(maps->deep, s->ny) : 0);
+}
+
+/* The wear per distance of the nodes that wear over that of all nodes at the largest coefficient: now, or on the
+ * average so far. Below 1 where nodes that wear less carry the load. */
+static double
+share(const struct wear *v)
+{
+    const struct rc_shape *s = &v->base.shape;
+    const double all = most_lost(&v->rates, s) * rc_distance(v->maps.p0, NULL, v->n);
+    const double now = rate(&v->rates, s, v->maps.p0), worn = lost(&v->maps, v->rates.row, s);
+
+    return v->rates.part == NULL || !(now > 0 || worn > 0)
+               ? 1
+               : fmax(least_share, fmax(now, v->way.s > 0 ? worn / v->way.s : 0) / all);
+}
+
+/* The tolerance of the contact of this stage, over the usual one. */
+static double
+accuracy(const struct wear *v)
+{
+    return v->way.stage == LAST ? fmin(accurate * share(v), nodes_in_part / (double)v->n)
+                                : share(v);
+}
+
+/* Gives the inner model these heights, and the compliance of this stage. */
+static enum rc_status
+pose_at(struct wear *v, const double *heights, struct rc_err *err)
+{
+    if (rc_model_set_compliance(v->base.inner, v->rates.k * v->over, v->rates.part,
+                                v->rates.row * v->over, err) != RC_OK)
+        return RC_FAIL;
+    rc_model_set_accuracy(v->base.inner, accuracy(v));
+    return rc_model_set_heights(v->base.inner, heights, err);
+}
+
+/* The present smoothing step over the last one; 0: it is one of backward Euler. */
+static double
+ratio(const struct way *way)
+{
+    return way->last >= EULER ? way->tried / way->before : 0;
+}
+
+/* The weight of the new pressure in q; the rest is that of the q before. */
+static double
+newest(const struct wear *v)
+{
+    const double r = ratio(&v->way);
+
+    return (1 + r) / (1 + 2 * r);
+}
+
+/* The heights and the compliance of this stage. The heights of the last contact of a leg stay in pa,
+ * for a state. */
+static enum rc_status
+pose(struct wear *v, struct rc_err *err)
+{
+    const bool halves = v->way.stage == FIRST || v->way.stage == SECOND;
+
+    v->over = halves ? d * v->way.tried : v->way.stage == LAST ? newest(v) * v->way.tried : 0;
+    for (size_t k = 0; k < v->n; k++)
+        v->maps.room[k] = v->maps.h[k] - depth(&v->maps, v->rates.row, v->base.shape.nx, k);
+    if (halves)
+        lose(&v->rates, &v->base.shape, -(v->way.stage == FIRST ? d : w) * v->way.tried, v->maps.p0,
+             v->maps.room, NULL);
+    if (v->way.stage == SECOND)
+        lose(&v->rates, &v->base.shape, -w * v->way.tried, v->maps.pa, v->maps.room, NULL);
+    if (v->way.stage == LAST)
+        lose(&v->rates, &v->base.shape, (newest(v) - 1) * v->way.tried, v->maps.q, v->maps.room,
+             NULL);
+    if (!halves)
+        memcpy(v->maps.pa, v->maps.room, v->n * sizeof *v->maps.pa);
+    return pose_at(v, v->maps.room, err);
+}
+
+/* Starts the contact of a stage. Plastic dents of the last step stay. */
+static enum rc_status
+contact(struct wear *v, enum stage stage, struct rc_err *err)
+{
+    const double along = stage == PRESS ? 0 : stage == FIRST ? g : 1;
+    const struct rc_point to = rc_wear_load(&v->base, v->way.s + along * v->way.tried);
+
+    if (!v->kept && rc_model_keep(v->base.inner, err) != RC_OK)
+        return RC_FAIL;
+    v->kept = true;
+    v->way.stage = stage;
+    return pose(v, err) == RC_OK ? rc_model_go(v->base.inner, &to, err) : RC_FAIL;
 }
 
 /* The largest sum of |e| that an error e of the heights has now or gets while the bodies slide on. The flow
@@ -353,45 +407,92 @@ last_way(double start, double end)
     return fmin(last_part * end, end - start);
 }
 
-static size_t
-last_steps(double tol)
+static bool
+may_end_early(const struct rc_wear_problem *law)
 {
-    return (size_t)ceil(fmax(fewest, per_tolerance / tol));
+    return law->until_area > 0 || law->until_depth > 0 || law->until_spread > 0;
 }
 
-/* The longest step that does not pass far beyond a condition. The depth grows at most with the largest
- * pressure; the other figures grow with the logarithm of the distance. */
+/* How far the conditions of an early end are met after a smoothing step of length t with the pressure p. The
+ * first one is met where this is 1; it is at most 2. */
 static double
-longest(struct wear *v)
+find_progress(struct wear *v, const double *p, double t)
 {
-    /* Part of the distance so far. Half takes 1.5 times the convolutions to an early end, double 0.7
-     * times as many (12 runs of bench/constants.py). */
-    static const double quarter = 0.25;
-    double most = INFINITY, peak = 0;
+    const struct rc_wear_problem *law = &v->law;
+    double in = 0, deepest = 0, x = 0;
 
-    if (v->law.until_area > 0 || v->law.until_spread > 0)
-        most = fmax(quarter * v->way.s, v->way.t / GROWTH);
-    if (v->law.until_depth > 0) {
-        memset(v->maps.room, 0, v->n * sizeof *v->maps.room);
-        lose(&v->rates, &v->base.shape, 1, v->maps.p0, v->maps.room, NULL);
-        for (size_t k = 0; k < v->n; k++)
-            peak = fmax(peak, v->maps.room[k]);
-        most = fmin(most,
-                    fmax((v->law.until_depth - v->f.max_wear_depth) / peak, last_part * v->way.s));
+    for (size_t k = 0; k < v->n; k++)
+        v->maps.room[k] = depth(&v->maps, v->rates.row, v->base.shape.nx, k);
+    lose(&v->rates, &v->base.shape, newest(v) * t, p, v->maps.room, NULL);
+    lose(&v->rates, &v->base.shape, (1 - newest(v)) * t, v->maps.q, v->maps.room, NULL);
+    for (size_t k = 0; k < v->n; k++) {
+        in += rc_in_contact(p[k]);
+        deepest = fmax(deepest, v->maps.room[k]);
     }
-    return most;
+    if (law->until_area > 0)
+        x = in / (double)v->n / law->until_area;
+    if (law->until_depth > 0)
+        x = fmax(x, deepest / law->until_depth);
+    if (law->until_spread > 0)
+        x = fmax(x, law->until_spread / rc_wear_spread(p, v->n));
+    return fmin(x, 2);
 }
 
-/* Starts the next step, if there is one. */
+/* The longest next step of a run that may end early: half the way that is left at the present rate. */
+static double
+longest(const struct wear *v)
+{
+    const double rise = v->way.last > EULER ? v->way.rise : 0;
+
+    return rise > 0 ? fmax((1 - v->way.x) / rise / 2, step_to_end / 2 * v->way.s) : INFINITY;
+}
+
+/* The largest sum of the depths that wear, so far or in the whole distance at the present rate. */
+static double
+most_worn(const struct wear *v)
+{
+    return fmax(lost(&v->maps, v->rates.row, &v->base.shape),
+                v->way.end * rate(&v->rates, &v->base.shape, v->maps.p1));
+}
+
+static enum rc_status start(struct wear *v, struct rc_err *err);
+
+/* Returns to the start of the leg, and takes shorter steps: where nodes come into contact, the error of the pressure
+ * falls with the square root of their tolerance. */
+static enum rc_status
+try_again(struct wear *v, struct rc_err *err)
+{
+    const double part = fmax(aim * v->law.tol / fmax(v->f.pressure_error, v->f.wear_error), 0.125),
+                 strict = v->way.strict * part * part;
+    const size_t tries = v->way.tries + 1;
+    const struct rc_wear_figures done = v->f;
+
+    if (rc_model_recall(&v->base, err) != RC_OK)
+        return RC_FAIL;
+    v->f.rejected = done.rejected + done.steps - v->f.steps;
+    v->f.contacts = done.contacts;
+    v->f.convolutions = done.convolutions;
+    v->way.strict = strict;
+    v->way.tries = tries;
+    return start(v, err);
+}
+
+/* Starts the next step, if there is one. A run that may end early has smoothing steps only, because its
+ * pressures must have no ripples. */
 static enum rc_status
 set_out(struct wear *v, struct rc_err *err)
 {
     const double left = v->way.end - last_way(v->base.from.at[RC_DISTANCE], v->way.end) - v->way.s;
+    const double rest = v->way.end - v->way.s;
 
-    if (v->way.last == last_steps(v->law.tol) || !(v->way.end > v->way.s)) {
+    if (!(rest > 1e-12 * v->way.end)) {
         v->way.s = v->way.end;
         v->way.stage = REST;
         find_figures(v);
+        if (v->good && v->way.tries < MOST_TRIES &&
+            (v->f.pressure_error > v->law.tol ||
+             (v->f.wear_error > v->law.tol && v->way.spent < v->error[VOLUME] / 2)))
+            return try_again(v, err);
         return v->f.converged ? RC_OK : RC_SHORT;
     }
     if (v->law.energy != NULL) {
@@ -401,26 +502,19 @@ set_out(struct wear *v, struct rc_err *err)
         v->way.tried = 0;
         return contact(v, PRESS, err);
     }
-    if (v->way.last == 0 && left > 1e-9 * v->way.end) {
-        v->way.t = fmin(v->way.t, longest(v));
+    if (v->way.last == 0 && left > 1e-9 * v->way.end && !may_end_early(&v->law)) {
         v->way.tried = v->way.t >= left ? left : v->way.t > left / 2 ? left / 2 : v->way.t;
         return contact(v, FIRST, err);
     }
-    v->way.tried = (v->way.end - v->way.s) / (double)(last_steps(v->law.tol) - v->way.last);
-    v->way.last++;
+    if (!(v->way.next > 0))
+        v->way.next =
+            fmin(1, v->law.tol / usual_tol) *
+            (may_end_early(&v->law)
+                 ? step_to_end / 2 * fmax(v->way.s, rc_wear_first_step(&v->law, &v->base.shape))
+                 : rest / fewest);
+    v->way.next = fmin(v->way.next, longest(v));
+    v->way.tried = rest / ceil(rest / v->way.next * (1 - 1e-9));
     return contact(v, LAST, err);
-}
-
-/* Ends the leg when the first condition is met; the last steps of the leg still follow. */
-static void
-see_conditions(struct wear *v)
-{
-    const struct rc_wear_figures *f = &v->f;
-    v->met = (v->law.until_area > 0 && v->in_contact >= v->law.until_area) ||
-             (v->law.until_depth > 0 && f->max_wear_depth >= v->law.until_depth) ||
-             (v->law.until_spread > 0 && f->pressure_spread <= v->law.until_spread);
-    if (v->met)
-        v->way.end = fmin(v->way.end, v->way.s / (1 - last_part));
 }
 
 /* Under a large compliance the tolerance of the contact changes the heights more than elasticity does. This
@@ -457,7 +551,8 @@ take(struct wear *v, double first, double last, double error, double of_p1, doub
         lose(&v->rates, &v->base.shape, first * v->way.tried, v->maps.pa, v->maps.worn,
              v->maps.deep);
     }
-    lose(&v->rates, &v->base.shape, last * v->way.tried, v->maps.p1, v->maps.worn, v->maps.deep);
+    lose(&v->rates, &v->base.shape, last * v->way.tried,
+         v->way.stage == LAST ? v->maps.q : v->maps.p1, v->maps.worn, v->maps.deep);
     if (fit(v, err) != RC_OK)
         return RC_FAIL;
     v->maps.p0 = v->maps.p1;
@@ -487,33 +582,77 @@ respond(struct wear *v, double *sum, struct rc_err *err)
     return RC_OK;
 }
 
-/* Accepts the step of backward Euler, whose local error is t^2 W p'/2. */
+/* The largest error of the present step, m, as a sum over the nodes: a part of the depth that it wears, down to
+ * half of it where earlier steps have used the tolerance. Where the load moves to nodes that do not wear, the
+ * wear ends; a part of the tolerance that is left is then used in each e-fold of the distance. */
+static double
+allowed(const struct wear *v)
+{
+    const double t = v->way.tried, now = t * rate(&v->rates, &v->base.shape, v->maps.p1),
+                 worn = lost(&v->maps, v->rates.row, &v->base.shape),
+                 used = v->error[VOLUME] / (v->base.shape.dx * v->base.shape.dy),
+                 most = of_tol * fmax(0.5, 1 - (used > 0 ? used / (v->law.tol * worn) : 0)) *
+                        v->law.tol * now,
+                 left = (in_volume * v->law.tol * worn - used) / (2 * caution) * t / (v->way.s + t);
+
+    return v->way.strict * (v->rates.part == NULL ? most : fmax(most, left));
+}
+
+/* Accepts the smoothing step, or tries a shorter one. */
 static enum rc_status
 even(struct wear *v, double of_p1, struct rc_err *err)
 {
     const double step = most_lost(&v->rates, &v->base.shape) * v->way.tried,
-                 sum = rc_distance(v->maps.p1, NULL, v->n);
-    const double change = rc_distance(v->maps.p1, v->maps.p0, v->n), *error = v->error;
-    double z;
+                 sum = rc_distance(v->maps.p1, NULL, v->n), *error = v->error;
+    const bool early = may_end_early(&v->law);
+    const double r = ratio(&v->way), weight = newest(v), s = v->way.s + v->way.tried,
+                 way = early ? s + rc_wear_first_step(&v->law, &v->base.shape)
+                             : last_way(v->base.from.at[RC_DISTANCE], v->way.end);
+    const double x = early ? find_progress(v, v->maps.p1, v->way.tried) : 0;
+    const bool met = x >= 1 && v->way.last >= EULER,
+               final = met || !(v->way.end - s > 1e-12 * v->way.end);
+    double off = 0, worst, z;
+    bool far;
 
-    if (respond(v, &z, err) != RC_OK)
-        return RC_FAIL;
-    if (take(v, 0, 1, step * (change / 2 + error[WEAR_P1] * sum), of_p1,
-             fmax(error[OF_P0], error[LEFT]) + fmax(of_change * change, error[REPEATED] * z) / sum,
+    for (size_t k = 0; k < v->n; k++) {
+        v->maps.room[k] = (v->maps.p1[k] - v->maps.p0[k] - r * v->maps.change[k]) / (r > 0 ? 3 : 2);
+        off += fabs(v->maps.room[k]) / sum;
+    }
+    worst =
+        step * sum * off /
+        (early ? caution * allowed(v) : of_last * v->law.tol * v->way.tried / way * most_worn(v));
+    if (v->way.last >= EULER) /* before, the pressures have ripples */
+        worst = fmax(worst, of_change * off / (of_smooth * v->law.tol) / (final ? 1 : loose));
+    v->way.next =
+        fmin(early && v->law.until_area + v->law.until_spread > 0 ? seen * way : way / fewest,
+             v->way.tried * fmax(fmin(2, 0.9 / sqrt(worst)), 1.0 / GROWTH));
+    far = met && v->way.tried > step_to_end * s;
+    if (far)
+        v->way.next = v->way.tried / 2;
+    if ((worst > 1 || far) && v->way.tried > 1e-12 * v->way.end) {
+        v->f.rejected++;
+        return set_out(v, err);
+    }
+    for (size_t k = 0; k < v->n; k++) {
+        if (v->way.last == 0)
+            v->maps.e[k] = v->maps.change[k];
+        v->maps.change[k] = v->maps.p1[k] - v->maps.p0[k];
+        v->maps.q[k] = weight * v->maps.p1[k] + (r > 0 ? (1 - weight) * v->maps.q[k] : 0);
+    }
+    lose(&v->rates, &v->base.shape, v->way.tried, v->maps.room, v->maps.e, NULL);
+    v->way.last++;
+    v->way.before = v->way.tried;
+    v->way.rise = (x - v->way.x) / v->way.tried;
+    v->way.x = x;
+    v->met = met;
+    v->way.end = met ? s : v->way.end;
+    if (respond(v, &z, err) != RC_OK ||
+        take(v, 0, 1, step * sum * (off + error[WEAR_P1]), of_p1,
+             fmax(error[OF_P0], error[LEFT]) + of_change * off + of_heights * z / sum,
              err) != RC_OK)
         return RC_FAIL;
+    v->error[OF_ALL] = z / sum;
     return set_out(v, err);
-}
-
-/* The sum of the depths that wear, over the length of a step: in this step, or on the average so far.
- * Where nodes stick, the load leaves the others, and the wear ends. */
-static double
-due(const struct wear *v)
-{
-    const double now = rate(&v->rates, &v->base.shape, v->maps.p1),
-                 so_far = lost(&v->maps, v->rates.row, &v->base.shape) / (v->way.s + v->way.tried);
-
-    return v->rates.part == NULL ? now : fmax(now, so_far);
 }
 
 /* Accepts the step of TR-BDF2, or tries a shorter one. Its local error e is third_order t^3 W p'', with p''
@@ -523,7 +662,7 @@ judge(struct wear *v, double of_p1, struct rc_err *err)
 {
     const double step = most_lost(&v->rates, &v->base.shape) * v->way.tried,
                  sum = rc_distance(v->maps.p1, NULL, v->n), *error = v->error;
-    const double most = of_tol * v->law.tol * v->way.tried * due(v);
+    const double most = allowed(v);
     double e, z = 0, contacts, factor;
 
     memset(v->maps.e, 0, v->n * sizeof *v->maps.e);
@@ -549,10 +688,10 @@ judge(struct wear *v, double of_p1, struct rc_err *err)
         v->way.t = fmax(factor, 1.0 / GROWTH) * v->way.tried;
     /* the errors of earlier steps decay as sliding continues */
     v->error[OF_ALL] = v->error[OF_ALL] * v->way.s / (v->way.s + v->way.tried) + z / sum;
-    v->error[REPEATED] = z > 0 ? v->error[OF_ALL] * sum / z : 1;
+    for (size_t k = 0; k < v->n; k++)
+        v->maps.change[k] = v->maps.change[k] * v->way.s / (v->way.s + v->way.tried) + v->maps.e[k];
     if (take(v, w, d, caution * e + contacts, of_p1, v->error[OF_ALL], err) != RC_OK)
         return RC_FAIL;
-    see_conditions(v);
     return set_out(v, err);
 }
 
@@ -566,6 +705,26 @@ rc_wear_check_point(const struct rc_model *m, struct rc_err *err)
     return RC_OK;
 }
 
+/* Starts the leg. */
+static enum rc_status
+start(struct wear *v, struct rc_err *err)
+{
+    const struct rc_model *m = &v->base;
+
+    v->way.end = v->met ? v->way.s : m->to.at[RC_DISTANCE];
+    v->way.last = 0;
+    v->way.next = 0;
+    v->way.spent = v->error[VOLUME];
+    memcpy(v->maps.change, v->maps.e, v->n * sizeof *v->maps.e);
+    v->again = false;
+    if (m->from.given == 0 || (!v->met && v->way.s >= v->way.end)) {
+        v->way.tried = 0;
+        v->good = true;
+        return contact(v, PRESS, err);
+    }
+    return v->met ? RC_OK : set_out(v, err);
+}
+
 static enum rc_status
 go(struct rc_model *m, struct rc_err *err)
 {
@@ -573,15 +732,9 @@ go(struct rc_model *m, struct rc_err *err)
 
     if (rc_wear_check_point(m, err) != RC_OK)
         return RC_FAIL;
-    v->way.end = v->met ? v->way.s : m->to.at[RC_DISTANCE];
-    v->way.last = 0;
-    v->again = false;
-    if (m->from.given == 0 || (!v->met && v->way.s >= v->way.end)) {
-        v->way.tried = 0;
-        v->good = true;
-        return contact(v, PRESS, err) == RC_MORE ? RC_OK : RC_FAIL;
-    }
-    return v->met ? RC_OK : set_out(v, err) == RC_MORE ? RC_OK : RC_FAIL;
+    v->way.tries = 0;
+    v->way.strict = fmin(1, GROWTH * v->way.strict);
+    return start(v, err) == RC_FAIL ? RC_FAIL : RC_OK;
 }
 
 /* The error of the wear under a pressure p, relative to k times the load; of_p is the error of p. Where nodes
@@ -639,9 +792,12 @@ step(struct rc_model *m, struct rc_err *err)
     case LAST:
         return even(v, of_p1, err);
     default: /* PRESS */
+        if (may_end_early(&v->law) && find_progress(v, v->maps.p1, 0) >= 1) {
+            v->met = true;
+            v->way.end = v->way.s;
+        }
         if (take(v, 0, 0, 0, of_p1, 0, err) != RC_OK)
             return RC_FAIL;
-        see_conditions(v);
         return set_out(v, err);
     }
 }
@@ -733,23 +889,30 @@ state(struct rc_model *m, struct rc_state *s)
 {
     struct wear *v = (struct wear *)m;
     struct rc_err err;
-    bool there;
+    bool there, halves;
 
     rc_state_count(s, &v->way.stage, LAST);
-    rc_state_count(s, &v->way.last, last_steps(v->law.tol));
+    halves = v->way.stage == FIRST || v->way.stage == SECOND;
     there = v->way.stage == REST && m->moved && !rc_state_is_copy(s);
     RC_STATE_FLAGS(s, &v->kept, &v->good, &v->met, &v->fitted);
-    RC_STATE_COUNTS(s, &v->f.steps, &v->f.rejected, &v->f.contacts);
+    RC_STATE_COUNTS(s, &v->way.last, &v->way.tries, &v->f.steps, &v->f.rejected, &v->f.contacts);
     RC_STATE_NUMBERS(s, &v->way.s, &v->way.end, &v->way.t, &v->way.tried, &v->f.convolutions);
-    RC_STATE_SIZES(s, &v->over);
+    RC_STATE_SIZES(s, &v->over, &v->way.next, &v->way.before, &v->way.strict, &v->way.spent,
+                   &v->way.x);
+    RC_STATE_NUMBERS(s, &v->way.rise);
     rc_state_finite(s, ERRORS, v->error);
     rc_state_map(s, v->n, v->maps.worn);
     if (v->rates.row > 0)
         rc_state_finite(s, m->shape.ny, v->maps.deep);
     rc_state_map(s, v->n, v->maps.p0);
-    rc_state_map(s, v->n, v->maps.e);
+    if (!halves)
+        rc_state_map(s, v->n, v->maps.e);
     if (v->way.stage == SECOND || there)
         rc_state_map(s, v->n, v->maps.pa);
+    if (v->way.stage == LAST && v->way.last > 0)
+        rc_state_map(s, v->n, v->maps.q);
+    if (halves || v->way.stage == LAST)
+        rc_state_map(s, v->n, v->maps.change);
     if (!rc_state_reads(s))
         return;
     v->again = there;
@@ -780,7 +943,7 @@ plan(const struct rc_model *m, const struct rc_point *most, struct rc_expected *
     const double contacts = !(most->at[RC_DISTANCE] > 0) ? 1
                             : v->law.energy != NULL
                                 ? 2
-                                : 1 + 2 * steps + (double)last_steps(v->law.tol);
+                                : 1 + 2 * steps + fewest * fmax(1, sqrt(usual_tol / v->law.tol));
     const double work = contacts * (v->rates.part != NULL ? RC_WEAR_BY_NODE : 1);
 
     if (rc_model_plan(m->inner, &inner, expected, err) != RC_OK)
@@ -863,8 +1026,8 @@ make(struct wear *v, const double *h, const struct rc_wear_problem *law, struct 
 {
     struct rc_model *inner = v->base.inner;
     const struct rc_shape *s = &v->base.shape;
-    double **maps[] = {&v->maps.worn, &v->maps.p0, &v->maps.pa,
-                       &v->maps.p1,   &v->maps.e,  &v->maps.room};
+    double **maps[] = {&v->maps.worn, &v->maps.p0,     &v->maps.pa, &v->maps.p1,
+                       &v->maps.q,    &v->maps.change, &v->maps.e,  &v->maps.room};
 
     v->n = s->nx * s->ny;
     v->law = *law;
@@ -879,6 +1042,7 @@ make(struct wear *v, const double *h, const struct rc_wear_problem *law, struct 
     v->rates.share[0] = law->track > 0 ? 1 : law->k[0] / v->rates.k;
     v->rates.share[1] = law->track > 0 ? 0 : law->k[1] / v->rates.k;
     v->way.t = rc_wear_first_step(&v->law, s);
+    v->way.strict = 1;
     v->kept = true;
     if ((law->energy == NULL && rc_model_set_compliance(inner, v->rates.k * v->way.t, law->part,
                                                         v->rates.row * v->way.t, err) != RC_OK) ||

@@ -138,11 +138,22 @@ refuses 2 'it must be same, sliding or track:LENGTH' "another motion" "$wear --m
 # ---- early ends ----
 
 $wear --distance 1km,10km,100km --until area=0.5 --report half.tsv -o half.rcg pressed.rcg
-between 0.5 "$(column contact_fraction 1 half.tsv)" 0.6 "--until area"
+between 0.5 "$(column contact_fraction 1 half.tsv)" 0.52 "--until area"
 claim "  later distances are omitted" test "$(wc -l <half.tsv)" = 2
 $wear --distance 100km --until depth=30nm,uniform=1e-9 --report deep.tsv -o deep.rcg pressed.rcg
-between 30e-9 "$(column max_wear_depth 1 deep.tsv)" 36e-9 "--until depth"
+between 30e-9 "$(column max_wear_depth 1 deep.tsv)" 30.6e-9 "--until depth"
 near "$(column wear_volume 1 deep.tsv)" "$(awk "BEGIN { printf \"%.17g\", 1e-18 * $(column distance 1 deep.tsv) }")" 1e-12 "  with its distance"
+$wear --distance 100km --until uniform=0.3 --report even.tsv -o even.rcg pressed.rcg
+between 0 "$(column pressure_spread 1 even.tsv)" 0.3 "--until uniform"
+# a list of distances around the end: the condition is met there, and not 4 % earlier
+for end in half:contact_fraction:0.5 deep:max_wear_depth:30e-9 even:pressure_spread:0.3; do
+    IFS=: read -r run figure value <<<"$end"
+    s=$(column distance 1 $run.tsv)
+    $wear --tol 0.01 --distance "$(awk "BEGIN { printf \"%.9g,%.9g\", $s * 0.96, $s * 1.02 }")" --report around.tsv -o x.rcg pressed.rcg
+    claim "  $figure at the end of --until, in a list of distances: $(column $figure 1 around.tsv), $(column $figure 2 around.tsv)" \
+        awk -v a="$(column $figure 1 around.tsv)" -v b="$(column $figure 2 around.tsv)" -v u=$value -v run=$run \
+        'BEGIN { exit !(run == "even" ? a > u && b < u : a < u && b > u) }'
+done
 
 # ---- hardness and coats ----
 
