@@ -679,16 +679,15 @@ cost_estimate_of(const struct cost_case *c, const struct cost_trial *t, struct c
 
 static const double rounding = 1e-12; /* differences below are those of sums in another order */
 
-double
-cost_reference_error(const struct cost_case *c, struct cost_object o)
+/* The largest change of the last steps of the lists; NAN: none is known. */
+static double
+last_change(const struct cost_case *c, struct cost_object o)
 {
     const struct cost_trial *reference = &c->trial[c->reference];
-    const double own = cost_estimate_of(c, reference, o, true);
-    double most = own;
+    double most = NAN;
 
     for (size_t l = 0; l < c->lists; l++) {
         size_t pick[COST_LISTS], k = 0;
-        double change = NAN;
 
         if (c->list[l].last == SIZE_MAX)
             continue;
@@ -696,12 +695,22 @@ cost_reference_error(const struct cost_case *c, struct cost_object o)
         pick[l] = c->list[l].last;
         while (k < c->trials && memcmp(c->trial[k].pick, pick, c->lists * sizeof *pick) != 0)
             k++;
-        if (k < c->trials && c->trial[k].state == COST_DONE)
-            change = fabs(cost_error_of(c, &c->trial[k], o));
-        if (isnan(own) && change < rounding && strcmp(c->list[l].option, "tol") == 0)
-            change = c->list[l].number[reference->pick[l]]; /* both did the same work */
-        most = fmax(most, change);
+        if (k < c->trials)
+            most = fmax(most, fabs(cost_error_of(c, &c->trial[k], o)));
     }
+    return most;
+}
+
+double
+cost_reference_error(const struct cost_case *c, struct cost_object o)
+{
+    const struct cost_trial *reference = &c->trial[c->reference];
+    const double own = cost_estimate_of(c, reference, o, true);
+    double most = fmax(own, last_change(c, o));
+
+    for (size_t l = 0; l < c->lists && isnan(own) && most < rounding; l++)
+        if (strcmp(c->list[l].option, "tol") == 0) /* the last step did no further work */
+            most = c->list[l].number[reference->pick[l]];
     return most;
 }
 
@@ -761,7 +770,8 @@ judged(const struct cost_case *c)
 bool
 cost_is_optimistic(const struct cost_case *c, const struct cost_trial *t, struct cost_object o)
 {
-    const double own = cost_estimate_of(c, &c->trial[c->reference], o, true),
+    const double own =
+                     fmin(cost_estimate_of(c, &c->trial[c->reference], o, true), last_change(c, o)),
                  error = fabs(cost_error_of(c, t, o)) - (isnan(own) ? 0 : own);
 
     return error > rounding && cost_estimate_of(c, t, o, false) < 0.9 * error;
