@@ -1273,14 +1273,14 @@ struct rc_heat_problem {
     struct rc_heat_body body[2];
     /* s since heating began; 0: the steady state */
     double time;
-    /* In each of so many equal steps of the time the shares of the bodies are constant; 0: 1
-     * step. With 16 steps the largest temperature has an error of about 1e-3 (with 1 up to 4 %).
-     * Memory and work grow. */
+    /* In each of so many equal steps of the time the shares of the bodies are constant. Memory and
+     * work grow. 0: as many as `tol` needs: runs with 1, 2, 4 ... steps, at most 64, whose
+     * results are extrapolated. Only RC_HEAT_MATCHED takes steps. */
     size_t time_steps;
     enum rc_heat_partition partition;
     /* of body 1, for RC_HEAT_SHARE */
     double share;
-    /* of the mismatch; 0: 1e-3 */
+    /* of the mismatch, and with time_steps = 0 of time_error; 0: 1e-3 */
     double tol;
     /* 0: all */
     size_t threads;
@@ -1304,6 +1304,9 @@ struct rc_heat_figures {
     /* The largest difference of the temperatures in contact, over the largest rise of a body
      * above its bulk. */
     double mismatch;
+    /* Estimated error of the temperatures in contact from the time steps, over the largest rise; NAN:
+     * the caller gave the number of steps; 0: no steps. */
+    double time_error;
     /* Number of contact nodes in a row, along the motion, through the hottest node. With few of
      * them and a cell_peclet above 1 the grid misses the temperature at the trailing edge. */
     size_t hot_nodes;
@@ -1312,7 +1315,7 @@ struct rc_heat_figures {
     double steady_time;
     size_t iterations;
     double convolutions;
-    /* mismatch <= tol; always true for one number */
+    /* mismatch and a known time_error <= tol; always true for one number */
     bool converged;
 };
 /* Expected cost of temperatures at so many depths below the surface. */
@@ -1329,8 +1332,8 @@ RC_API enum rc_status rc_heat_expect(const struct rc_shape *shape,
 RC_API struct rc_heat *rc_heat_new(const struct rc_shape *shape,
                                    const struct rc_heat_problem *problem, const double *q,
                                    const double *contact, struct rc_err *err);
-/* One step, of 2 convolutions: RC_MORE; RC_OK when the temperatures match; RC_SHORT after 100 steps, or when
- * rounding prevents this. RC_FAIL when memory is short. */
+/* One step, of 2 convolutions: RC_MORE; RC_OK when the temperatures match; RC_SHORT after 100 steps or 64 time
+ * steps, or when rounding prevents this. RC_FAIL when memory is short. */
 RC_API enum rc_status rc_heat_step(struct rc_heat *heat, struct rc_err *err);
 /* The figures. Call this and the following functions after the last step. */
 RC_API const struct rc_heat_figures *rc_heat_result(const struct rc_heat *heat);

@@ -19,8 +19,12 @@
 #include "libcontact/memory.h"
 
 enum {
-    STEPS = 100 /* of the iteration, at most */
+    STEPS = 100, /* of the iteration, at most */
+    TIMES = 64,  /* time steps, at most, if the caller gives no number */
+    DOUBLED = 8  /* the usual number of time steps then, of 60 random problems */
 };
+/* Part of the tolerance for the mismatch in each run, if the time steps are doubled until it is met. */
+static const double own_part = 0.25;
 
 /* Heat is constant in each of `n` time steps; step `at` is being solved. Number k of a body: its temperature
  * k steps after one in which heat flows. */
@@ -37,6 +41,18 @@ struct space {
     double h[STEPS][STEPS + 1]; /* column by column; its first rows are rotated to a triangle */
     double turn[STEPS][2], g[STEPS + 1];
     size_t steps; /* of this time step */
+};
+
+/* Runs with 1, 2, 4 ... time steps. The errors of a run are nearly proportional to the length of its steps.
+ * So the result is 2 T - T', T' with half as many steps. All laws are linear, and hold for it too: no heat is
+ * lost, and the temperatures match. */
+struct doubling {
+    bool on;
+    struct rc_heat *finest, *half; /* NULL: this one, in one step */
+    double *rise[2], *flux;        /* of the finest run */
+    double change;     /* of the result since the last doubling, over the largest rise */
+    double count;      /* convolutions of earlier runs */
+    size_t iterations; /* of earlier runs */
 };
 
 struct rc_heat {
@@ -56,6 +72,8 @@ struct rc_heat {
     size_t earlier; /* steps of all time steps before */
     double worst;   /* largest mismatch of the time steps  */
     bool begun;
+    double asked; /* tolerance of the caller */
+    struct doubling doubling;
     struct rc_heat_figures figures;
 };
 
@@ -79,6 +97,9 @@ const struct rc_figure rc_figures_heat[] = {
     {RC_FIGURE_AS("temperature_error_estimate", struct rc_heat_figures, mismatch), NULL,
      "Error of the temperatures", .says = "largest difference of the bodies over the largest rise",
      .role = RC_FIGURE_ERROR, .by = "tol", .of = "max_temperature"},
+    {RC_FIGURE_AS("time_error_estimate", struct rc_heat_figures, time_error), NULL,
+     "Error of the time steps", .says = "largest error of a temperature over the largest rise",
+     .role = RC_FIGURE_ERROR, .by = "time-steps", .of = "max_temperature"},
     {FIGURE(hot_nodes), NULL, "Nodes of the hottest spot along the motion",
      .role = RC_FIGURE_CHECK},
     {FIGURE(steady_time), "s", "Time to a steady state"},
@@ -290,6 +311,8 @@ rc_heat_free(struct rc_heat *h)
 {
     if (h == NULL)
         return;
+    rc_heat_free(h->doubling.finest);
+    rc_heat_free(h->doubling.half);
     rc_heat_inverse_free(h->inverse);
     rc_conduction_free(h->c);
     rc_store_free(&h->own);
@@ -302,8 +325,11 @@ rc_heat_expect(const struct rc_shape *shape, const struct rc_heat_problem *p, si
 {
     const struct rc_conv_options sum = {.boundary = p->boundary, .threads = p->threads};
     const bool matched = p->partition == RC_HEAT_MATCHED;
-    const double nodes = (double)(shape->nx * shape->ny),
-                 times = matched && p->time > 0 ? fmax((double)p->time_steps, 1) : 1;
+    const bool doubles = matched && p->time > 0 && p->time_steps == 0;
+    const double nodes = (double)(shape->nx * shape->ny), times = doubles ? DOUBLED
+                                                                  : matched && p->time > 0
+                                                                      ? (double)p->time_steps
+                                                                      : 1;
     const double one = rc_conv_seconds(shape, &sum),
                  cores = (double)(p->threads == 0 ? rc_threads_available() : p->threads);
     static const double bytes[2][2] = RC_HEAT_BYTES;
@@ -315,6 +341,14 @@ rc_heat_expect(const struct rc_shape *shape, const struct rc_heat_problem *p, si
         .memory =
             (size_t)(nodes * (rc_by_padding(p->boundary, bytes[0][!matched], bytes[1][!matched]) +
                               RC_HEAT_TIME_BYTES * (times - 1)))};
+    for (double n = times / 2; doubles && n >= 1; n /= 2) {
+        expected->convolutions += RC_HEAT_WORK + RC_HEAT_STEP * n + n * (n + 1);
+        expected->memory +=
+            n < times / 2 && n > 1
+                ? 0
+                : (size_t)(nodes * (rc_by_padding(p->boundary, bytes[0][0], bytes[1][0]) +
+                                    RC_HEAT_TIME_BYTES * (n - 1)));
+    }
     expected->seconds = one * expected->convolutions +
                         (RC_HEAT_NODE + RC_HEAT_DEPTH * (double)depths) * nodes * 2 / cores;
     return RC_OK;
@@ -336,8 +370,12 @@ rc_heat_new(const struct rc_shape *shape, const struct rc_heat_problem *problem,
                            shape->ny);
     h->shape = *shape;
     h->problem = *problem;
-    if (h->problem.tol == 0)
-        h->problem.tol = 1e-3;
+    h->asked = problem->tol > 0 ? problem->tol : 1e-3;
+    h->doubling.on =
+        problem->time > 0 && problem->time_steps == 0 && problem->partition == RC_HEAT_MATCHED;
+    h->problem.tol = h->doubling.on ? own_part * h->asked : h->asked;
+    if (problem->time > 0 && problem->time_steps > 0 && problem->partition == RC_HEAT_MATCHED)
+        h->figures.time_error = NAN;
     h->drop = problem->body[1].bulk - problem->body[0].bulk;
     h->times.n = problem->time > 0 && problem->time_steps > 0 &&
                          problem->partition == RC_HEAT_MATCHED /* else the shares are constant */
@@ -355,6 +393,10 @@ rc_heat_new(const struct rc_shape *shape, const struct rc_heat_problem *problem,
     h->times.share = rc_store_take(&h->own, h->times.n * h->n, sizeof *h->times.share);
     for (int b = 0; b < 2 && h->times.n > 1; b++)
         h->times.past[b] = rc_store_take(&h->own, nodes, sizeof **h->times.past);
+    for (int b = 0; b < 2 && h->doubling.on; b++)
+        h->doubling.rise[b] = rc_store_take(&h->own, nodes, sizeof **h->doubling.rise);
+    if (h->doubling.on)
+        h->doubling.flux = rc_store_take(&h->own, nodes, sizeof *h->doubling.flux);
     if (h->own.failed)
         return rc_err_null(err, "out of memory for %zu nodes in contact", h->n);
     for (size_t k = 0; k < h->n; k++)
@@ -458,9 +500,9 @@ share_of(const struct rc_heat_figures *f, double drop)
     return drop == 0 || (share >= 0 && share <= 1) ? share : NAN;
 }
 
-/* Keeps the heat in flux[0] of this time step; finds temperatures and figures at its end. */
+/* Finds the figures of the temperatures. */
 static void
-finish(struct rc_heat *h)
+judge(struct rc_heat *h)
 {
     const struct rc_shape *s = &h->shape;
     const size_t nodes = s->nx * s->ny;
@@ -468,16 +510,6 @@ finish(struct rc_heat *h)
     double sum[2] = {0, 0}, most = -INFINITY, differs = 0;
     size_t hottest = 0;
 
-    for (size_t k = 0; k < nodes; k++)
-        h->flux[1][k] = h->q[k] - h->flux[0][k];
-    for (size_t k = 0; k < h->n; k++)
-        h->times.share[h->times.at * h->n + k] = h->flux[0][h->node[k]];
-    for (int b = 0; b < 2; b++) {
-        rc_conduction_load(h->c, h->flux[b]);
-        if (h->times.at > 0)
-            memcpy(h->rise[b], h->times.past[b], nodes * sizeof *h->rise[b]);
-        field(h, h->times.lag[b], h->times.at > 0, h->rise[b]);
-    }
     h->scale =
         fmax(fmax(largest(h->node, h->n, h->rise[0]), largest(h->node, h->n, h->rise[1])), DBL_MIN);
     for (size_t i = 0; i < h->n; i++) {
@@ -499,9 +531,28 @@ finish(struct rc_heat *h)
     f->heat_power_1 = rc_sum(h->flux[0], nodes) * s->dx * s->dy;
     f->share_1 = share_of(&h->figures, h->drop);
     f->mismatch = fmax(h->worst, differs / h->scale);
-    f->iterations = h->earlier + h->space.steps;
-    f->convolutions = h->c->count;
+    f->iterations = h->doubling.iterations + h->earlier + h->space.steps;
+    f->convolutions = h->doubling.count + h->c->count;
     f->converged = h->problem.partition != RC_HEAT_MATCHED || f->mismatch <= h->problem.tol;
+}
+
+/* Keeps the heat in flux[0] of this time step; finds temperatures and figures at its end. */
+static void
+finish(struct rc_heat *h)
+{
+    const size_t nodes = h->shape.nx * h->shape.ny;
+
+    for (size_t k = 0; k < nodes; k++)
+        h->flux[1][k] = h->q[k] - h->flux[0][k];
+    for (size_t k = 0; k < h->n; k++)
+        h->times.share[h->times.at * h->n + k] = h->flux[0][h->node[k]];
+    for (int b = 0; b < 2; b++) {
+        rc_conduction_load(h->c, h->flux[b]);
+        if (h->times.at > 0)
+            memcpy(h->rise[b], h->times.past[b], nodes * sizeof *h->rise[b]);
+        field(h, h->times.lag[b], h->times.at > 0, h->rise[b]);
+    }
+    judge(h);
 }
 
 /* ---- the iteration ---- */
@@ -681,8 +732,9 @@ share_heat(struct rc_heat *h)
         h->flux[0][h->node[k]] = h->q[h->node[k]] != 0 ? share * h->q[h->node[k]] : 0;
 }
 
-enum rc_status
-rc_heat_step(struct rc_heat *h, struct rc_err *err)
+/* A step of a run with given time steps. */
+static enum rc_status
+advance(struct rc_heat *h, struct rc_err *err)
 {
     bool last;
 
@@ -713,6 +765,79 @@ rc_heat_step(struct rc_heat *h, struct rc_err *err)
     return RC_MORE;
 }
 
+/* Takes the temperatures of the finest run into the result. `change`: of the contact, over the largest rise. */
+static double
+extrapolate(struct rc_heat *h, const struct rc_heat *finest)
+{
+    struct doubling *d = &h->doubling;
+    const size_t nodes = h->shape.nx * h->shape.ny;
+    double change = 0;
+
+    for (int b = 0; b < 2; b++) {
+        memcpy(h->work, h->rise[b], nodes * sizeof *h->work);
+        for (size_t k = 0; k < nodes; k++)
+            h->rise[b][k] = 2 * finest->rise[b][k] - d->rise[b][k];
+        memcpy(d->rise[b], finest->rise[b], nodes * sizeof *h->work);
+        for (size_t i = 0; i < h->n; i++)
+            change = fmax(change, fabs(h->rise[b][h->node[i]] - h->work[h->node[i]]));
+    }
+    for (size_t k = 0; k < nodes; k++) {
+        h->flux[0][k] = 2 * finest->flux[0][k] - d->flux[k];
+        h->flux[1][k] = h->q[k] - h->flux[0][k];
+    }
+    memcpy(d->flux, finest->flux[0], nodes * sizeof *d->flux);
+    d->count += finest->c->count;
+    d->iterations += finest->figures.iterations;
+    judge(h);
+    return change / h->scale;
+}
+
+/* After a run: keeps its result, and begins one with twice the time steps while the error is too large. The
+ * changes of the result fall at least by half with each doubling, so that its error is at most the last one;
+ * half of the change before guards against a last change that is small by chance. */
+static enum rc_status
+redouble(struct rc_heat *h, enum rc_status status, struct rc_err *err)
+{
+    struct doubling *d = &h->doubling;
+    struct rc_heat_figures *f = &h->figures;
+    struct rc_heat_problem problem = h->problem;
+    const size_t nodes = h->shape.nx * h->shape.ny;
+
+    if (d->finest == NULL) {
+        for (int b = 0; b < 2; b++)
+            memcpy(d->rise[b], h->rise[b], nodes * sizeof *h->rise[b]);
+        memcpy(d->flux, h->flux[0], nodes * sizeof *d->flux);
+        f->time_error = d->change = NAN;
+    } else {
+        const double change = extrapolate(h, d->finest);
+        f->time_error = isnan(d->change) ? INFINITY : fmax(change, d->change / 2);
+        f->mismatch = fmax(f->mismatch, d->finest->figures.mismatch);
+        d->change = change;
+    }
+    f->converged = f->mismatch <= h->asked && f->time_error <= h->asked;
+    if (f->converged || (status == RC_SHORT && f->mismatch > h->asked) ||
+        (d->finest != NULL && d->finest->times.n == TIMES))
+        return f->converged ? RC_OK : RC_SHORT;
+    rc_heat_free(d->half);
+    d->half = d->finest;
+    problem.time_steps = d->half != NULL ? 2 * d->half->times.n : 2;
+    memset(h->work, 0, nodes * sizeof *h->work);
+    for (size_t i = 0; i < h->n; i++)
+        h->work[h->node[i]] = 1;
+    d->finest = rc_heat_new(&h->shape, &problem, h->q, h->work, err);
+    return d->finest != NULL ? RC_MORE : RC_FAIL;
+}
+
+enum rc_status
+rc_heat_step(struct rc_heat *h, struct rc_err *err)
+{
+    struct rc_heat *at = h->doubling.finest != NULL ? h->doubling.finest : h;
+    const enum rc_status status = advance(at, err);
+
+    return h->doubling.on && (status == RC_OK || status == RC_SHORT) ? redouble(h, status, err)
+                                                                     : status;
+}
+
 /* ---- results ---- */
 
 const struct rc_heat_figures *
@@ -727,24 +852,44 @@ rc_heat_flux(const struct rc_heat *h, int body)
     return h->flux[body];
 }
 
+/* Adds the rise of body b at a depth, times `weight`. */
+static enum rc_status
+add_rise_at(struct rc_heat *h, int b, double depth, double weight, double *to, struct rc_err *err)
+{
+    const size_t nodes = h->shape.nx * h->shape.ny;
+    RC_ENDS(rc_store_free) struct rc_store own = {0};
+    const struct rc_warming *lag = lags_new(h, b, depth, &own, err);
+    double *rise = lag == NULL ? NULL : rc_store_zeros(&own, nodes, sizeof *rise);
+
+    if (lag == NULL)
+        return RC_FAIL;
+    if (rise == NULL)
+        return rc_err_set(err, "out of memory for the temperatures of %zu x %zu nodes", h->shape.nx,
+                          h->shape.ny);
+    add_rise(h, b, lag, h->times.n, h->times.n - 1, rise);
+    for (size_t k = 0; k < nodes; k++)
+        to[k] += weight * rise[k];
+    return RC_OK;
+}
+
 enum rc_status
 rc_heat_temperature(struct rc_heat *h, int b, double depth, double *to, struct rc_err *err)
 {
     const size_t nodes = h->shape.nx * h->shape.ny;
-    RC_ENDS(rc_store_free) struct rc_store own = {0};
-    const struct rc_warming *lag;
+    const struct doubling *d = &h->doubling;
+    enum rc_status status = RC_OK;
 
     if (!(depth >= 0) || isinf(depth))
         return rc_err_set(err, "depth %g m: it must be at least 0", depth);
-    if (depth == 0) {
+    if (depth == 0)
         memcpy(to, h->rise[b], nodes * sizeof *to);
-    } else {
-        if ((lag = lags_new(h, b, depth, &own, err)) == NULL)
-            return RC_FAIL;
+    else
         memset(to, 0, nodes * sizeof *to);
-        add_rise(h, b, lag, h->times.n, h->times.n - 1, to);
-    }
+    if (depth > 0 && d->finest == NULL)
+        status = add_rise_at(h, b, depth, 1, to, err);
+    else if (depth > 0 && (status = add_rise_at(d->finest, b, depth, 2, to, err)) == RC_OK)
+        status = add_rise_at(d->half != NULL ? d->half : h, b, depth, -1, to, err);
     for (size_t k = 0; k < nodes; k++)
         to[k] += b == 1 ? h->drop : 0;
-    return RC_OK;
+    return status;
 }

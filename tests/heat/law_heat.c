@@ -35,8 +35,13 @@ run(const struct rc_shape *s, const struct rc_heat_problem *problem, const doubl
     const double *contact)
 {
     struct rc_err err = {""};
-    struct rc_heat *h = rc_heat_new(s, problem, heat, contact, &err);
+    struct rc_heat_problem steps = *problem;
+    struct rc_heat *h;
     enum rc_status status;
+
+    steps.time_steps =
+        steps.time_steps > 0 ? steps.time_steps : 1; /* these laws hold for any number */
+    h = rc_heat_new(s, &steps, heat, contact, &err);
 
     if (h == NULL)
         fail_msg("%s", err.text);
