@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""estimates.py hist|adhesion|tilt|maps|first|grid SEED COUNT BIN: compares estimated and true error of the pressure
+"""estimates.py hist|adhesion|tilt|maps|first|grid|heat|passes SEED COUNT BIN: compares estimated and true error of the pressure
 for random contacts.
 
 hist      lists of loads with a hardness and --history         truth: the same list with --tol 1e-8
@@ -11,11 +11,16 @@ first     bodies with --yield near first yield, all boundaries  truth: rc-stress
                                                                times the yield stress, so that the body yields
 grid      elastic contacts with --discretization, all           truth: figures of the same waves on nodes 4 and 8 times as
           boundaries                                            dense, extrapolated
+heat      rc-heat --time, all boundaries                        truth: 64 time steps, extrapolated with 32
+passes    --travel --passes of rollers and balls that yield     truth: steps of an eighth and a sixteenth, 32 increments
 BIN holds rc-solve and rc-synth. Case c of SEED draws from the seed SEED * 100003 + c. Prints a line for each state whose
 estimate is below 0.99 of an error above 1e-6, and at the end the shares of such states. Status 1 where an error above 1e-5
 has such an estimate. "first" prints the bodies that remain elastic. Status 1 where one above 1.05 has no warning, or where they
 are more than 2 %. "grid" leaves out a figure whose two truths differ by more than a tenth of its error. Status 1 where a figure
-whose estimate is below its error, or where the largest pressure grows by half without a warning.
+whose estimate is below its error, or where the largest pressure grows by half without a warning. "heat" leaves out a case whose
+truths (32 and 64 time steps) differ by more than a tenth of its error. Status 1 where more than 3 % of the estimates are below their
+errors. "passes" counts the positions after steps with and without the warning of long steps. Status 1 where an estimate without it
+is below its error.
 """
 import json
 import math
@@ -317,7 +322,112 @@ def grid(seed, count, table):
     return 1 if below or silent else 0
 
 
-ALONE = {'first': first_yield, 'grid': grid}
+def heated(r):
+    """A map of heat: that of Hertz or of rough tips, with any boundary. Returns it, its boundary and options."""
+    nx = r.choice([16, 24, 32])
+    ny = r.choice([nx, nx, r.choice([16, 24]), 1])
+    x, y = r.choice([(0, 0), (0, 0), (1, 1), (1, 0), (0, 1)])
+    y = 1 if ny == 1 else y
+    random_of = numpy.random.default_rng(r.randrange(10 ** 9))
+    j, i = numpy.mgrid[:ny, :nx].astype(float)
+    if r.random() < 0.5:
+        away = ((i - nx / 2 + 0.3) ** 2 + (0 if ny == 1 else (j - ny / 2 + 0.2) ** 2)) / (nx * r.uniform(0.15, 0.4)) ** 2
+        heat = numpy.sqrt(numpy.maximum(1 - away, 0))
+    else:
+        waves = numpy.fft.rfft2(random_of.standard_normal((ny, nx)))
+        q = numpy.hypot(*numpy.meshgrid(numpy.fft.fftfreq(ny), numpy.fft.rfftfreq(nx), indexing='ij'))
+        rough = numpy.fft.irfft2(waves * (q > 0) * (q < 0.25) * numpy.maximum(q, 1 / nx) ** -1.8, (ny, nx))
+        heat = numpy.maximum(rough / rough.std() - r.uniform(0.2, 1.2), 0)
+    diffusivity, conductivity = [10 ** r.uniform(-6, -4) for _ in 'ab'], [10 ** r.uniform(0, 2) for _ in 'ab']
+    radius = nx * STEP / 4
+    speed = 10 ** r.uniform(-1, 2.5) * 2 * diffusivity[1] / radius
+    time = 10 ** r.uniform(-2, 1.5) * radius ** 2 / max(diffusivity)
+    boundary = {(0, 0): 'free', (1, 1): 'periodic', (1, 0): 'periodic-x', (0, 1): 'periodic-y'}[x, y]
+    return 1e8 * heat, boundary, ['--conductivity', '%r,%r' % tuple(conductivity), '--diffusivity', '%r,%r' % tuple(diffusivity),
+                                  '--speed', repr(speed), '--time', repr(time), '--output', 'temperature-1,temperature-2']
+
+
+def heat(seed, count, table):
+    rows, work, short = [], 0, 0
+    for c in range(count):
+        q, boundary, options = heated(random.Random(seed * 100003 + c))
+        surface = rcg.dumps([rcg.frame('heat', q, STEP, unit='W/m2', boundary=boundary)])
+        run = ['--quiet', '--report', table]
+
+        def temperatures(*more):
+            done = tool('rc-heat', options + run + list(more), surface)
+            return numpy.array([f.values[q != 0] for f in rcg.loads(done.stdout)]), report_of(done, table)
+
+        ours, report = temperatures()
+        steps = [temperatures('--time-steps', n, '--tol', '1e-6')[0] for n in ('16', '32', '64')]
+        truth, other = 2 * steps[2] - steps[1], 2 * steps[1] - steps[0]
+        scale = abs(truth).max()
+        error = abs(ours - truth).max() / scale
+        told = report['temperature_error_estimate'] + (report.get('time_error_estimate') or 0)
+        work, short = work + report['convolutions'], short + (not report['converged'])
+        if abs(truth - other).max() > 0.1 * error * scale:
+            continue
+        rows.append((error, told))
+        if error > 1e-5 and told < 0.99 * error:
+            print(f'below: case {c}, {boundary}, {q.shape[1]} x {q.shape[0]} nodes, told {told:.2e} error {error:.2e}', *options,
+                  flush=True)
+    error, told = numpy.array(rows).T
+    ratio = told[error > 1e-5] / error[error > 1e-5]
+    below = (ratio < 0.99).sum()
+    print(f'{len(ratio)} errors above 1e-5, largest {error.max():.1e}: below 0.99: {below}, least {ratio.min():.2f}, '
+          f'median {numpy.median(ratio):.2f}, 90 % {numpy.quantile(ratio, 0.9):.1f}; '
+          f'{work / count:.1f} convolutions a case, {short} not converged')
+    return 1 if below > 0.03 * len(rows) + 1 else 0
+
+
+def passes(seed, count, table):
+    """Steps of an eighth to twice the half width."""
+    rows = []
+    for c in range(count):
+        r = random.Random(seed * 100003 + c)
+        roller = r.random() < 0.6
+        nx, ny = (r.choice([32, 48, 64]), 1) if roller else (r.choice([24, 32]), r.choice([12, 16]))
+        half = r.uniform(3, 6 if roller else 4.5)  # width, nodes
+        radius, modulus = STEP * half * r.uniform(20, 60), MODULUS / (1 - 0.3 ** 2)
+        peak = half * STEP * modulus / radius * (0.5 if roller else 2 / numpy.pi)
+        stress = peak / r.uniform(1.9, 3.2)
+        hardening = stress * r.choice([0, 1, 5, 20])
+        step = half * 10 ** r.uniform(math.log10(1 / 8), math.log10(2))
+        n = min(max(3, int(r.uniform(1, 4) * half / step) + 1) if step < half else r.randint(3, 5), 12)
+        rough = numpy.random.default_rng(r.randrange(10 ** 9)).standard_normal((ny, nx)) * r.choice([0, 0, 0.002])
+        mean = numpy.pi / 2 * half * peak / nx if roller else 2 * numpy.pi / 3 * half ** 2 * peak / (nx * ny)
+        surface = rcg.dumps([rcg.frame('height', rough * (half * STEP) ** 2 / radius, STEP)])
+        options = ['--periodic', '--cylinder' if roller else '--radius', repr(radius), '--E1', repr(MODULUS), '--nu1', '0.3',
+                   '--E2', 'rigid', '--mean-pressure', repr(mean), '--yield', '%r,%r' % (stress, hardening),
+                   '--passes', r.choice('12'), '--output', 'pressure', '--report', table]
+
+        def way(times, *more):
+            end = (n - 1) * step / 2
+            done = tool('rc-solve', options + ['--travel=%rum:%rum:%d' % (-end, end, (n - 1) * times + 1), *more], surface)
+            with open(table) as file:
+                lines = [json.loads(line) for line in file]
+            frames = [f.values for f in rcg.loads(done.stdout) if f.channel == 'pressure']
+            return lines[-len(frames)::times], frames[::times], b'take shorter steps' in done.stderr
+
+        reports, ours, warned = way(1, '--increments', '16')
+        fine, finest = (way(times, '--increments', '32', '--tol', '1e-5')[1] for times in (8, 16))
+        for k in range(1, len(ours)):
+            told = reports[k]['pressure_error_estimate']
+            error, unsure = (abs(p - finest[k]).sum() / finest[k].sum() for p in (ours[k], fine[k]))
+            if told is not None and error > 1e-5 and unsure < 0.3 * error:
+                rows.append((warned, told / error))
+                if told < 0.99 * error and not warned:
+                    print(f'below: case {c} position {k} told {told:.2e} error {error:.2e}, step {step / half:.2f} half widths',
+                          *options, flush=True)
+    for long in (False, True):
+        ratio = numpy.array([q for warned, q in rows if warned == long])
+        if len(ratio):
+            print(f'{"with" if long else "without"} the warning: {len(ratio)} errors above 1e-5, below 0.99: {(ratio < 0.99).sum()}, '
+                  f'least {ratio.min():.2f}, median {numpy.median(ratio):.2f}, 90 % {numpy.quantile(ratio, 0.9):.1f}')
+    return 1 if any(q < 0.99 for warned, q in rows if not warned) else 0
+
+
+ALONE = {'first': first_yield, 'grid': grid, 'heat': heat, 'passes': passes}
 
 
 def main(kind, seed, count):

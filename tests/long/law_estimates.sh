@@ -11,6 +11,6 @@ long=$RC_SOURCE/tests/long
 export RC_THREADS=1
 claim "errors of a body that yields are below their estimates" "$python" "$long/yield_lists.py" 1 60
 claim "  and with companion runs" "$python" "$long/yield_lists.py" 61 60 rc-solve 16,half
-for kind in hist:100 adhesion:60 tilt:60 maps:20 first:320 grid:320; do
+for kind in hist:100 adhesion:60 tilt:60 maps:20 first:320 grid:320 heat:100 passes:60; do
     claim "$kind" "$python" "$long/estimates.py" "${kind%:*}" 1 "${kind#*:}" "$RC_BIN"
 done
