@@ -44,7 +44,8 @@ run_of(struct cost_case *c, size_t level, size_t from, const char *const word[],
                            .planned = NAN,
                            .mebibytes = NAN};
     r->word = tool_room(c->tool, n + 8, sizeof *word, "a command");
-    memcpy(r->word, word, n * sizeof *word);
+    for (i = 0; i < n; i++)
+        r->word[i] = tool_copy(c->tool, word[i]);
     return c->runs++;
 }
 
@@ -54,9 +55,10 @@ input_of(const struct cost_case *c, const struct cost_run *r)
     return r->from == SIZE_MAX ? c->input : c->run[r->from].output;
 }
 
-/* Words of program k in the trial. */
+/* Words of program k in the trial; `text` holds those of its options. */
 static size_t
-words_of(struct cost_case *c, const struct cost_trial *t, size_t k, const char *word[])
+words_of(const struct cost_case *c, const struct cost_trial *t, size_t k, const char *word[],
+         char text[COST_LISTS][320])
 {
     const struct cost_program *p = &c->command.program[k];
     size_t n = p->words;
@@ -68,7 +70,7 @@ words_of(struct cost_case *c, const struct cost_trial *t, size_t k, const char *
         if (!list->grid && (list->program == k || list->program == SIZE_MAX) &&
             cost_option(p, list->option) != NULL)
             n = cost_option_put(c->tool, p, word, n, list->option, list->value[t->pick[l]],
-                                tool_room(c->tool, 320, 1, "a command"));
+                                text[l]);
     }
     memmove(word + 1, word, n * sizeof *word);
     word[0] = p->name;
@@ -217,8 +219,6 @@ plan_grid(struct cost_case *c, struct cost_trial *t)
     }
     snprintf(size, sizeof size, "%zux%zu", shape.nx, shape.ny);
     t->grid = run_of(c, 0, SIZE_MAX, word, 3);
-    if (c->run[t->grid].word[2] == size) /* a new run */
-        c->run[t->grid].word[2] = tool_copy(c->tool, size);
     if (c->run[t->grid].state == COST_OPEN)
         execute(c, t->grid, false, INFINITY, "coarser grids");
     if (c->run[t->grid].state != COST_DONE)
@@ -264,20 +264,20 @@ void
 cost_plan(struct cost_case *c, struct cost_trial *t)
 {
     const char *word[COST_WORDS + 8];
+    char text[COST_LISTS][320], threads[32], memory[32];
     size_t from;
 
     if (t->state != COST_OPEN || t->runs > 0 || !plan_grid(c, t))
         return;
     from = t->grid;
+    snprintf(threads, sizeof threads, "%zu", c->tool->threads);
+    snprintf(memory, sizeof memory, "%zu", c->tool->memory);
     for (size_t k = 0; k < c->command.programs; k++) {
-        size_t n = words_of(c, t, k, word);
-        char *text = tool_room(c->tool, 64, 1, "a command");
+        size_t n = words_of(c, t, k, word, text);
 
-        snprintf(text, 64, "%zu", c->tool->threads);
-        put(word, &n, "--threads", text);
-        snprintf(text + 32, 32, "%zu", c->tool->memory);
+        put(word, &n, "--threads", threads);
         if (c->tool->memory != 0)
-            put(word, &n, "--memory", text + 32);
+            put(word, &n, "--memory", memory);
         from = t->run[t->runs++] = run_of(c, k + 1, from, word, n);
     }
     plan_first(c, t);
