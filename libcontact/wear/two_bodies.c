@@ -12,7 +12,8 @@
  * that over the last 1/fraction steps. The method is of first order in the fraction.
  *
  * Two runs go side by side with different alignments, one with half the steps of the other. The result is
- * that of the finer one, and their difference is the estimate of its error.
+ * that of the finer one, and their difference is the estimate of its error; that of the pressure is the largest
+ * one in three alignments.
  */
 #include "wear.h"
 
@@ -30,11 +31,16 @@ static const double fraction = 0.4;
  * them at once. Half takes 9 % more convolutions, double 10 % fewer. The errors change by at most 30 %
  * (5 runs of bench/constants.py). */
 static const double early = 0.3;
-/* Times the difference of the two runs: the finer one has about half the error of the other. Pressures
- * of one alignment may err alike in both runs: their difference was at worst half the error. Nothing
- * else depends on these factors. */
-static const double caution = 1.3, of_pressure = 2.6;
+/* Times the difference of the two runs: the finer one has about half the error of the other. Nothing else
+ * depends on it. */
+static const double caution = 1.3;
 
+enum {
+    /* Alignments in which the pressures of both runs are compared. In one alignment both may err alike: the
+     * difference was down to 0.25 of the error, the largest of three at least 1.24 of it (76 outputs of
+     * law_wear_estimates). */
+    PAIRS = 3
+};
 enum run {
     COARSE,
     FINE,
@@ -56,6 +62,8 @@ struct sliding {
     double *h;             /* heights of body 1 at the start */
     double *worn[RUNS][2]; /* depth that each body has lost, m */
     double *p, *other;     /* pressures of the last contact, and of the coarse run at the point */
+    size_t pair;  /* at the point: contacts of both runs that follow, each pair in an alignment */
+    double apart; /* relative: largest difference of the pressures of a pair */
     size_t stage, taken[RUNS]; /* contacts of each run so far */
     double s, end, t;          /* m: distance slid, end of the leg, present step */
     double of_contacts;        /* m: errors of the contacts times their distances */
@@ -90,14 +98,15 @@ facing(const struct sliding *v, size_t k, size_t by)
     return k - k % nx + (k % nx + nx - by) % nx;
 }
 
-/* The alignment of the present contact; a result has the alignment of the start. */
+/* The alignment of the present contact; a result has the alignment of the start, pair 0. */
 static size_t
 alignment(const struct sliding *v)
 {
     const enum run run = run_of(v->stage);
     const double at = golden * (double)v->taken[run] + (run == COARSE ? 0.5 : 0.25);
 
-    return v->stage >= PRESS ? 0 : (size_t)((at - floor(at)) * (double)v->base.shape.nx);
+    return v->stage >= PRESS ? v->pair * v->base.shape.nx / PAIRS
+                             : (size_t)((at - floor(at)) * (double)v->base.shape.nx);
 }
 
 static double
@@ -177,8 +186,7 @@ arrive(struct sliding *v)
     find_figures(v);
     v->again = false;
     f->pressure_spread = rc_wear_spread(v->p, v->n);
-    f->pressure_error =
-        of_pressure * rc_distance(v->p, v->other, v->n) / rc_sum(v->p, v->n) + v->of_p;
+    f->pressure_error = caution * v->apart + v->of_p;
     f->converged = v->good && f->wear_error <= v->law.tol;
     return f->converged ? RC_OK : RC_SHORT;
 }
@@ -190,9 +198,11 @@ set_out(struct sliding *v, struct rc_err *err)
     const double first = early * rc_wear_first_step(&v->law, &v->base.shape);
     const double left = v->end - v->s, most = fraction * fmax(first, v->law.tol * v->s);
 
-    v->of_p = 0;
-    if (!(left > 1e-12 * v->end))
+    v->of_p = v->apart = 0;
+    if (!(left > 1e-12 * v->end)) {
+        v->pair = PAIRS - 1;
         return contact(v, PRESS, err);
+    }
     v->t = left / ceil(left / most * (1 - 1e-9));
     return contact(v, WHOLE, err);
 }
@@ -261,6 +271,11 @@ step(struct rc_model *m, struct rc_err *err)
         memcpy(v->other, v->p, v->n * sizeof *v->p);
         return contact(v, PRESS_AGAIN, err);
     case PRESS_AGAIN:
+        v->apart = fmax(v->apart, rc_distance(v->p, v->other, v->n) / rc_sum(v->p, v->n));
+        if (v->pair > 0) {
+            v->pair--;
+            return contact(v, PRESS, err);
+        }
         v->stage = REST;
         v->s = v->end;
         return arrive(v);
@@ -304,9 +319,11 @@ state(struct rc_model *m, struct rc_state *s)
     struct rc_err err;
 
     rc_state_count(s, &v->stage, REST);
+    rc_state_count(s, &v->pair, PAIRS - 1);
     RC_STATE_FLAGS(s, &v->good);
     RC_STATE_COUNTS(s, &v->taken[0], &v->taken[1], &v->f.steps, &v->f.contacts);
-    RC_STATE_NUMBERS(s, &v->s, &v->end, &v->t, &v->of_contacts, &v->of_p, &v->f.convolutions);
+    RC_STATE_NUMBERS(s, &v->s, &v->end, &v->t, &v->of_contacts, &v->of_p, &v->apart,
+                     &v->f.convolutions);
     for (int run = 0; run < RUNS; run++)
         for (int b = 0; b < 2; b++)
             rc_state_map(s, v->n, v->worn[run][b]);
@@ -337,7 +354,7 @@ plan(const struct rc_model *m, const struct rc_point *most, struct rc_expected *
     const double part = fraction * v->law.tol,
                  start = early * rc_wear_first_step(&v->law, &m->shape) / v->law.tol;
     const double grown = log(fmax(most->at[RC_DISTANCE] / start, 1)) / log1p(part);
-    const double contacts = 2 + 3 * (1 / part + grown);
+    const double contacts = 2 * PAIRS + 3 * (1 / part + grown);
 
     if (rc_model_plan(m->inner, &inner, expected, err) != RC_OK)
         return RC_FAIL;
