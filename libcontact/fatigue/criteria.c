@@ -42,11 +42,10 @@ enum {
     STARTS = 4,      /* planes from which the search is refined */
     REFINEMENTS = 10 /* each halves the step                       */
 };
-/* Planes whose index is at least this part of the largest may be near another maximum that is larger;
- * those within 15 degrees of a better one belong to the same maximum. The cosine of 15 degrees is
- * 0.9659. Half of `near_best` takes a third more time and changes indices by less than 1e-6. Double
- * finds only the first maximum, with indices up to 22 % off (5 runs of bench/constants.py). */
-static const double near_best = 0.98, same_hill = 0.9659;
+/* Planes whose value is below the largest by at most this part of what varies between planes may be near
+ * another maximum that is larger; a hydrostatic stress varies between none. Those within 15 degrees of a better
+ * one belong to the same maximum. The cosine of 15 degrees is 0.9659. */
+static const double near_best = 0.02, same_hill = 0.9659;
 
 /* Papadopoulos's mean: Gauss's points in the cosine of the normal's angle to z, on the half that is
  * different, times equal steps of the other two angles. */
@@ -362,10 +361,25 @@ refine(struct rc_history *w, double k, double radius, struct start *best)
     }
 }
 
+/* The largest sqrt J2. */
+static double
+largest_shear(const struct rc_history *w)
+{
+    double most = 0;
+
+    for (size_t t = 0; t < w->n; t++) {
+        double square = 0;
+        for (size_t k = 0; k < RC_BALL_MOST; k++)
+            square += w->x[k][t] * w->x[k][t];
+        most = fmax(most, square);
+    }
+    return sqrt(most);
+}
+
 static void
 findley(struct rc_history *w, const struct rc_fatigue_rule *rule, double radius, double *values)
 {
-    const double k = rule->k[RC_FINDLEY];
+    const double k = rule->k[RC_FINDLEY], within = near_best * (radius + k * largest_shear(w));
     struct start start[STARTS], best = {.value = -INFINITY};
     const double *n = best.plane.n;
     size_t starts = 0;
@@ -379,7 +393,7 @@ findley(struct rc_history *w, const struct rc_fatigue_rule *rule, double radius,
             const double turn = (equator ? 1 : 2) * RC_PI * i / around;
             const struct plane p =
                 plane_of(sin(tilt) * cos(turn), sin(tilt) * sin(turn), cos(tilt));
-            const double worth = best.value > 0 ? near_best * best.value : -INFINITY;
+            const double worth = best.value - within;
             const double v = on_plane(w, &p, k, radius, worth);
             if (v > worth)
                 keep_start(start, &starts, &p, v);
@@ -388,7 +402,7 @@ findley(struct rc_history *w, const struct rc_fatigue_rule *rule, double radius,
         }
     }
     for (size_t s = 0; s < starts; s++) {
-        if (start[s].value < near_best * start[0].value)
+        if (start[s].value < start[0].value - within)
             continue;
         refine(w, k, radius, &start[s]);
         if (start[s].value > best.value)

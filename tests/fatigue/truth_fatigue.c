@@ -624,6 +624,18 @@ findley_planes(void **state)
         near(v[RC_FINDLEY] * limit, own, 1e-9, "Findley on its own plane");
         if (v[RC_FINDLEY] * limit < best * (1 - 1e-6))
             fail_msg("history %d: %.6f, but %.6f on another plane", n, v[RC_FINDLEY] * limit, best);
+        /* a hydrostatic stress acts on all planes alike, also where the index is 0 or below */
+        for (double index = 1e-3; index > -1e3; index = index > 0 ? -1e-3 : 100 * index) {
+            const double more = (index - v[RC_FINDLEY]) * limit / k;
+            double other[RC_FATIGUES];
+            for (int c = 0; c < 3; c++)
+                for (int t = 0; t < N; t++)
+                    line[c][t] = s[t][c] + more;
+            assert_int_equal(rc_fatigue_history(wanted, &limits, true, N, path, other, &err),
+                             RC_OK);
+            near(other[RC_FINDLEY], index, 1e-5 * (1 + 1e-7 * fabs(index)),
+                 "Findley under pressure");
+        }
     }
 }
 
