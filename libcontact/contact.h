@@ -1549,8 +1549,8 @@ struct rc_fatigue_place {
     double value;
     /* m; x NAN: all of the travel */
     double x, y, depth;
-    /* Relative. It is estimated from the change of the largest values of this depth when only
-     * every second state is taken. */
+    /* Relative: how much larger the value may be between the states and between the points, from
+     * histories that are interpolated near the largest values of this depth. */
     double sampling_error;
 };
 struct rc_fatigue_figures {

@@ -14,20 +14,30 @@
 #include "fatigue.h"
 
 enum {
-    WORST = 16, /* points of a depth whose sampling error is measured          */
+    WORST = 8,   /* hills of a depth: near them the sampling error is measured   */
+    STENCIL = 6, /* samples of an interpolation                                */
+    PARTS = 4,   /* of a distance between samples                              */
     TOGETHER = 16
 };
 
-/* Of 120 rough contacts the true sampling error was at most 1.2 times the change due to half of the states if
- * the states are at most half a depth apart, and less than 4 times down to a depth of their distance. Above
- * that depth the change says little, and the estimate is at least 1. */
-static const double caution = 1.5, caution_near = 4;
+/* The sampling error of a value is the change by samples that are interpolated between the samples, times
+ * `caution`, and parts of the spread of the values on the way: an extremum may be an eighth of a distance
+ * from them, in time and across the travel. */
+static const double caution = 1.4, of_time = 0.35, of_space = 0.06;
+/* An interpolation does not know waves shorter than two or three distances of nodes. Their stress at the
+ * depth z is in proportion to the steps of the pressure between nodes and to exp(-decay z/distance). On an
+ * edge of the map that carries pressure, nothing is known of the stress beyond it. */
+static const double of_steps = 0.5, decay = 2.2, of_border = 0.06;
+/* A hill whose value is so much lower than the largest one is not examined, relative. */
+static const double far = 0.1;
+/* Without equal steps between the states, the change is that by half of the states. */
+static const double caution_halves = 1.5, caution_near = 4;
 
 static const unsigned six = (1U << RC_COMPONENTS) - 1;
 
-/* A point with one of the largest values of a depth. */
+/* A point with one of the largest values of a depth, and the largest value that may be near it. */
 struct worst {
-    double value, error;
+    double value, near;
     size_t at;
 };
 
@@ -53,6 +63,7 @@ struct rc_fatigue {
     float *store;               /* of cases: [case][component][row of the band][column] */
     double *value[RC_FATIGUES]; /* values that are needed but not wanted by the caller */
     struct rc_history **work;   /* of each thread */
+    struct rc_history *beside, *between, *fine; /* of interpolations */
     int threads;
     double *layer; /* Pa: residual stress of each layer, and 0 of the body below; NULL: none */
     struct here here;
@@ -200,6 +211,9 @@ allocate(struct rc_fatigue *f, struct rc_err *err)
     f->work = rc_store_take(&f->own, (size_t)f->threads, sizeof *f->work);
     for (int k = 0; f->work != NULL && k < f->threads; k++)
         f->work[k] = rc_history_new(&f->own, f->states);
+    f->beside = rc_history_new(&f->own, f->states);
+    f->between = rc_history_new(&f->own, f->states);
+    f->fine = rc_history_new(&f->own, PARTS * f->states);
     return !f->own.failed
                ? RC_OK
                : rc_err_set(err, "out of memory for histories of %zu states at %zu points",
@@ -369,36 +383,297 @@ spacing(const struct rc_fatigue_problem *p, const struct rc_shape *shape)
     return most * shape->dx;
 }
 
-/* Keeps the points with the largest values of a depth, and measures their sampling error: the change if only
- * the even, or only the odd states are taken. */
+/* ---- between the samples ---- */
+
+/* `n` samples along an axis. */
+struct samples {
+    size_t n;
+    bool wraps;
+};
+
+/* Weights of the samples *first, *first + 1, ... in a polynomial through them at x; their number. */
+static size_t
+interpolate(const struct samples *s, double x, size_t *first, double weight[STENCIL])
+{
+    const size_t count = s->n < STENCIL ? s->n : STENCIL;
+    const double middle = floor(x) - (double)((count - 1) / 2);
+    const double low = s->wraps ? middle : fmax(0, fmin(middle, (double)(s->n - count)));
+
+    *first = (size_t)(low < 0 ? low + (double)s->n : low);
+    for (size_t k = 0; k < count; k++) {
+        weight[k] = 1;
+        for (size_t i = 0; i < count; i++)
+            weight[k] *= i == k ? 1 : (x - low - (double)i) / ((double)k - (double)i);
+    }
+    return count;
+}
+
+/* Columns between two states of a history; 0: they differ, or the contact stays. */
+static size_t
+equal_steps(const struct rc_fatigue_problem *p)
+{
+    const size_t *c = p->column;
+
+    if (p->pass != 0)
+        return 1;
+    for (size_t t = 2; c != NULL && t < p->cases; t++)
+        if (c[t] + c[t - 2] != 2 * c[t - 1])
+            return 0;
+    return c == NULL || p->cases < 2 ? 0 : c[1] > c[0] ? c[1] - c[0] : c[0] - c[1];
+}
+
+/* The states that follow those of a history by `offset` < 1 of their distance. */
+static void
+take_between(const struct rc_fatigue *f, const struct rc_history *w, double offset,
+             struct rc_history *to)
+{
+    const struct samples s = {w->n - f->unloaded, f->problem.pass != 0 && f->unloaded == 0};
+    const double last = (double)s.n - 1 + (s.wraps ? offset : 0);
+
+    to->n = 0;
+    for (double x = offset; x <= last; x++, to->n++) {
+        double weight[STENCIL];
+        size_t first, count = interpolate(&s, x, &first, weight);
+        for (int c = 0; c < RC_COMPONENTS; c++) {
+            to->s[c][to->n] = 0;
+            for (size_t k = 0; k < count; k++)
+                to->s[c][to->n] += weight[k] * w->s[c][(first + k) % s.n];
+        }
+    }
+    for (size_t t = s.n; t < w->n; t++, to->n++)
+        for (int c = 0; c < RC_COMPONENTS; c++)
+            to->s[c][to->n] = w->s[c][t];
+}
+
+static void
+append(const struct rc_history *w, struct rc_history *to)
+{
+    for (int c = 0; c < RC_COMPONENTS; c++)
+        memcpy(to->s[c] + to->n, w->s[c], w->n * sizeof *w->s[c]);
+    to->n += w->n;
+}
+
+/* The value of a history that also has states between its own. *spread: that of the values of histories which
+ * have one of these states in each distance; NULL: not needed. */
+static double
+value_between(struct rc_fatigue *f, const struct rc_fatigue_rule *rule, int c,
+              const struct rc_history *w, double *spread)
+{
+    const bool has_between = equal_steps(&f->problem) > 0;
+    struct rc_fatigue_values v;
+    double least = INFINITY, most = -INFINITY;
+
+    f->fine->n = 0;
+    append(w, f->fine);
+    for (int k = 1; k < PARTS && has_between; k++) {
+        take_between(f, w, k / (double)PARTS, f->between);
+        append(f->between, f->fine);
+        if (spread == NULL)
+            continue;
+        rc_history_values(f->between, rule, &v);
+        least = fmin(least, v.of[c]);
+        most = fmax(most, v.of[c]);
+    }
+    rc_history_values(f->fine, rule, &v);
+    if (spread != NULL)
+        *spread = fmax(most, v.of[c]) - fmin(least, v.of[c]);
+    return v.of[c];
+}
+
+/* The change by half of the states. */
+static double
+change_of_halves(struct rc_fatigue *f, const struct rc_fatigue_rule *rule, int c, size_t point)
+{
+    struct rc_fatigue_values v;
+    double change = 0;
+
+    for (size_t half = 0; half < 2 && f->states > 2; half++) {
+        take(f, f->work[0], point, half, 2);
+        rc_history_values(f->work[0], rule, &v);
+        change = fmax(change, fabs(v.of[c] - f->value[c][point]));
+    }
+    return change * (spacing(&f->problem, &f->shape) > f->here.at / 2 * (1 + 1e-9)
+                         ? caution_near
+                         : caution_halves);
+}
+
+/* The results on an axis through one of them, which is the number `at`. Those of cases are of the band. */
+struct line {
+    struct samples samples;
+    size_t first, stride, at;
+};
+
+static struct line
+line_through(const struct rc_fatigue *f, size_t point, enum rc_map_axis axis)
+{
+    const struct rc_fatigue_problem *p = &f->problem;
+    const size_t nx = f->result.nx, row = f->here.first;
+    const enum rc_map_axis of_map = p->pass == 'x' ? RC_Y : axis;
+    const bool wraps = rc_wraps(p->stress.boundary, of_map);
+
+    if (axis == RC_X)
+        return (struct line){{nx, wraps}, point - point % nx, 1, point % nx};
+    if (p->pass != 0)
+        return (struct line){{1, false}, point, 1, 0};
+    return (struct line){{f->here.rows, wraps && f->here.rows == f->result.ny},
+                         row * nx + point % nx,
+                         nx,
+                         point / nx - row};
+}
+
+static size_t
+on_line(const struct line *line, size_t k)
+{
+    return line->first + k % line->samples.n * line->stride;
+}
+
+/* The history between the points of a line, `offset` distances beyond the present one. */
+static void
+take_beside(const struct rc_fatigue *f, const struct line *line, double offset,
+            struct rc_history *to)
+{
+    struct rc_history *one = f->work[0];
+    double weight[STENCIL];
+    size_t first, count = interpolate(&line->samples, (double)line->at + offset, &first, weight);
+
+    for (size_t k = 0; k < count; k++) {
+        take(f, one, on_line(line, first + k), 0, 1);
+        to->n = one->n;
+        for (int c = 0; c < RC_COMPONENTS; c++)
+            for (size_t t = 0; t < one->n; t++)
+                to->s[c][t] = (k > 0 ? to->s[c][t] : 0) + weight[k] * one->s[c][t];
+    }
+}
+
+/* The part of three values that waves longer than four distances do not have. */
+static double
+step_of(double a, double b, double c)
+{
+    return fmin(fabs(a - 2 * b + c), fmax(fabs(a - b), fabs(b - c)));
+}
+
+/* Pa: the stress below a load that no interpolation knows, at a point of the results. */
+static double
+unknown_stress(const struct rc_fatigue *f, const double *load, size_t point)
+{
+    const struct rc_boundary b = f->problem.stress.boundary;
+    const bool columns = f->problem.pass == 'y';
+    const size_t nx = f->shape.nx, ny = f->shape.ny, hop = equal_steps(&f->problem);
+    const size_t at = f->problem.pass != 0 ? point : point / f->result.nx;
+    const double z = f->here.at, coarse = fmax(f->shape.dx, f->shape.dy);
+    double along_x = 0, along_y = 0, border = 0;
+
+    for (size_t k = 0; k < nx * ny; k++) {
+        const size_t i = k % nx, j = k / nx, line = columns ? i : j;
+        const double *p = load + k;
+        if (line + 1 < at || line > at + 1) /* beside the point at most */
+            continue;
+        if (hop > 0 && i >= hop && i + hop < nx)
+            along_x = fmax(along_x, step_of(*(p - hop), *p, p[hop]));
+        if (j > 0 && j + 1 < ny)
+            along_y = fmax(along_y, step_of(*(p - nx), *p, p[nx]));
+        if ((!b.x && nx > 1 && (i == 0 || i + 1 == nx)) ||
+            (!b.y && ny > 1 && (j == 0 || j + 1 == ny)))
+            border = fmax(border, fabs(*p));
+    }
+    along_x *= exp(-decay * z / (f->shape.dx * (double)(hop > 0 ? hop : 1)));
+    along_y *= exp(-decay * z / f->shape.dy);
+    return of_steps * fmax(along_x, along_y) + of_border * border * coarse / z;
+}
+
+/* The same of all loads of a history. */
+static double
+unknown_of_loads(const struct rc_fatigue *f, size_t point)
+{
+    const struct rc_fatigue_problem *p = &f->problem;
+    double most = 0;
+
+    for (size_t t = 0; t < p->cases; t++) {
+        double sum = (1 + fabs(p->stress.mu)) * unknown_stress(f, p->p[t], point);
+        for (int k = 0; k < 2; k++)
+            if (p->traction[k] != NULL)
+                sum += unknown_stress(f, p->traction[k][t], point);
+        most = fmax(most, sum);
+    }
+    return most;
+}
+
+/* The largest value that may be near a point: between the states of its history, and between the points. */
+static double
+largest_near(struct rc_fatigue *f, const struct rc_fatigue_rule *rule, int c, size_t point)
+{
+    const double value = f->value[c][point], apart = spacing(&f->problem, &f->shape);
+    const double scale = c < RC_CRITERIA ? (1 + fabs(rule->k[c])) / rule->limit[c] : 1;
+    double spread = 0, most, low, high, more;
+
+    take(f, f->work[0], point, 0, 1);
+    low = high = value_between(f, rule, c, f->work[0], &spread);
+    most = fabs(high - value);
+    for (int axis = 0; axis < 2; axis++) {
+        const struct line line = line_through(f, point, axis == 0 ? RC_X : RC_Y);
+        for (int k = -PARTS / 2; k <= PARTS / 2 && line.samples.n > 1; k++) {
+            double v;
+            if (k == 0 ||
+                (!line.samples.wraps && (k < 0 ? line.at == 0 : line.at + 1 == line.samples.n)))
+                continue;
+            take_beside(f, &line, k / (double)PARTS, f->beside);
+            v = value_between(f, rule, c, f->beside, NULL);
+            low = fmin(low, v);
+            high = fmax(high, v);
+        }
+    }
+    more = caution * (fmax(most, high - value) + of_time * spread + of_space * (high - low)) +
+           scale * unknown_of_loads(f, point);
+    if (equal_steps(&f->problem) == 0)
+        more += change_of_halves(f, rule, c, point);
+    /* nothing is known between states that are so far apart, or so few */
+    if (apart > f->here.at * (1 + 1e-9) ||
+        (f->problem.pass != 0 && f->unloaded > 0 && f->states < 4))
+        more = fmax(more, fabs(value));
+    return value + more;
+}
+
+/* True if no neighbour has a larger value; of equal ones it is the first. */
+static bool
+is_hill(const struct rc_fatigue *f, int c, size_t point)
+{
+    const double *v = f->value[c];
+
+    for (int axis = 0; axis < 2; axis++) {
+        const struct line line = line_through(f, point, axis == 0 ? RC_X : RC_Y);
+        const size_t n = line.samples.n, at = line.at;
+        if ((at > 0 || line.samples.wraps) && v[on_line(&line, at + n - 1)] > v[point])
+            return false;
+        if ((at + 1 < n || line.samples.wraps) && v[on_line(&line, at + 1)] > v[point])
+            return false;
+        if (at > 0 && v[on_line(&line, at - 1)] >= v[point])
+            return false;
+    }
+    return !isnan(v[point]);
+}
+
+/* Keeps the points with the largest values of a depth. */
 static void
 keep_worst(struct rc_fatigue *f, const struct rc_fatigue_rule *rule, int c, size_t point)
 {
     struct worst *worst = f->here.worst[c];
     const double value = f->value[c][point];
     struct rc_fatigue_rule only = *rule;
-    struct rc_fatigue_values v;
     size_t k = f->here.worsts[c], bound = k < WORST ? k : WORST - 1;
-    double error = 0;
+    double near;
 
     if (isnan(value) || (k == WORST && !(value > worst[WORST - 1].value)))
         return;
     only.wanted = c < RC_CRITERIA ? 1U << c : 0;
-    for (size_t half = 0; half < 2 && f->states > 2; half++) {
-        take(f, f->work[0], point, half, 2);
-        rc_history_values(f->work[0], &only, &v);
-        error = fmax(error, fabs(v.of[c] - value));
-    }
+    near = largest_near(f, &only, c, point);
     for (k = bound; k > 0 && value > worst[k - 1].value; k--)
         worst[k] = worst[k - 1];
-    error *= spacing(&f->problem, &f->shape) > f->here.at / 2 * (1 + 1e-9) ? caution_near : caution;
-    if (spacing(&f->problem, &f->shape) > f->here.at * (1 + 1e-9))
-        error = fmax(error, value);
-    worst[k] = (struct worst){value, error / value, point};
+    worst[k] = (struct worst){value, near, point};
     f->here.worsts[c] = bound + 1;
 }
 
-/* The points of a band that may be among the largest, in their order. */
+/* The points of a band that may be among the largest, in their order: hills, because the values on their
+ * slopes are not larger. */
 static void
 find_worst(struct rc_fatigue *f, const struct rc_fatigue_rule *rule, size_t from, size_t to)
 {
@@ -410,7 +685,7 @@ find_worst(struct rc_fatigue *f, const struct rc_fatigue_rule *rule, size_t from
             continue;
         for (size_t k = from; k < to; k++) {
             size_t i = n < WORST ? n : WORST - 1;
-            if (n == WORST && !(v[k] > least[WORST - 1]))
+            if ((n == WORST && !(v[k] > least[WORST - 1])) || !is_hill(f, c, k))
                 continue;
             for (; i > 0 && v[k] > least[i - 1]; i--)
                 least[i] = least[i - 1];
@@ -418,7 +693,8 @@ find_worst(struct rc_fatigue *f, const struct rc_fatigue_rule *rule, size_t from
             n += n < WORST;
         }
         for (size_t k = from; k < to; k++)
-            if (v[k] >= least[n - 1])
+            if (n > 0 && v[k] >= fmax(least[n - 1], least[0] - far * fabs(least[0])) &&
+                is_hill(f, c, k))
                 keep_worst(f, rule, c, k);
         /* what decides is asked again here, while the band is stored */
         if (f->here.worsts[c] > 0 && f->here.worst[c][0].at >= from &&
@@ -442,9 +718,11 @@ place_of(const struct rc_fatigue *f, const struct worst *worst, size_t n)
     const size_t nx = f->result.nx, point = worst[0].at;
     const double along = ((double)(point % nx) - (double)(nx - 1) / 2) * f->result.dx;
     struct rc_fatigue_place at = {worst[0].value, NAN, NAN, f->here.at, 0};
+    double near = worst[0].near;
 
-    for (size_t k = 0; k < n; k++)
-        at.sampling_error = fmax(at.sampling_error, worst[k].error);
+    for (size_t k = 1; k < n; k++)
+        near = fmax(near, worst[k].near);
+    at.sampling_error = (near - at.value) / fabs(at.value);
     if (f->problem.pass != 'x')
         at.x = along;
     if (f->problem.pass == 'x')

@@ -155,6 +155,8 @@ claim "a depth at the surface causes a warning" warns 'less than half the distan
 claim "  and so does --dangvan full under pressure" warns 'hydrostatic pressure, which lowers' $loud --dangvan full --depths 5um -o x.rcg pressed.rcg
 claim "  a body that does not shake down" warns 'yields in every cycle' $loud --criteria shakedown --yield 100MPa --depths 5um -o x.rcg pressed.rcg
 claim "  a periodic map" warns 'points never unload' bash -c "rc-solve --quiet --periodic $steel --mean-pressure 10MPa ball.rcg | $loud --depths 5um -o x.rcg"
+claim "  one column along the travel" warns 'its sampling error is [1-9]' \
+    $loud --depths 5um --report column.json -o x.rcg <(rc-pick --crop 24,0,1,48 pressed.rcg)
 claim "  few states" warns 'sampling error' rc-fatigue $limits --depths 5um -o x.rcg moved-0.rcg moved-10.rcg moved-20.rcg moved-40.rcg
 claim "  a body that has yielded" warns 'give the file to --residual' bash -c "rc-pick --set slabs=8 pressed.rcg | $loud --depths 5um -o x.rcg"
 refuses 2 'give both endurance limits' "one limit" "rc-fatigue --bending-limit 600MPa --pass x --depths 5um -o x.rcg pressed.rcg"

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Two ways to the same fatigue: positions of the contact and a pass, few and many rows at a time, one and two
  * threads, other loads on a plan and a new plan. A constant stress in a layer changes no amplitude. The
- * sampling error covers the error of the spacing. What cannot be computed is refused. */
+ * sampling error covers the error of the spacing, also below an index of 0. What cannot be computed is refused. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -151,6 +151,9 @@ bands(void **state)
         if (four >> c & 1)
             assert_memory_equal(whole[c], parts[c], r.nx * r.ny * sizeof(double));
     b.bands = 1;
+    b.sampling_error = a.sampling_error; /* the rows beside a band are not in it */
+    for (int c = 0; c <= RC_CRITERIA; c++)
+        b.largest[c].sampling_error = a.largest[c].sampling_error;
     assert_memory_equal(&a, &b, sizeof a);
     free(whole[0]);
     free(parts[0]);
@@ -442,6 +445,36 @@ sampling(void **state)
     }
 }
 
+/* A hydrostatic residual stress shifts the index below 0; the error stays the same. */
+static void
+below_zero(void **state)
+{
+    double row[NY], *none[RC_FATIGUES] = {NULL}, error[2] = {0, 0}, value[2] = {0, 0};
+    const double *maps[] = {p}, *const residual[RC_COMPONENTS] = {row, row, row};
+    const struct rc_fatigue_problem problem = {.stress = {.body.nu = 0.3, .threads = 1},
+                                               .wanted = 1U << RC_CROSSLAND | 1U << RC_FINDLEY,
+                                               .pass = 'x',
+                                               .cases = 1,
+                                               .p = maps};
+    struct rc_fatigue *f = plan(&shape, &problem);
+    struct rc_err err = {""};
+    (void)state;
+
+    for (size_t j = 0; j < NY; j++)
+        row[j] = -3e10;
+    for (int k = 0; k < 2; k++) {
+        const struct rc_fatigue_place *at = rc_fatigue_at_depth(f)->largest;
+        assert_int_equal(rc_fatigue_depth(f, depth, &limits, k ? residual : NULL, none, &err),
+                         RC_OK);
+        value[k] = at[RC_CROSSLAND].value;
+        error[k] = at[RC_CROSSLAND].sampling_error * fabs(value[k]);
+        assert_true(k == 0 || (at[RC_FINDLEY].value < 0 && at[RC_FINDLEY].sampling_error > 0));
+    }
+    assert_true(value[1] < 0 && error[1] > 0);
+    close_to(error[1], error[0], 1e-3);
+    rc_fatigue_free(f);
+}
+
 /* ---- stressed volume ---- */
 
 static void
@@ -545,7 +578,8 @@ main(void)
         cmocka_unit_test(directions),      cmocka_unit_test(threads),
         cmocka_unit_test(other_loads),     cmocka_unit_test(layers),
         cmocka_unit_test(residual_rows),   cmocka_unit_test(sampling),
-        cmocka_unit_test(volume),          cmocka_unit_test(refusals),
+        cmocka_unit_test(below_zero),      cmocka_unit_test(volume),
+        cmocka_unit_test(refusals),
     };
 
     make_pressures();
