@@ -969,6 +969,7 @@ state(struct rc_model *m, struct rc_state *s)
         return;
     rc_state_finite(s, 2, l->d->v);
     RC_STATE_OPEN(s, &l->d->found.estimate);
+    RC_STATE_SIZES(s, &l->d->found.left);
     RC_STATE_COUNTS(s, &l->d->found.steps, &l->d->found.fallbacks);
     for (int c = 0; c < 2; c++) {
         if (path) { /* a step that has not ended begins again */

@@ -428,11 +428,15 @@ find_residual(struct rc_steady *d)
     return d->space.first * sum[0];
 }
 
+/* If the linear iteration of the last step has left the part c of its residual, further steps reduce it as
+ * little: the error is 1/(1 - c) of the first one of them. */
 static void
 estimate(struct rc_steady *d)
 {
+    const double slow = fmax((1 - inner_tol) / (1 - fmin(d->found.left, 0.95)), 1);
+
     d->found.estimate =
-        safety * (find_residual(d) / fmax(d->found.size, DBL_MIN) + d->found.residual);
+        safety * slow * (find_residual(d) / fmax(d->found.size, DBL_MIN) + d->found.residual);
 }
 
 /* The step x of Newton's method, and the change of v with it, by GMRES. */
@@ -471,6 +475,7 @@ solve(struct rc_steady *d, double dv[2])
         l.y[k] /= h[k][k];
     }
     l.m = m;
+    d->found.left = m > 0 ? fabs(rest[m]) / rest[0] : 0;
     dv[0] = dv[1] = 0;
     for (size_t k = 0; k < m; k++) {
         for (size_t i = 0; i <= k + 1; i++)
@@ -724,6 +729,7 @@ void
 rc_steady_begin(struct rc_steady *d)
 {
     d->found.steps = d->found.fallbacks = 0;
+    d->found.left = 0;
     prepare(d, false);
 }
 

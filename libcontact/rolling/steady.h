@@ -78,6 +78,7 @@ struct rc_steady {
         double size;     /* sum of |q|                                                     */
         double residual; /* relative: change of q by a projected step of length 1/self     */
         double estimate; /* estimated relative L1 error of q */
+        double left;     /* part of the residual, by the last linear iteration */
         double sum[2];   /* of q                                                           */
         size_t stick, slipping, steps, fallbacks;
     } found;
@@ -98,7 +99,7 @@ RC_OWNER(rc_steady)
 void rc_steady_guess(struct rc_steady *d);
 /* Starts from q, which is moved to the discs. */
 void rc_steady_begin(struct rc_steady *d);
-/* The same with the q and the estimate, change, steps and fallbacks of an interrupted iteration. */
+/* The same with the q and the part left, steps and fallbacks of an interrupted iteration. */
 void rc_steady_begin_again(struct rc_steady *d);
 /* One step of Newton's method: RC_MORE; RC_OK when the estimate is below tol; RC_SHORT after the most steps;
  * RC_FAIL when memory is short. */
