@@ -1086,11 +1086,12 @@ struct rc_viscoelastic_problem {
     size_t points;
     /* steps from point to point, at least 2; 0: chosen, 20 to 320; see below */
     size_t increments;
-    /* of the error of the increments, relative L1 of the pressure; 0: 0.01 */
+    /* of the errors of the increments and of earlier contacts, relative L1 of the pressure; 0: 0.01 */
     double tol;
 };
 struct rc_viscoelastic_figures {
-    /* pressure_error holds all errors; elastic_energy NAN */
+    /* pressure_error holds all errors; inherited_error: the part from the contacts before this point, which
+     * grows as the load falls; elastic_energy NAN */
     struct rc_contact contact;
     /* s */
     double time;

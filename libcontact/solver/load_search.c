@@ -16,14 +16,14 @@
 /* Tolerance of the first loads. Not sensitive: of the 74 contacts of bench/constants.py the 11 with a
  * given approach take within 2 % as many convolutions with half and with double. */
 static const double loose = 1e-2;
-/* The exponent of the law at the solution is that between two loads within `bent`, and within `farther` times
- * the logarithm of their ratio more: in 5600 contacts of few to all nodes, with all boundaries, the secant was up
- * to 7 % less steep between near loads and up to 28 % less between far ones. */
+/* The exponent of the law at the solution is that between two loads within `bent`, and within `farther`
+ * times the logarithm of their ratio more: in 5600 contacts of few to all nodes, with all boundaries, the
+ * secant was up to 7 % less steep between near loads and up to 28 % less between far ones. */
 static const double bent = 1.1, farther = 0.5;
 /* Change of the exponent when one of n elastic nodes reaches its hardness, times n: up to 1.6 was found. */
 static const double yielding = 2;
-/* Error of the shift that the shares of n nodes leave, as a part of the error of the contact times the root of n:
- * it was up to 0.25 with 5 to 8 nodes, and a few times up to 2 with 200 and more. */
+/* Error of the shift that the shares of n nodes leave, as a part of the error of the contact times the root
+ * of n: it was up to 0.25 with 5 to 8 nodes, and a few times up to 2 with 200 and more. */
 static const double uneven = 0.5;
 
 static void

@@ -14,9 +14,18 @@
  *
  * A second run has half as many steps, each of two steps of the first one. The estimated error is the
  * difference of the two pressures. With second order the error is a third of it. Nodes that enter and leave
- * the contact one by one lower the order. On 120 random histories the error was at most 0.81 of the
- * difference with 7 or more nodes in contact, and 1.8 of it with 6; the estimate grows where nodes are few. A
- * history in single precision would add errors of up to 2e-5 that both runs share.
+ * the contact one by one lower the order; the estimate then grows where nodes are few. A history in single
+ * precision would add errors of up to 2e-5 that both runs share.
+ *
+ * A step is long where the weights of the old displacement exceed 1: that under a held contact would change
+ * its sign, and the steps of a fluid, or of a solid whose modulus falls by orders, would ring without decay.
+ * There w is linear from the middle of the last step to the end of this one, which is the backward
+ * differentiation of second order, and rings decay. The first long step after a corner is backward Euler's
+ * as far as the sum of old weights is 1.
+ *
+ * The contacts have errors, too, which stay in the bodies: an error of the pressure under a large load is
+ * larger beside a later small one. It relaxes as a pressure does under a held contact, which one number per
+ * term follows.
  *
  * If the caller gives no number of increments, a leg whose estimate is too large is repeated with more.
  */
@@ -30,7 +39,7 @@ enum {
     COARSE, /* the run with half as many steps */
     FINE,
     RUNS,
-    MAPS = RUNS + 3
+    MAPS = 2 * RUNS + 3
 };
 /* Relaxation moduli are rarely known to 1 %. */
 static const double usual_tol = 0.01;
@@ -51,35 +60,59 @@ static const double aim = 0.6, least_more = 1.5, most_more = 4, helps = 0.7;
 /* Steps a decade of the time since a corner, over increments. Half takes 14 % fewer convolutions with
  * errors at most 10 % larger, double 24 % more (24 runs of bench/constants.py). */
 static const double per_decade = 1.2;
-/* Terms that are faster than this part of the shortest leg follow w at once. Terms that are slower than
- * this many times the whole history flow. The estimate contains the error of both, which is about this
+/* Terms that are faster than this part of the shortest leg are one term. Terms that are slower than this many
+ * times the whole history flow. The estimate contains the error of both, which is about the square of this
  * part. Half of `fast` takes 11 % more convolutions; double takes 11 % fewer, with errors up to 1.8
  * times as large (12 runs of bench/constants.py). */
 static const double fast = 1e-3, slow = 1e3;
-/* Nodes in contact with which the estimate is twice the difference. Half and double change the
- * estimates by at most 2 % where hundreds of nodes touch (12 runs of bench/constants.py). */
+/* A step that is longer than the last one times this starts anew: methods of two steps are unstable where the
+ * steps grow faster than 2.4 times. */
+static const double most_longer = 2;
+/* Part that is added to the difference where no node has joined or left the contact of late: the first step
+ * after a corner, which is of first order if it is long, can dominate the error. */
+static const double fixed = 0.1;
+/* Nodes in contact, or that joined or left it, with which the estimate is twice the difference. Half and
+ * double change the estimates by at most 2 % where hundreds of nodes touch (12 runs of bench/constants.py).
+ * */
 static const double few = 8;
 /* Relative: rounding of the times that a user gives. Half and double of `same_slope` change no bit (12
  * runs of bench/constants.py). */
 static const double same_slope = 1e-9, whole = 1 - 1e-9;
 
 struct term {
-    double time, j; /* s, -; time 0: follows w at once; time INFINITY: flows, with j in 1/s */
+    double time, j;        /* s, -; time INFINITY: flows, with j in 1/s */
     double keep, old, new; /* in the present step */
 };
 
 struct run {
-    double t;     /* s: end of the present step */
-    size_t steps; /* of this leg, with the present one */
-    double *w;    /* m, at the start of the step */
-    double *r;    /* m, one map for each term    */
+    double t;          /* s: end of the present step */
+    size_t steps;      /* of this leg, with the present one */
+    double *w;         /* m, at the start of the step */
+    double *r;         /* m, one map for each term    */
+    double *before;    /* m: the w or mean of w that the last step had before its end, or the mean
+                          of w over the last step if the present step takes it */
+    double last, part; /* s: the last step, 0 after a corner; part of w in its mean */
+};
+
+/* How a step weighs the w from which it starts. */
+struct weights {
+    double dt, last; /* s: the step, and the one before it; 0: it starts from a corner */
+    double c;        /* C of the step */
+    double part;     /* of w' in the mean of w over the step */
+    bool mean;       /* `old` belongs to the mean of w over the last step */
+};
+
+/* A number that goes through the same steps as the w of a node. */
+struct follower {
+    double now, before, *r;
 };
 
 struct material {
     size_t terms;
     struct term *term;
     double quickest; /* s: shortest time of a term that takes time */
-    double left_out; /* relative error of fast and slow terms */
+    /* errors of fast and slow terms, relative to the largest load of the leg and of the history */
+    double left_out[2];
 };
 
 /* Heights of the inner model; free; pressure of the coarse run. */
@@ -104,16 +137,18 @@ struct viscoelastic {
     const double *h; /* the caller's */
     size_t n;
     struct material material;
-    double load, *equivalent; /* N: load after the last step, and its r, one for each term */
+    struct follower load, error; /* N: load after the last step, and error of its pressure */
+    double most, rate;           /* N, N/s: largest load so far; its change in the last step */
+    double nodes, changed[2]; /* in contact; that joined or left in this leg and in the last one */
     struct run run[RUNS];
     size_t on; /* the present run */
     struct maps maps;
     struct leg leg;
-    double dt;             /* s: the present step */
-    double c;              /* C of the present step */
+    struct weights weights;
     double top, posed_top; /* m: highest nodes of h and posed */
     double beyond;         /* m: gap at first touch, at a given approach without contact */
-    double worst;          /* largest error of a contact so far */
+    double between;        /* relative difference of the pressures of the two runs */
+    double inherited;      /* relative error of the pressure from the errors of earlier contacts */
     bool good;             /* all contacts have converged */
     struct rc_viscoelastic_figures f;
 };
@@ -153,21 +188,23 @@ static const struct rc_frame_kind frames[] = {
 
 /* ---- terms ---- */
 
-/* Chooses the terms of the history. All fast ones are one term, and all slow ones are another. */
+/* Chooses the terms of the history. All fast ones are one term with their mean lag, and all slow ones are
+ * another. */
 static void
 choose_terms(struct material *material, const struct rc_viscoelastic_problem *a)
 {
     const struct rc_relaxation *m = a->material;
     const double unit = a->share / m->instant, low = fast * a->shortest,
                  high = a->longest > 0 ? slow * a->longest : INFINITY;
-    double at_once = 0, flow = unit * m->fluidity, of_fast = 0, of_slow = 0;
+    double at_once = 0, lag = 0, flow = unit * m->fluidity, of_fast = 0, of_slow = 0;
 
     material->quickest = INFINITY;
     for (size_t k = 0; k < m->creep_terms; k++) {
         const double th = m->retardation[k], j = unit * m->compliance[k];
         if (th < low) {
             at_once += j;
-            of_fast += j * th / a->shortest;
+            lag += j * th;
+            of_fast += 2 * j * pow(th / a->shortest, 2);
         } else if (th > high) {
             flow += j / th;
             of_slow += j * pow(a->longest / th, 2) / 2;
@@ -176,19 +213,20 @@ choose_terms(struct material *material, const struct rc_viscoelastic_problem *a)
             material->term[material->terms++] = (struct term){.time = th, .j = j};
         }
     }
-    material->left_out = of_fast / (1 + at_once) + of_slow / (1 + flow * a->longest);
+    material->left_out[0] = of_fast / (1 + at_once);
+    material->left_out[1] = of_slow / (1 + flow * a->longest);
     if (at_once > 0)
-        material->term[material->terms++] = (struct term){.time = 0, .j = at_once};
+        material->term[material->terms++] = (struct term){.time = lag / at_once, .j = at_once};
     if (flow > 0)
         material->term[material->terms++] = (struct term){.time = INFINITY, .j = flow};
 }
 
-/* Finds the weights of a step, and returns C. */
+/* Finds the weights of the terms for w that changes linearly in the step, and returns the sum of old. */
 static double
-weigh(struct material *material, double dt)
+weigh_linear(struct material *material, double dt)
 {
     const double series = 0.01; /* the difference loses digits below it */
-    double c = 1;
+    double old = 0;
 
     for (size_t k = 0; k < material->terms; k++) {
         struct term *m = &material->term[k];
@@ -207,26 +245,81 @@ weigh(struct material *material, double dt)
             m->new = m->j *part;
             m->old = m->j * (gone - part);
         }
-        c += m->new;
+        old += m->old;
     }
-    return c;
+    return old;
+}
+
+/* Finds the weights of a step. In a long one w is linear from the middle of the last step on, where it had
+ * its mean, or, after a corner, jumps at once by a part q of its change. */
+static void
+weigh(struct material *material, struct weights *to)
+{
+    const double old = weigh_linear(material, to->dt), longer = to->dt / to->last;
+    const bool stiff = old > 1;
+    double q = 0;
+
+    to->mean = stiff && longer <= most_longer;
+    if (stiff)
+        q = to->mean ? 1 / (1 + 2 * longer) : 1 - 1 / old;
+    to->part = (1 + q) / 2;
+    to->c = 1;
+    for (size_t k = 0; k < material->terms; k++) {
+        struct term *m = &material->term[k];
+        m->new += q * m->old;
+        m->old -= q * m->old;
+        to->c += m->new;
+    }
+}
+
+/* The mean of w over the last step. */
+static double
+mean_of(const struct run *run, double now, double before)
+{
+    return run->part * now + (1 - run->part) * before;
 }
 
 /* The displacement after the step, less C w'. */
 static void
-find_history(const struct material *m, const struct run *run, size_t n, double *to)
+find_history(const struct material *m, const struct run *run, const double *w, size_t n, double *to)
 {
     double of_w = 0;
 
     for (size_t k = 0; k < m->terms; k++)
         of_w += m->term[k].old;
     for (size_t i = 0; i < n; i++)
-        to[i] = of_w * run->w[i];
+        to[i] = of_w * w[i];
     for (size_t k = 0; k < m->terms; k++) {
         const double *r = run->r + k * n;
         for (size_t i = 0; i < n; i++)
             to[i] += m->term[k].keep * r[i];
     }
+}
+
+/* Takes a number through the step. */
+static void
+follow(const struct viscoelastic *v, struct follower *f, double next)
+{
+    const double from = v->weights.mean ? f->before : f->now;
+
+    for (size_t k = 0; k < v->material.terms; k++) {
+        const struct term m = v->material.term[k];
+        f->r[k] = m.keep * f->r[k] + m.old * from + m.new *next;
+    }
+    f->before = from;
+    f->now = next;
+}
+
+/* The number that the history alone would give after the step. */
+static double
+history_of(const struct viscoelastic *v, const struct follower *f)
+{
+    const double from = v->weights.mean ? f->before : f->now;
+    double sum = 0;
+
+    for (size_t k = 0; k < v->material.terms; k++)
+        sum += v->material.term[k].keep * f->r[k] + v->material.term[k].old * from;
+    return -sum / v->weights.c;
 }
 
 /* ---- a step ---- */
@@ -251,8 +344,8 @@ target(struct viscoelastic *v)
     at = rc_point_for(v->base.inner, &at);
     v->beyond = 0;
     if (by_approach(v)) {
-        approach = (at.at[RC_APPROACH] - v->top) / v->c + v->posed_top;
-        v->beyond = fmax(0, -v->c * approach);
+        approach = (at.at[RC_APPROACH] - v->top) / v->weights.c + v->posed_top;
+        v->beyond = fmax(0, -v->weights.c * approach);
         rc_point_set(&at, RC_APPROACH, fmax(0, approach));
     }
     return at;
@@ -295,6 +388,17 @@ next_step(const struct leg *leg, struct run *run, bool fine)
     return leg->end == leg->start ? 0 : last ? leg->end - run->t : dt;
 }
 
+static void
+take_means(struct viscoelastic *v, struct run *run)
+{
+    struct follower *const all[] = {&v->load, &v->error};
+
+    for (size_t i = 0; i < v->n; i++)
+        run->before[i] = mean_of(run, run->w[i], run->before[i]);
+    for (size_t k = 0; k < 2 && v->on == FINE; k++)
+        all[k]->before = mean_of(run, all[k]->now, all[k]->before);
+}
+
 static enum rc_status
 start_step(struct viscoelastic *v, struct rc_err *err)
 {
@@ -302,11 +406,15 @@ start_step(struct viscoelastic *v, struct rc_err *err)
     const double dt = next_step(&v->leg, run, v->on == FINE);
     struct rc_point at;
 
-    v->c = weigh(&v->material, v->dt = dt);
+    v->weights.dt = dt;
+    v->weights.last = run->last;
+    weigh(&v->material, &v->weights);
     run->t = dt == v->leg.end - run->t ? v->leg.end : run->t + dt;
-    find_history(&v->material, run, v->n, v->maps.posed);
+    if (v->weights.mean)
+        take_means(v, run);
+    find_history(&v->material, run, v->weights.mean ? run->before : run->w, v->n, v->maps.posed);
     for (size_t i = 0; i < v->n; i++)
-        v->maps.posed[i] = (v->h[i] - v->maps.posed[i]) / v->c;
+        v->maps.posed[i] = (v->h[i] - v->maps.posed[i]) / v->weights.c;
     v->posed_top = rc_highest(v->maps.posed, v->n);
     at = target(v);
     if (rc_model_set_heights(v->base.inner, v->maps.posed, err) != RC_OK)
@@ -314,11 +422,34 @@ start_step(struct viscoelastic *v, struct rc_err *err)
     return rc_model_go(v->base.inner, &at, err);
 }
 
+/* The error of a contact changes the heights of all later ones. As long as the same nodes touch, it decays
+ * like a pressure that relaxes; where others touch, no pressure changes by more, in the norm of the elastic
+ * energy. */
+static void
+follow_load(struct viscoelastic *v, double load)
+{
+    const double most = 2; /* of a relative L1 error */
+    const double own = load > 0
+                           ? fmin(most, rc_model_number(v->base.inner, "pressure_error_estimate"))
+                           : 0,
+                 old = load > 0 ? history_of(v, &v->error) : 0,
+                 nodes = load > 0 ? rc_model_number(v->base.inner, "contact_nodes") : 0;
+
+    v->changed[0] += fabs(nodes - v->nodes);
+    v->nodes = nodes;
+    v->inherited = load > 0 ? fabs(old) / load : 0;
+    v->rate = v->weights.dt > 0 ? fabs(load - v->load.now) / v->weights.dt : 0;
+    follow(v, &v->error, own * load + old);
+    follow(v, &v->load, load);
+    v->most = fmax(v->most, load);
+}
+
 /* The contact of the step is found: its displacement goes into the history. */
 static enum rc_status
 take_step(struct viscoelastic *v, enum rc_status status, struct rc_err *err)
 {
     struct run *run = &v->run[v->on];
+    const double *from = v->weights.mean ? run->before : run->w;
     double *w = v->maps.room;
     struct rc_point at;
 
@@ -331,21 +462,19 @@ take_step(struct viscoelastic *v, enum rc_status status, struct rc_err *err)
         const struct term m = v->material.term[k];
         double *r = run->r + k * v->n;
         for (size_t i = 0; i < v->n; i++)
-            r[i] = m.keep * r[i] + m.old * run->w[i] + m.new *w[i];
-        if (v->on == FINE)
-            v->equivalent[k] = m.keep * v->equivalent[k] + m.old * v->load + m.new *at.at[RC_LOAD];
+            r[i] = m.keep * r[i] + m.old * from[i] + m.new *w[i];
     }
-    v->maps.room = run->w;
+    v->maps.room = v->weights.mean ? run->w : run->before;
+    run->before = v->weights.mean ? run->before : run->w;
     run->w = w;
+    run->last = v->weights.dt;
+    run->part = v->weights.part;
     if (v->on == FINE) {
-        v->load = at.at[RC_LOAD];
+        follow_load(v, at.at[RC_LOAD]);
         v->f.increments++;
     }
     v->f.contact.convolutions += rc_model_number(v->base.inner, "convolutions");
-    if (!(at.at[RC_LOAD] == 0)) {
-        v->good = v->good && status == RC_OK;
-        v->worst = fmax(v->worst, rc_model_number(v->base.inner, "pressure_error_estimate"));
-    }
+    v->good = v->good && (status == RC_OK || at.at[RC_LOAD] == 0);
     return RC_OK;
 }
 
@@ -366,7 +495,7 @@ start_run(struct viscoelastic *v, size_t on, struct rc_err *err)
 
 /* The relative difference of the pressures of the two runs. */
 static double
-difference(const double *fine, const double *coarse, size_t n)
+difference(const double *fine, const double *coarse, size_t n, double changed)
 {
     struct rc_total apart = {0}, of_coarse = {0}, of_fine = {0};
     double size, nodes = 0;
@@ -378,15 +507,38 @@ difference(const double *fine, const double *coarse, size_t n)
         nodes += rc_in_contact(fine[i]);
     }
     size = fmax(rc_total_value(&of_coarse), rc_total_value(&of_fine));
-    return size != 0 ? (1 + few / fmax(nodes, 1)) * rc_total_value(&apart) / size : 0;
+    return size != 0 ? (1 + (changed > 0 ? few / (nodes + changed) : fixed)) *
+                           rc_total_value(&apart) / size
+                     : 0;
+}
+
+/* The relative error due to terms that are left out. */
+static double
+left_out(const struct viscoelastic *v)
+{
+    const double now = v->load.now, *part = v->material.left_out;
+    double change = fmax(now, v->rate * v->problem.shortest);
+
+    if (v->base.from.given != 0)
+        change = fmax(change, v->base.from.at[RC_LOAD]);
+    return now > 0 ? part[0] * change / now + part[1] * v->most / now : part[0] + part[1];
+}
+
+/* The part of the tolerance that earlier contacts have left to the steps. */
+static double
+goal(const struct viscoelastic *v)
+{
+    return fmax(v->problem.tol - v->inherited - left_out(v), v->problem.tol / 2);
 }
 
 /* True if the model chooses the increments, and more of them can lower the error of this leg. */
 static bool
-deserves_more(const struct rc_viscoelastic_problem *problem, const struct leg *leg, double error)
+deserves_more(const struct viscoelastic *v)
 {
-    return problem->increments == 0 && leg->end > leg->start && leg->increments < MOST_AUTO &&
-           error > problem->tol && error < helps * leg->tried;
+    const struct leg *leg = &v->leg;
+
+    return v->problem.increments == 0 && leg->end > leg->start && leg->increments < MOST_AUTO &&
+           v->between > goal(v) && v->between < helps * leg->tried;
 }
 
 /* Increments for the aim, of an error of second order. */
@@ -404,9 +556,9 @@ static enum rc_status start_leg(struct viscoelastic *v, size_t increments, struc
 static enum rc_status
 try_again(struct viscoelastic *v, struct rc_err *err)
 {
-    const size_t increments = increments_for(v->leg.increments, v->f.increment_error,
-                                             v->problem.tol, least_more, most_more);
-    const double work = v->f.contact.convolutions, tried = v->f.increment_error;
+    const size_t increments =
+        increments_for(v->leg.increments, v->between, goal(v), least_more, most_more);
+    const double work = v->f.contact.convolutions, tried = v->between;
 
     if (rc_model_recall(&v->base, err) != RC_OK)
         return RC_FAIL;
@@ -418,7 +570,7 @@ try_again(struct viscoelastic *v, struct rc_err *err)
 static enum rc_status
 judge(const struct viscoelastic *v)
 {
-    return v->good && v->f.increment_error <= v->problem.tol ? RC_OK : RC_SHORT;
+    return v->good && v->f.increment_error + v->inherited <= v->problem.tol ? RC_OK : RC_SHORT;
 }
 
 /* Starts the next step, or the fine run; or ends the leg. */
@@ -436,13 +588,13 @@ go_on(struct viscoelastic *v, struct rc_err *err)
     if (begins) { /* both runs start from the same contact */
         memcpy(v->run[COARSE].w, v->run[FINE].w, v->n * sizeof *v->maps.room);
         v->run[COARSE].t = v->leg.end;
-        v->f.increment_error = v->material.left_out;
+        v->f.increment_error = left_out(v);
     } else {
         if (rc_model_frame(v->base.inner, "pressure", v->maps.room, err) != RC_OK)
             return RC_FAIL;
-        v->f.increment_error =
-            v->material.left_out + difference(v->maps.room, v->maps.coarse, v->n);
-        if (deserves_more(&v->problem, &v->leg, v->f.increment_error))
+        v->between = difference(v->maps.room, v->maps.coarse, v->n, v->changed[0] + v->changed[1]);
+        v->f.increment_error = left_out(v) + v->between;
+        if (deserves_more(v))
             return try_again(v, err);
     }
     v->leg.taken = true;
@@ -465,7 +617,8 @@ step(struct rc_model *m, struct rc_err *err)
 static enum rc_status
 allocate(struct viscoelastic *v, struct rc_err *err)
 {
-    double **maps[] = {&v->maps.room, &v->maps.coarse, &v->run[COARSE].w, &v->run[FINE].w,
+    double **maps[] = {&v->maps.room,   &v->maps.coarse,        &v->run[COARSE].w,
+                       &v->run[FINE].w, &v->run[COARSE].before, &v->run[FINE].before,
                        &v->maps.posed};
 
     if (v->maps.posed != NULL)
@@ -498,11 +651,15 @@ start_leg(struct viscoelastic *v, size_t increments, struct rc_err *err)
     v->leg.start = begins ? v->leg.end : v->base.from.at[RC_TIME];
     v->f.increments = 0;
     v->leg.taken = false;
+    v->changed[1] = v->changed[0];
+    v->changed[0] = 0;
     if (begins)
         v->run[FINE].t = v->leg.end;
     corner = turns(&v->leg, by_approach(v) ? RC_APPROACH : RC_LOAD, &v->base.from, &v->base.to);
     divide(&v->leg, v->material.quickest, corner, increments);
     v->run[COARSE].steps = v->run[FINE].steps = 0;
+    if (corner)
+        v->run[COARSE].last = v->run[FINE].last = 0;
     return start_run(v, begins ? FINE : COARSE, err);
 }
 
@@ -523,8 +680,7 @@ go(struct rc_model *m, struct rc_err *err)
                      given > 0 ? given
                      : v->leg.increments == 0
                          ? USUAL
-                         : (size_t)fmax(USUAL, (double)increments_for(v->leg.increments,
-                                                                      v->f.increment_error,
+                         : (size_t)fmax(USUAL, (double)increments_for(v->leg.increments, v->between,
                                                                       v->problem.tol, 0, 1)),
                      err) == RC_FAIL
                ? RC_FAIL
@@ -541,7 +697,8 @@ fill(struct rc_model *m, size_t frame, double *to, struct rc_err *err)
     if (rc_model_frame(m->inner, frames[frame].name, to, err) != RC_OK)
         return RC_FAIL;
     for (size_t i = 0; i < v->n; i++)
-        to[i] = v->c * to[i] + (frame == GAP ? v->beyond : v->h[i] - v->c * v->maps.posed[i]);
+        to[i] = v->weights.c * to[i] +
+                (frame == GAP ? v->beyond : v->h[i] - v->weights.c * v->maps.posed[i]);
     return RC_OK;
 }
 
@@ -564,24 +721,25 @@ static enum rc_status
 look(struct rc_model *m, struct rc_point *at, struct rc_err *err)
 {
     struct viscoelastic *v = (struct viscoelastic *)m;
-    const double work = v->f.contact.convolutions;
+    const double work = v->f.contact.convolutions, c = v->weights.c;
     struct rc_viscoelastic_figures *f = &v->f;
 
     (void)err;
     f->contact = rc_elastic_result(m->inner)->contact;
     f->contact.convolutions = work;
-    f->contact.approach = by_approach(v) ? m->to.at[RC_APPROACH]
-                                         : v->c * (f->contact.approach - v->posed_top) + v->top;
-    f->contact.mean_gap = v->c * f->contact.mean_gap + v->beyond;
-    f->contact.gap_error *= v->c;
+    f->contact.approach =
+        by_approach(v) ? m->to.at[RC_APPROACH] : c * (f->contact.approach - v->posed_top) + v->top;
+    f->contact.mean_gap = c * f->contact.mean_gap + v->beyond;
+    f->contact.gap_error *= c;
     f->contact.elastic_energy = NAN; /* the bodies dissipate a part of the work */
+    f->contact.inherited_error = v->inherited;
     if (f->contact.load != 0)
-        f->contact.pressure_error += v->worst + f->increment_error;
+        f->contact.pressure_error += v->inherited + f->increment_error;
     f->contact.converged = v->leg.taken && judge(v) == RC_OK;
     f->time = v->leg.taken ? v->leg.end : v->run[v->on].t;
-    f->equivalent_load = v->load;
+    f->equivalent_load = v->load.now;
     for (size_t k = 0; k < v->material.terms; k++)
-        f->equivalent_load += v->equivalent[k];
+        f->equivalent_load += v->load.r[k];
     f->indentation = f->contact.approach;
     f->residual_indentation =
         v->leg.taken ? residual(v->h, v->top, v->run[FINE].r, v->n, v->material.terms) : NAN;
@@ -604,17 +762,22 @@ state(struct rc_model *m, struct rc_state *s)
     RC_STATE_FLAGS(s, &begun, &v->good, &v->leg.taken);
     RC_STATE_COUNTS(s, &v->f.increments, &v->leg.increments, &v->leg.steps, &v->run[COARSE].steps,
                     &v->run[FINE].steps);
-    RC_STATE_NUMBERS(s, &v->leg.start, &v->leg.end, &v->dt, &v->beyond, &v->leg.shrink, &v->load,
-                     &v->worst, &v->posed_top, &v->f.increment_error, &v->f.contact.convolutions,
-                     &v->run[COARSE].t, &v->run[FINE].t);
+    RC_STATE_NUMBERS(
+        s, &v->leg.start, &v->leg.end, &v->weights.dt, &v->weights.last, &v->beyond, &v->leg.shrink,
+        &v->most, &v->rate, &v->nodes, &v->changed[0], &v->changed[1], &v->between, &v->inherited,
+        &v->posed_top, &v->f.increment_error, &v->f.contact.convolutions, &v->run[COARSE].t,
+        &v->run[FINE].t, &v->run[COARSE].last, &v->run[FINE].last, &v->run[COARSE].part,
+        &v->run[FINE].part, &v->load.now, &v->load.before, &v->error.now, &v->error.before);
     RC_STATE_OPEN(s, &v->leg.slope, &v->leg.least, &v->leg.most, &v->leg.tried);
-    rc_state_finite(s, v->material.terms, v->equivalent);
+    rc_state_finite(s, v->material.terms, v->load.r);
+    rc_state_finite(s, v->material.terms, v->error.r);
     if (rc_state_reads(s) && begun && allocate(v, &err) != RC_OK)
         rc_state_refuse(s, "memory is short");
     if (!begun)
         return;
     for (size_t k = 0; k < RUNS; k++) {
         rc_state_map(s, v->n, v->run[k].w);
+        rc_state_map(s, v->n, v->run[k].before);
         for (size_t q = 0; q < v->material.terms; q++)
             rc_state_map(s, v->n, v->run[k].r + q * v->n);
     }
@@ -622,7 +785,7 @@ state(struct rc_model *m, struct rc_state *s)
     rc_state_map(s, v->n, v->maps.coarse);
     if (!rc_state_reads(s))
         return;
-    v->c = weigh(&v->material, v->dt);
+    weigh(&v->material, &v->weights);
     if (rc_model_set_heights(m->inner, v->maps.posed, &err) != RC_OK)
         rc_state_refuse(s, "its heights are not finite");
 }
@@ -667,7 +830,7 @@ plan(const struct rc_model *m, const struct rc_point *most, struct rc_expected *
                              RC_CREEP_STEP * steps_of(&v->problem, v->material.quickest, part);
     expected->seconds = expected->convolutions * one;
     /* with the copy of the state at the last kept point */
-    expected->memory += v->n * (2 * maps + MAPS + RUNS + 4) * sizeof(double);
+    expected->memory += v->n * (2 * maps + MAPS + 2 * RUNS + 4) * sizeof(double);
     return RC_OK;
 }
 
@@ -726,9 +889,10 @@ make(struct viscoelastic *v, const double *h, const struct rc_viscoelastic_probl
     v->top = rc_highest(h, v->n);
     v->good = true;
     v->leg.slope = INFINITY;
-    v->c = v->leg.shrink = 1;
+    v->weights.c = v->leg.shrink = 1;
     v->material.term = rc_store_take(&v->base.own, most, sizeof *v->material.term);
-    v->equivalent = rc_store_zeros(&v->base.own, most, sizeof *v->equivalent);
+    v->load.r = rc_store_zeros(&v->base.own, most, sizeof *v->load.r);
+    v->error.r = rc_store_zeros(&v->base.own, most, sizeof *v->error.r);
     if (rc_model_room(&v->base, err) != RC_OK)
         return RC_FAIL;
     choose_terms(&v->material, &v->problem);

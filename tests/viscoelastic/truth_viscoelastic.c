@@ -477,6 +477,68 @@ second_order(void **state)
     order_on(along_x);
 }
 
+/* A fluid under a load that makes the contact of a periodic map complete: the pressure becomes uniform,
+ * also if the leg has a million relaxation times. */
+static void
+flowing(void **state)
+{
+    const struct rc_shape s = {16, 16, 1e-3, 1e-3};
+    const double times[] = {1e-3, 1e-1}, whole[] = {1}, parts[] = {0.7, 0.3},
+                 load = 1e-3 * glass * 256e-6;
+
+    (void)state;
+    for (int q = 0; q < 4; q++) {
+        struct bodies b;
+        for (size_t k = 0; k < 256; k++) {
+            const double x = (double)(k % 16) - 7.5, y = (double)(k / 16) - 7.5;
+            h[k] = -(x * x + y * y) * 2e-6;
+        }
+        b = bodies_of(&s, h, RC_PERIODIC, 1e-6, q < 2 ? 20 : 0,
+                      q % 2 == 0 ? material_of(0, 1, whole, times)
+                                 : material_of(0, 2, parts, times));
+        press(&b, RC_LOAD, load, 0, p);
+        assert_true(p[0] == 0);
+        assert_true(press(&b, RC_LOAD, load, 1000, p)->contact.converged);
+        for (size_t k = 0; k < 256; k++)
+            assert_true(fabs(p[k] * 256e-6 / load - 1) < 1e-4);
+        leave(&b);
+    }
+}
+
+/* The errors of the contacts under a load are larger beside a load of a 400th of it. The truth has the same
+ * steps and tight contacts. */
+static void
+after_a_fall(void **state)
+{
+    const struct rc_shape s = {32, 32, 1e-6, 1e-6};
+    const struct rc_selfaffine what = {
+        .hurst = 0.8, .rms_slope = 0.1, .seed = 7, .long_cut = 32e-6, .short_cut = 8e-6};
+    const double load = 0.02 * glass * 1024e-12, loads[] = {load, load, load / 400};
+    struct rc_err err;
+
+    (void)state;
+    assert_int_equal(rc_synth_selfaffine(&s, &what, h, &err), RC_OK);
+    for (int on = 0; on < BOUNDARIES; on++) {
+        struct bodies b = bodies_of(&s, h, each_boundary[on], 1e-3, 20,
+                                    material_of(0.2, 3, part, tau)),
+                      tight = bodies_of(&s, h, each_boundary[on], 1e-9, 20,
+                                        material_of(0.2, 3, part, tau));
+        for (int k = 0; k < 3; k++) {
+            const struct rc_viscoelastic_figures *f;
+            double error, told;
+            press(&tight, RC_LOAD, loads[k], k, reference);
+            f = press(&b, RC_LOAD, loads[k], k, p);
+            error = distance(b.n, p, reference);
+            told = f->contact.pressure_error - f->increment_error;
+            assert_true(told >= error);
+            assert_true(k < 2 ||
+                        f->contact.inherited_error > 10 * (told - f->contact.inherited_error));
+        }
+        leave(&b);
+        leave(&tight);
+    }
+}
+
 /* Fast and slow terms that are left out change the answer by less than the estimate says. */
 static void
 window(void **state)
@@ -525,6 +587,8 @@ main(void)
         cmocka_unit_test(elastic),
         cmocka_unit_test(second_order),
         cmocka_unit_test(window),
+        cmocka_unit_test(flowing),
+        cmocka_unit_test(after_a_fall),
         cmocka_unit_test(chosen_increments),
     };
 

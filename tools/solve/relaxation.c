@@ -254,6 +254,12 @@ mark_times(struct run *run)
 
 /* ---- the model ---- */
 
+/* Part of the tolerance for each contact. */
+static const double of_contacts = 0.1;
+/* Falls of the load that lower the tolerance of the contacts: further ones would demand more than double
+ * precision has. */
+static const double deepest = 1e-4;
+
 /* The start of the load is not a case. */
 static void
 leave_start_out(struct run *run)
@@ -261,12 +267,32 @@ leave_start_out(struct run *run)
     run->cases -= own.before;
 }
 
-/* Most of the tolerance is for the steps in time. */
+/* The largest fall of the load or approach, as the ratio of a value to an earlier one; 1 without a fall. */
+static double
+deepest_fall(const struct numbers *steps)
+{
+    double high = 0, part = 1;
+
+    for (size_t k = 0; k < steps->n; k++) {
+        high = fmax(high, steps->v[k]);
+        if (steps->v[k] > 0)
+            part = fmin(part, steps->v[k] / high);
+    }
+    return part;
+}
+
+/* Most of the tolerance is for the steps in time. The errors of the contacts remain in the bodies, where they
+ * are larger beside a smaller load. */
 static void
 set_problem(struct run *run, struct rc_problem *problem)
 {
-    (void)run;
-    problem->tol *= 0.1;
+    const double part = fmax(deepest_fall(run->steps), deepest),
+                 usual = fmin(1e-3, pow((double)rc_grid_nodes(run->g), -0.75));
+
+    if (problem->tol > 0)
+        problem->tol *= of_contacts * part;
+    else if (part < 1)
+        problem->tol = usual * part;
 }
 
 static struct rc_model *
@@ -274,7 +300,7 @@ put_around(struct run *run, struct rc_model *inner)
 {
     const struct physics *a = run->physics;
     const struct rc_viscoelastic_problem problem = {
-        .tol = run->args->tol * 0.8,
+        .tol = run->args->tol * (1 - of_contacts),
         .material = law.material,
         .share = isinf(a->e1) ? 1 : fmin(1, (1 - a->nu1 * a->nu1) / a->e1 * a->surface_estar),
         .shortest = shortest,
@@ -336,7 +362,9 @@ set_errors(struct run *run, struct solution *s)
         s->errors =
             (struct error_parts){.told = true,
                                  .increment = own.found->increment_error,
-                                 .contact = s->contact.pressure_error - own.found->increment_error};
+                                 .inherited = s->contact.inherited_error,
+                                 .contact = s->contact.pressure_error - own.found->increment_error -
+                                            s->contact.inherited_error};
 }
 
 /* Warns of a time at which the steps are too long. */
