@@ -12,6 +12,7 @@
 #include "contact.h"
 #include "owned.h"
 
+RC_OWNER(rc_conv)
 RC_OWNER(rc_fatigue)
 RC_OWNER(rc_heat)
 RC_OWNER(rc_leak)
@@ -19,6 +20,7 @@ RC_OWNER(rc_model)
 RC_OWNER(rc_patches)
 RC_OWNER(rc_psd)
 RC_OWNER(rc_relaxation)
+RC_OWNER(rc_scene)
 RC_OWNER(rc_solver)
 RC_OWNER(rc_stress)
 

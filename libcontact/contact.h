@@ -93,6 +93,7 @@
 
 #include "grid.h"
 #include "model.h"
+#include "scene.h"
 #include "surface.h"
 
 #ifdef __cplusplus

@@ -7,7 +7,7 @@ set(modules fftw3 fftw3f gsl)
 set(by_name fftw3_threads fftw3f_threads)
 set(package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/libcontact)
 
-set(headers grid.h surface.h model.h contact.h)
+set(headers grid.h surface.h model.h scene.h contact.h)
 if(RC_MPI)
     list(APPEND headers contact_mpi.h)
     set(libraries_of_mpi ${MPI_C_LIB_NAMES})

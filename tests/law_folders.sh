@@ -42,6 +42,8 @@ libcontact/yield    | %base libcontact/volume/volume.h         | libcontact libc
 libcontact/adhesion | %base libcontact/operator/operator.h     | libcontact libcontact/operator libcontact/body
 libcontact/adhesion | libcontact/model/row.h                   | libcontact/model libcontact/solver=rc_figures_
 libcontact/leak     | %base                                    | libcontact
+libcontact/scene    | %base libcontact/adhesion/adhesion.h     | %physics
+libcontact/scene    | libcontact/transform/fourier.h           | libcontact/transform
 libcontact/wear     | %base libcontact/model/row.h             | libcontact libcontact/model
 libcontact/travel   | %base libcontact/model/row.h             | libcontact libcontact/model
 libcontact/viscoelastic | %base libcontact/model/row.h             | libcontact libcontact/model
@@ -110,6 +112,7 @@ tools/stress        | %public tools/cli/cli.h                  | %physics %cli
 tools/stress        | tools/frames/frames.h                    | tools/frames
 tools/fatigue       | %public tools/cli/cli.h                  | %physics %cli formats/rcg
 tools/leak          | %public tools/cli/cli.h                  | %physics %cli
+tools/scene         | %public tools/cli/cli.h                  | %physics %cli
 tools/pick          | %public tools/cli/cli.h                  | %physics %cli
 tools/pick          | tools/frames/frames.h                    | tools/frames
 tools/synth         | %public tools/cli/cli.h                  | %physics %cli
@@ -122,6 +125,7 @@ tools               | %public tools/cli/cli.h tools/plot/plot.h | %physics %cli 
 tools               | tools/frames/frames.h                    | tools/frames
 tools               | tools/cost/cost.h tools/solve/solve.h    | tools/cost tools/solve
 tools               | tools/stress/stress.h tools/render/render.h | tools/stress tools/render
+tools               | tools/scene/scene.h                      | tools/scene libcontact/scene
 tools               | tools/leak/leak.h tools/fatigue/fatigue.h | tools/leak tools/fatigue
 tools               | tools/info/info.h tools/slip/slip.h      | tools/info tools/slip
 tools               | tools/problem/problem.h tools/model/model.h | tools/problem tools/model

@@ -319,6 +319,24 @@ rc_adhesion_check(const struct rc_shape *shape, const struct rc_adhesion_problem
     return attraction_of(shape, problem, &law, scales, err);
 }
 
+enum rc_status
+rc_adhesion_attraction(const struct rc_shape *shape, const struct rc_adhesion_problem *problem,
+                       const double *gap, double *sigma, struct rc_err *err)
+{
+    struct rc_adhesion_scales scales;
+    struct rc_attraction law;
+    double unused[2];
+
+    if (attraction_of(shape, problem, &law, &scales, err) != RC_OK)
+        return RC_FAIL;
+    for (size_t k = 0; k < shape->nx * shape->ny; k++) {
+        const double g = gap[k] * law.range / scales.range;
+        law.law->at(&law, 1, &g, &unused[0], &sigma[k], &unused[1]);
+        sigma[k] *= scales.strength / law.strength;
+    }
+    return RC_OK;
+}
+
 static enum rc_status
 check_heights(const struct rc_shape *shape, const double *h, struct rc_err *err)
 {

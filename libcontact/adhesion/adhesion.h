@@ -21,6 +21,11 @@ struct rc_adhesion_solver_past {
 struct rc_adhesion_solver_past *rc_adhesion_solver_past(struct rc_adhesion_solver *a);
 double rc_adhesion_solver_approach(const struct rc_adhesion_solver *a);
 
+/* sigma, Pa, at the gaps of a map, m. Fails as rc_adhesion_check. */
+enum rc_status rc_adhesion_attraction(const struct rc_shape *shape,
+                                      const struct rc_adhesion_problem *problem, const double *gap,
+                                      double *sigma, struct rc_err *err);
+
 /* ---- a path of states ---- */
 
 /* h: nx ny m, copied. NULL when the problem is invalid, among ranks, when the engine or method does not suit

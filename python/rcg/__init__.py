@@ -10,8 +10,8 @@
     rcg.render(result, channel='pressure', border=True)            # a picture
     rcg.report('rough-steel.x3p', 'page.html', load='0.1N')        # a page about the surface
 
-Each tool is one function: add cost deflect detrend export fatigue heat info leak open (rc-import) pick render report slip
-solve stress synth wear. help(rcg.solve) lists its options. frame, read, write, loads and dumps handle the
+Each tool is one function: add cost deflect detrend export fatigue heat info leak open (rc-import) pick render report scene
+slip solve stress synth wear. help(rcg.solve) lists its options. frame, read, write, loads and dumps handle the
 grid stream, run calls a tool by its name, and so does report with the name of a tool and frames.
 sample('rough-steel.x3p') is the path of a sample surface. Long runs show their progress in terminals and notebooks.
 """

@@ -22,7 +22,7 @@ from .stream import Error, Frame
 
 # The functions and their tools. An import of files is `open`: import is a word of Python.
 FUNCTIONS = {name: 'rc-' + name for name in
-             'add cost deflect detrend export fatigue heat info leak pick render report slip solve stress synth wear'.split()}
+             'add cost deflect detrend export fatigue heat info leak pick render report scene slip solve stress synth wear'.split()}
 FUNCTIONS['open'] = 'rc-import'
 # Options that the functions set themselves, or that print text for people at a terminal.
 HIDDEN = {'o', 'report', 'json', 'help', 'version', 'verbose', 'debug', 'progress', 'formats', 'list', 'dry-run'}
@@ -755,7 +755,17 @@ def costs(surface, command, dx=None, timeout=None, progress=None, **given):
     return _settled(status, said, Result('rc-cost', words, frames=[], lines=lines)).lines
 
 
-SPECIAL = {'cost': costs, 'open': open_file, 'render': draw, 'report': page, 'export': save_as, 'add': add_two, 'synth': make}
+def verdicts(surface, dx=None, timeout=None, progress=None, **given):
+    """The effects that a contact calls for: a list of dicts, one for each load, whose item 'scene' lists the effects with their verdicts.
+
+    rcg.scene(surface, load='5N', E1='210GPa', nu1=0.3, E2='rigid', hardness='3GPa')[0]['scene'][0]['verdict']
+    """
+    words = ['rc-scene'] + arguments('rc-scene', given)
+    status, _, said, lines = _reported(words, _data(surface, dx), True, timeout, progress)
+    return _settled(status, said, Result('rc-scene', words, frames=[], lines=lines)).lines
+
+
+SPECIAL = {'cost': costs, 'scene': verdicts, 'open': open_file, 'render': draw, 'report': page, 'export': save_as, 'add': add_two, 'synth': make}
 
 
 def function(name):
@@ -782,7 +792,7 @@ def function(name):
     named = [inspect.Parameter(python, inspect.Parameter.KEYWORD_ONLY, default=None, annotation=_Hint(annotation(row) + ' | None'))
              for python, row in rows.items()]
     named += [p.replace(kind=inspect.Parameter.KEYWORD_ONLY) for p in own if p not in positional]
-    result = {'render': 'Picture', 'report': 'Page', 'export': 'None', 'cost': 'list[dict[str, Any]]'}.get(name, 'Result')
+    result = {'render': 'Picture', 'report': 'Page', 'export': 'None', 'cost': 'list[dict[str, Any]]', 'scene': 'list[dict[str, Any]]'}.get(name, 'Result')
     made.__signature__ = inspect.Signature(positional + named, return_annotation=_Hint(result))
     made.__name__ = made.__qualname__ = name
     made.__module__ = 'rcg'

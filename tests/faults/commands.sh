@@ -95,6 +95,7 @@ commands=$(
 LIST
 )
 commands="$commands
+32 rc-scene --quiet --load 1mN --E1 1GPa --nu1 0.3 --E2 2GPa --nu2 0.3 --hardness 0.1GPa --yield 0.1GPa --mu 0.3 --coefficient 1e-9mm3/Nm --distance 1um --report /dev/null h.rcg -o out
 1 rc-leak --quiet --viscosity 1mPas --pressure-drop 1kPa --report /dev/null c.rcg -o out
 1 rc-leak --quiet --direction y --output channel c.rcg"
 

@@ -672,6 +672,56 @@ leaks(double *out, struct rc_err *err)
     return status;
 }
 
+/* ---- scenes ---- */
+
+static enum rc_status
+scene(double *out, struct rc_err *err)
+{
+    static const struct rc_problem problem = {.boundary = {.x = true, .y = true},
+                                              .pair = {{1e9, 0.3}, {2e9, 0.3}},
+                                              .load = 1e-3,
+                                              .threads = 1};
+    static const double modulus = 5e8, time = 1;
+    const struct rc_layer coat = {1e-6, 2e9, 0.3};
+    enum rc_status status = RC_OK;
+    RC_OWN(rc_relaxation, material) = rc_relaxation_new(5e8, 1, &modulus, &time, err);
+    const struct rc_scene_data data = {.hardness = 1e8,
+                                       .layers = 1,
+                                       .layer = &coat,
+                                       .thickness = 1e-5,
+                                       .yield = 1e8,
+                                       .work = 1e-2,
+                                       .mu = 0.3,
+                                       .tangential = 1e-4,
+                                       .speed = 1e-6,
+                                       .wear = 1e-15,
+                                       .distance = 1e-6,
+                                       .conductivity = {45, 16},
+                                       .diffusivity = {1e-5, 4e-6},
+                                       .time = 1,
+                                       .material = material};
+    RC_OWN(rc_scene, s) =
+        material == NULL ? NULL : rc_scene_new(&shape, rough, &problem, &data, err);
+
+    if (s == NULL)
+        return RC_FAIL;
+    for (size_t k = 0; rc_scene_name(k) != NULL && status == RC_OK; k++) {
+        const struct rc_scene_bounds bounds = {0};
+        struct rc_scene_effect e;
+        status = rc_scene_estimate(s, k, &e, err);
+        if (status != RC_OK)
+            continue;
+        out[k] = (double)rc_scene_judge(&e, &bounds, NULL);
+        rc_scene_accept(s, k);
+    }
+    out[20] = rc_scene_contact(s)->contact_area;
+    out[21] = rc_scene_pressure(s)[0];
+    out[22] = rc_scene_convolutions(s);
+    out[23] = (double)(rc_scene_figure_names[0][0] + rc_scene_basis_names[0][0] +
+                       rc_scene_verdict_names[0][0]);
+    return status;
+}
+
 /* ---- stresses ---- */
 
 static enum rc_status
@@ -1056,6 +1106,7 @@ static const struct {
      .story = {adhesion, NULL, AT(LOAD, 1e-3), AT(APPROACH, 0), 1, NULL,
                "adhesion", attraction, pulled_off}},
     {.name = "leakage", .use = leaks},
+    {.name = "scene", .use = scene},
     {.name = "stress", .use = free_stress},
     {.name = "stress, periodic", .use = periodic_stress},
     {.name = "stress, y repeats", .use = line_stress},

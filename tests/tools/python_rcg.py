@@ -725,6 +725,15 @@ def hostile():
         assert isinstance(error, kind) and words in str(error) and not children(), (more, error)
 
 
+def scenes(name):
+    """A hardness below the largest pressure of rcg.solve() is called for, one above it is negligible."""
+    bodies = {'load': '0.5N', 'E1': '210GPa', 'nu1': 0.3, 'E2': 'rigid', 'quiet': True}
+    most = rcg.solve(name, **bodies).pressure.max()
+    for hardness, verdict in ((1.1 * most, 'negligible'), (0.8 * most, 'calls for it')):
+        effects = rcg.scene(name, hardness=hardness, **bodies)[0]['scene']
+        assert [e['verdict'] for e in effects if e['effect'] == 'hardness'] == [verdict], effects
+
+
 def costs(name):
     """The table of rcg.cost() has the errors of the pressures of rcg.solve()."""
     contact = {'load': '0.5N', 'estar': '114GPa', 'quiet': True}

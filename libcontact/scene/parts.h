@@ -1,0 +1,78 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/*
+ * Shared by the files of this folder. An effect is a row of a table: the data that it needs, and the function
+ * that finds its interval. Internal: never installed.
+ */
+#ifndef RC_SCENE_PARTS_H
+#define RC_SCENE_PARTS_H
+
+#include "libcontact/common.h"
+#include "libcontact/memory.h"
+
+/* A solved contact. */
+struct solved {
+    double *p, *gap, *u; /* Pa, m, m */
+    double *shape;       /* m: heights after unloading; NULL: no hardness */
+    struct rc_contact contact;
+    double stiffness; /* N/m; NAN: not asked for */
+};
+
+struct rc_scene {
+    struct rc_store own; /* the arrays */
+    struct rc_shape shape;
+    size_t n;
+    const double *h;
+    struct rc_scene_data data;
+    struct rc_layer thin; /* body 1, if it is thin */
+    /* problems and contacts: elastic; from which effects are estimated; solved last */
+    struct rc_problem plain, problem, other_problem;
+    struct solved elastic, now, other;
+    size_t computed; /* the effect whose contact is in `other`; SIZE_MAX: none */
+    bool accepted;   /* `now` has a computed effect: low ends of estimates are not known */
+    double convolutions;
+};
+
+struct scene_row {
+    const char *name, *title;
+    const char *needs; /* names of data, "mu speed"; "": none */
+    bool accepts;      /* later effects may be estimated from its contact */
+    enum rc_status (*find)(struct rc_scene *s, struct rc_scene_effect *e, struct rc_err *err);
+};
+
+struct asked {
+    const struct rc_problem *problem;
+    const double *h;   /* NULL: the heights of the scene */
+    double compliance; /* m/Pa, of single nodes, as in rc_model_set_compliance */
+    bool stiffness;    /* its stiffness too */
+};
+/* Solves a contact. RC_SHORT where it does not converge. */
+enum rc_status scene_solve(struct rc_scene *s, const struct asked *asked, struct solved *to,
+                           struct rc_err *err);
+/* Magnitudes of the relative changes of area, largest pressure and approach. */
+void scene_changes(const struct solved *from, const struct solved *to,
+                   double change[RC_SCENE_FIGURES]);
+
+static inline void
+scene_set(struct rc_scene_effect *e, enum rc_scene_figure figure, double low, double high)
+{
+    e->change[figure] = (struct rc_interval){fmax(low, 0), fmax(high, 0)};
+}
+void scene_number(struct rc_scene_effect *e, const char *name, double value);
+
+/* computed.c */
+enum rc_status scene_grid(struct rc_scene *s, struct rc_scene_effect *e, struct rc_err *err);
+enum rc_status scene_tilt(struct rc_scene *s, struct rc_scene_effect *e, struct rc_err *err);
+enum rc_status scene_thin(struct rc_scene *s, struct rc_scene_effect *e, struct rc_err *err);
+enum rc_status scene_coat(struct rc_scene *s, struct rc_scene_effect *e, struct rc_err *err);
+enum rc_status scene_hardness(struct rc_scene *s, struct rc_scene_effect *e, struct rc_err *err);
+enum rc_status scene_slip(struct rc_scene *s, struct rc_scene_effect *e, struct rc_err *err);
+enum rc_status scene_relaxation(struct rc_scene *s, struct rc_scene_effect *e, struct rc_err *err);
+/* estimated.c */
+enum rc_status scene_yield(struct rc_scene *s, struct rc_scene_effect *e, struct rc_err *err);
+enum rc_status scene_adhesion(struct rc_scene *s, struct rc_scene_effect *e, struct rc_err *err);
+enum rc_status scene_wear(struct rc_scene *s, struct rc_scene_effect *e, struct rc_err *err);
+enum rc_status scene_heat(struct rc_scene *s, struct rc_scene_effect *e, struct rc_err *err);
+enum rc_status scene_dissimilar(struct rc_scene *s, struct rc_scene_effect *e, struct rc_err *err);
+enum rc_status scene_sliding(struct rc_scene *s, struct rc_scene_effect *e, struct rc_err *err);
+
+#endif

@@ -1,0 +1,105 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+# rc-scene: verdicts about contacts whose answer is known, from Hertz, Mindlin, the limit of slow sliding and the tools
+# themselves; scaling of lengths and moduli; the commands that it names; refusals.
+. "$(dirname "$0")/../pipe.sh"
+
+# effect NAME FILE: prints the object of an effect in a report of one line.
+effect() { perl -MJSON::PP -e '
+    local $/; my $r = JSON::PP->new->decode(<STDIN>);
+    for (@{$r->{scene}}) { print JSON::PP->new->canonical->encode($_) if $_->{effect} eq $ARGV[0] }' "$1" <"$2"; }
+# of NAME FILE KEY...: prints a member of an effect.
+of() { perl -MJSON::PP -e '
+    local $/; my $r = JSON::PP->new->decode(<STDIN>); my $name = shift;
+    my ($e) = grep { $_->{effect} eq $name } @{$r->{scene}}; $e = $e->{$_} for @ARGV;
+    print defined $e ? $e : "null"' "$1" "${@:3}" <"$2"; }
+scene() { rc-scene --quiet --report - "$@"; }
+
+# ---- Hertz: a steel ball of 7.5 mm under 240 N: p0 2.22 GPa, first yield at 0.62 p0 ----
+
+rc-synth sphere --radius 7.5mm --nx 128 --dx 5um -o ball.rcg
+steel="--E1 210GPa --nu1 0.3 --E2 210GPa --nu2 0.3"
+scene --load 240N $steel --yield 1.40GPa --hardness 2.3GPa --mu 0.3 --tangential 36N \
+    --speed 1um/s --conductivity 50W/mK,50W/mK --diffusivity 14mm2/s,14mm2/s ball.rcg >ball.json
+claim "a ball below first yield is elastic" test "$(of yield ball.json verdict)/$(of yield ball.json basis)" = negligible/exact
+near "$(of yield ball.json numbers mises_over_yield)" 0.983 0.01 "  Mises stress over yield stress, 0.62 p0/1.4 GPa"
+claim "a hardness above p0 changes nothing" test "$(of hardness ball.json verdict)/$(of hardness ball.json basis)" = negligible/exact
+near "$(of slip ball.json numbers stick_fraction)" 0.6300 0.02 "half of the limiting force: 0.5^(2/3) of the contact sticks (Mindlin)"
+near "$(of slip ball.json figures displacement high)" 0.1422 0.005 "  the displacement is 11.02 % above the linear one: 1.2 times this and 1 %"
+near "$(of slip ball.json figures displacement low)" 0.0782 0.005 "  and 0.8 times this less 1 %"
+claim "like bodies do not feel friction" test "$(of dissimilar ball.json verdict)/$(of dissimilar ball.json basis)" = negligible/exact
+# slow sliding: T = 3 pi/8 q a/(2 K), q = mu V P/(pi a^2), a = 227.6 um
+near "$(of heat ball.json numbers temperature_at_rest)" "$(awk 'BEGIN { pi = atan2(0, -1); a = (3 * 240 * 7.5e-3 / (4 * 210e9 / 1.82)) ^ (1 / 3); print 3 * pi / 8 * 0.3 * 1e-6 * 240 / (pi * a * a) * a / 100 }')" 2e-3 \
+    "the temperature of slow sliding is 3 pi/8 of the mean flux times a/(2 K)"
+scene --load 240N $steel --yield 1.33GPa --hardness 2.0GPa ball.rcg >lower.json
+claim "a ball above first yield is not negligible" test "$(of yield lower.json verdict)" != negligible
+claim "a hardness below p0 is called for" test "$(of hardness lower.json verdict)" = "calls for it"
+near "$(of hardness lower.json figures max_pressure high)" "$(awk 'BEGIN { print 1 - 2.0 / 2.2238 }')" 0.01 "  it lowers the largest pressure to the hardness"
+scene --load 240N $steel --mu 0.3 --tangential 80N ball.rcg >slides.json
+claim "a force above mu times the load: the bodies slide" test "$(of slip slides.json verdict)" = "calls for it"
+scene --load 1uN $steel --adhesion 1mJ/m2,exponential,20nm ball.rcg >few.json
+claim "few nodes in contact decide nothing" test "$(of adhesion few.json verdict)" = "not decided"
+claim "  and the table says so" says "nodes in contact; refine the grid first" rc-scene --quiet --load 1uN $steel --adhesion 1mJ/m2,exponential,20nm ball.rcg
+
+# ---- a rough block: the edges ----
+
+rc-synth selfaffine --nx 64 --dx 1um --hurst 0.8 --rms-height 0.3um --rolloff 20um --short-cut 6um --seed 5 -o rough.rcg
+claim "a rough block: the largest pressure is at its edge" warns "no property of the surface" rc-scene --mean-pressure 1GPa --estar 100GPa rough.rcg -o table.txt
+claim "data that are missing are named" grep -q "wear (--coefficient --distance)" table.txt
+
+# ---- relaxation: the contact grows under a constant load as an elastic one with J(t) ----
+
+material="--relaxation 1MPa,9MPa:1ms,2MPa:0.1s --nu1 0.5 --E2 rigid"
+scene --periodic --mean-pressure 20kPa $material --time 10ms rough.rcg >relax.json
+rc-solve --quiet --periodic --mean-pressure 20kPa $material --time 0,10ms --report times.tsv -o x.rcg rough.rcg
+change() { awk -F '\t' -v c="$1" 'NR == 1 { for (i = 1; i <= NF; i++) if ($i == c) at = i } NR == 2 { a = $at } NR == 3 { print $at / a - 1 }' times.tsv; }
+near "$(of relaxation relax.json figures approach high)" "$(change approach/m)" 2e-3 "relaxation changes the approach as rc-solve --time computes it"
+near "$(of relaxation relax.json figures contact_area high)" "$(change contact_area/m2)" 0.01 "  and the area to a node"
+
+# ---- verdicts are those of the tool that computes the effect ----
+
+all="--E1 210GPa --nu1 0.3 --E2 70GPa --nu2 0.33 --mu 0.3 --adhesion 0.1,exponential,8nm --coefficient 1e-9mm3/Nm --distance 10m"
+scene --periodic --mean-pressure 0.2GPa $all --decide 100 rough.rcg >decided.json
+scene --periodic --mean-pressure 0.2GPa $all rough.rcg >plain.json
+rc-solve --quiet --periodic --mean-pressure 0.2GPa --E1 210GPa --nu1 0.3 --E2 70GPa --nu2 0.33 --report e.json -o e.rcg rough.rcg
+rc-wear --quiet --coefficient 1e-9mm3/Nm --distance 10m --report w.json -o x.rcg e.rcg
+worn=$(awk -v a="$(field contact_area w.json)" -v b="$(field contact_area e.json)" 'BEGIN { d = a / b - 1; print d < 0 ? -d : d }')
+between "$(of wear plain.json figures contact_area low)" "$worn" "$(of wear plain.json figures contact_area high)" "the area of a worn contact is in its interval"
+claim "with --decide undecided effects are computed" test "$(of adhesion plain.json verdict)" = "not decided" -a "$(of adhesion decided.json decided)" = 1
+command=$(of adhesion plain.json command 0 >/dev/null; effect adhesion plain.json | perl -MJSON::PP -e 'local $/; print join " ", @{JSON::PP->new->decode(<STDIN>)->{command}}')
+eval "$command --quiet --report own.json -o x.rcg rough.rcg"
+near "$(of adhesion decided.json figures contact_area high)" "$(awk -v a="$(field contact_area own.json)" -v b="$(field contact_area e.json)" 'BEGIN { d = a / b - 1; print d < 0 ? -d : d }')" 1e-6 \
+    "  and its command gives the same change"
+
+# ---- laws ----
+
+verdicts() { perl -MJSON::PP -e 'local $/; my $r = JSON::PP->new->decode(<STDIN>); print join ",", map { $_->{verdict} } sort { $a->{effect} cmp $b->{effect} } @{$r->{scene}}' <"$1"; }
+rc-synth selfaffine --nx 64 --dx 10um --hurst 0.8 --rms-height 3um --rolloff 200um --short-cut 60um --seed 5 -o large.rcg
+large="--E1 210GPa --nu1 0.3 --E2 70GPa --nu2 0.33 --mu 0.3 --adhesion 1,exponential,80nm --coefficient 1e-9mm3/Nm --distance 100m --hardness 3GPa --yield 1GPa"
+scene --periodic --mean-pressure 0.2GPa $all --hardness 3GPa --yield 1GPa rough.rcg >small.json
+scene --periodic --mean-pressure 0.2GPa $large large.rcg >large.json
+claim "ten times larger bodies get the same verdicts" test "$(verdicts small.json)" = "$(verdicts large.json)"
+scene --periodic --mean-pressure 0.2MPa --E1 210MPa --nu1 0.3 --E2 70MPa --nu2 0.33 --mu 0.3 --adhesion 0.1mJ/m2,exponential,8nm \
+    --coefficient 1e-6mm3/Nm --distance 10m --hardness 3MPa --yield 1MPa rough.rcg >soft.json
+claim "bodies that are a thousand times softer too" test "$(verdicts small.json)" = "$(verdicts soft.json)"
+wider() { # a larger bound keeps what is negligible
+    local last= now
+    for bound in 0.001 0.005 0.02 0.1 0.5; do
+        now=$(scene --periodic --mean-pressure 0.2GPa $all --hardness 3GPa --yield 1GPa --within $bound rough.rcg |
+            perl -MJSON::PP -e 'local $/; print join " ", sort map { $_->{verdict} eq "negligible" ? $_->{effect} : () } @{JSON::PP->new->decode(<STDIN>)->{scene}}')
+        for e in $last; do [[ " $now " = *" $e "* ]] || return 1; done
+        last=$now
+    done
+}
+claim "a larger bound leaves what is negligible" wider
+claim "--figures counts only what matters" test "$(scene --load 240N $steel --hardness 2.0GPa --figures approach ball.rcg | tee f.json >/dev/null; of hardness f.json verdict)" = negligible
+rc-scene --quiet --load 100N,240N $steel --hardness 2.0GPa --report list.tsv ball.rcg >two.txt
+claim "each load of a list has its table" test "$(grep -c 'case 1:' two.txt)" = 2
+claim "  and each effect its row" test "$(awk 'END { print NR }' list.tsv)" = 27
+claim "every verdict ends with status 0" scene --load 240N $steel ball.rcg
+
+# ---- refused ----
+
+refuses 2 "difference: give it in K" "a temperature in degC as a bound" "rc-scene --load 1N --estar 1GPa --within-temperature 10degC ball.rcg"
+refuses 2 "two numbers, for body 1 and body 2|it must be" "one conductivity" "rc-scene --load 1N --estar 1GPa --conductivity 45W/mK ball.rcg"
+refuses 2 "compares with a uniform body 1" "a rigid body 1" "rc-scene --load 1N --E1 rigid --layer 1um,1GPa,0.3 --E2 rigid ball.rcg"
+refuses 2 "moduli of body 1 are those of --relaxation" "two moduli of body 1" "rc-scene --load 1N --E1 1GPa --nu1 0.3 --E2 rigid --relaxation 1MPa,2MPa:1s ball.rcg"

@@ -1,0 +1,694 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Which effects a contact calls for: one verdict for each, from one elastic contact. */
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+#include "tools/frames/frames.h"
+#include "tools/problem/problem.h"
+#include "tools/scene/scene.h"
+
+static struct args {
+    struct physics physics;
+    const char *yield, *adhesion, *relaxation, *conductivity, *coefficient, *moving, *report,
+        *within_temperature;
+    struct numbers diffusivity;
+    double mu, tangential, speed, time, distance, thickness;
+    double within, within_friction, decide;
+    size_t figures;
+    bool dry_run;
+} args = {.physics = PHYSICS_NONE,
+          .mu = NAN,
+          .tangential = NAN,
+          .speed = NAN,
+          .time = NAN,
+          .distance = NAN,
+          .thickness = NAN,
+          .within = 0.01,
+          .within_friction = 0.01,
+          .decide = NAN};
+
+static const char *const figure_words[] = {"area",        "pressure", "approach", "displacement",
+                                           "temperature", "friction", NULL};
+static const char *const moving_words[] = {"1", "2", NULL};
+
+#define AT(field) .at = offsetof(struct args, field)
+#define ABOVE_0 .min = 0, .max = INFINITY, .above = true, .result = true
+/* clang-format off */
+static const struct opt opts[] = {
+    {.group = physics_options, .at = offsetof(struct args, physics), .title = "the elastic contact"},
+    {.title = "data of the effects"},
+    {.name = "thickness", .type = OPT_NUMBER, .unit = UNIT_M, AT(thickness), ABOVE_0, .arg = "LENGTH",
+     .help = "thin body: thickness of body 1 on a rigid base"},
+    {.name = "yield", .type = OPT_TEXT, AT(yield), .result = true, .arg = "Y",
+     .help = "yield in the volume: yield stress of body 1"},
+    {.name = "adhesion", .type = OPT_TEXT, AT(adhesion), .result = true, .arg = "WORK[,LAW[,RANGE]]",
+     .help = "adhesion: work, law and range of the attraction, as for rc-solve"},
+    {.name = "mu", .type = OPT_NUMBER, AT(mu), ABOVE_0, .arg = "COEFFICIENT",
+     .help = "coefficient of friction: partial slip, dissimilar bodies, heat"},
+    {.name = "tangential", .type = OPT_NUMBER, .unit = UNIT_N, AT(tangential), ABOVE_0, .arg = "FORCE",
+     .help = "partial slip: the tangential force"},
+    {.name = "speed", .type = OPT_NUMBER, .unit = UNIT_SPEED, AT(speed), ABOVE_0, .arg = "V",
+     .help = "sliding speed along x: heat, sliding on rubber"},
+    {.name = "time", .type = OPT_NUMBER, .unit = UNIT_S, AT(time), ABOVE_0, .arg = "TIME",
+     .help = "time since the load acts and heat flows: relaxation, heat"},
+    {.name = "conductivity", .type = OPT_TEXT, AT(conductivity), .result = true, .arg = "K1,K2",
+     .help = "heat: thermal conductivities of both bodies, as in 45W/mK,16W/mK"},
+    {.name = "diffusivity", .type = OPT_NUMBERS, .unit = UNIT_DIFFUSIVITY, AT(diffusivity), ABOVE_0,
+     .arg = "A1,A2", .help = "heat: thermal diffusivities of both bodies"},
+    {.name = "moving", .type = OPT_CHOICE, AT(moving), .list = moving_words, .result = true, .arg = "1|2",
+     .help = "heat: the body that moves past the contact (default 2)"},
+    {.name = "coefficient", .type = OPT_TEXT, AT(coefficient), .result = true, .arg = "K1[,K2]",
+     .help = "wear: coefficients of body 1 and body 2, in mm3/Nm, m2/N or 1/GPa"},
+    {.name = "distance", .type = OPT_NUMBER, .unit = UNIT_M, AT(distance), ABOVE_0, .arg = "LENGTH",
+     .help = "wear: the sliding distance"},
+    {.name = "relaxation", .type = OPT_TEXT, AT(relaxation), .result = true, .arg = "EINF,E1:TAU1,...|FILE",
+     .against = RULES({.with = "E1 MODULUS", .because = "the moduli of body 1 are those of --relaxation"},
+                      {.with = "estar", .because = "body 1 needs its Poisson's ratio"}),
+     .help = "relaxation, sliding on rubber: the relaxation modulus of body 1, instead of --E1"},
+    {.title = "verdicts"},
+    {.name = "within", .type = OPT_NUMBER, AT(within), ABOVE_0, .arg = "CHANGE",
+     .help = "relative change that does not matter (default 0.01)"},
+    {.name = "within-temperature", .type = OPT_TEXT, AT(within_temperature), .result = true,
+     .arg = "KELVIN", .help = "rise of the temperature that does not matter, a difference in K (default 10)"},
+    {.name = "within-friction", .type = OPT_NUMBER, AT(within_friction), ABOVE_0, .arg = "CHANGE",
+     .help = "change of the coefficient of friction that does not matter (default 0.01)"},
+    {.name = "figures", .type = OPT_WORDS, AT(figures), .list = figure_words, .result = true, .arg = "LIST",
+     .help = "figures that matter, of %s (default: all)"},
+    {.name = "decide", .type = OPT_NUMBER, .unit = UNIT_S, AT(decide), ABOVE_0, .arg = "TIME",
+     .help = "compute each undecided effect that is expected to take less than this time"},
+    {.title = "output"},
+    {.name = "report", .type = OPT_REPORT, AT(report), .arg = "FILE",
+     .help = "write one JSON object per case, or a row of FILE.tsv or .csv for each effect"},
+    {.name = "dry-run", .type = OPT_FLAG, AT(dry_run), .text = true,
+     .help = "print the expected memory and time, and stop"},
+    {.name = NULL},
+};
+/* clang-format on */
+
+static const struct rc_figure figures[] = {
+    {.name = "within", .title = "Change that does not matter"},
+    {.name = "low", .title = "Least change over the bound"},
+    {.name = "high", .title = "Largest change over the bound"},
+    {.name = "forecast_seconds", .unit = "s", .title = "Expected time of the effect"},
+    {0},
+};
+
+static const struct tool_info info = {
+    .name = "rc-scene",
+    .summary = "Which effects a contact calls for",
+    .operands = "[FILE...]",
+    .examples =
+        "  rc-scene --load 5N --E1 210GPa --nu1 0.3 --E2 70GPa --nu2 0.33 --hardness 3GPa \\\n"
+        "      --yield 1GPa --mu 0.3 --coefficient 1e-6mm3/Nm --distance 10m surface.rcg\n",
+    .opts = opts,
+    .figures = (const char *const[]){"contact", NULL},
+    .own = figures,
+    .reads = READS_STREAM,
+    .writes = WRITES_TEXT,
+};
+
+struct run {
+    struct tool t;
+    struct report report;
+    struct rc_scene_data data;
+    struct rc_scene_bounds bounds;
+    struct relaxation_law material;
+    struct adhesion_law adhesion;
+};
+
+/* A verdict with all that is printed of it. */
+struct line {
+    struct rc_scene_effect effect;
+    enum rc_scene_verdict verdict;
+    enum rc_scene_figure figure;
+    struct scene_command command;
+    struct rc_contact base; /* with which it is compared */
+    const char *with;       /* options of effects accepted before */
+    bool commanded, decided;
+    double seconds, convolutions; /* forecast; NAN: unknown */
+    char why[160];
+};
+enum {
+    LINES = 24
+};
+
+/* ---- the command line ---- */
+
+static void
+read_numbers(struct tool *t, const char *name, const char *text, enum unit unit, size_t least,
+             double to[2])
+{
+    struct numbers list;
+
+    if (unit_numbers(text, unit, &list, &t->err) != RC_OK)
+        tool_usage(t, "--%s %s: %s", name, text, t->err.text);
+    if (list.n < least || list.n > 2)
+        tool_usage(t, "--%s %s: it must be %s", name, text,
+                   least == 2 ? "two numbers, for body 1 and body 2" : "one number or two");
+    for (size_t k = 0; k < list.n; k++) {
+        if (!(list.v[k] >= 0) || isinf(list.v[k]))
+            tool_usage(t, "--%s %s: the numbers must not be negative", name, text);
+        to[k] = list.v[k];
+    }
+    free(list.v);
+}
+
+static void
+read_conductivities(struct tool *t, double k[2])
+{
+    const char *of;
+
+    if (unit_conductivities(args.conductivity, k, &of, &t->err) != RC_OK)
+        tool_usage(t, "--conductivity %s: %s", args.conductivity, t->err.text);
+    if (of != NULL && strcmp(of, "W/K") != 0)
+        tool_usage(t, "--conductivity %s: it must be thermal, in W/mK", args.conductivity);
+}
+
+/* A difference of temperatures: 10degC would be read as 283 K. */
+static double
+read_difference(struct tool *t)
+{
+    double v = 10;
+
+    if (args.within_temperature == NULL)
+        return v;
+    if (strstr(args.within_temperature, "C") != NULL)
+        tool_usage(t, "--within-temperature %s: it is a difference: give it in K, as in 10K",
+                   args.within_temperature);
+    if (unit_number(args.within_temperature, UNIT_K, &v, &t->err) != RC_OK || !(v > 0))
+        tool_usage(t, "--within-temperature %s: it must be above 0, as in 10K",
+                   args.within_temperature);
+    return v;
+}
+
+static double
+known(double v)
+{
+    return isnan(v) ? 0 : v;
+}
+
+static void
+read_data(struct run *run)
+{
+    struct tool *t = &run->t;
+    struct physics *a = &args.physics;
+    struct rc_scene_data *d = &run->data;
+    double worn[2] = {0, 0};
+
+    if (args.relaxation != NULL) {
+        if (relaxation_law_read(&run->material, args.relaxation, 1, &t->err) != RC_OK)
+            tool_usage(t, "--relaxation %s: %s", args.relaxation, t->err.text);
+        a->relaxes = 1 / run->material.material->instant;
+        d->material = run->material.material;
+    }
+    physics_check(t, a);
+    if (isinf(a->e1))
+        tool_usage(t, "--E1 rigid: rc-scene compares with a uniform body 1: give its modulus, and "
+                      "--thickness for a thin one");
+    d->hardness = isinf(a->hardness) ? 0 : a->hardness;
+    d->layers = a->layer.n;
+    d->layer = a->layers;
+    d->thickness = known(args.thickness);
+    if (args.yield != NULL) {
+        double y[2] = {0, 0};
+        read_numbers(t, "yield", args.yield, UNIT_PA, 1, y);
+        d->yield = y[0];
+    }
+    if (args.adhesion != NULL) {
+        if (adhesion_law_read(&run->adhesion, args.adhesion, &t->err) != RC_OK)
+            tool_usage(t, "--adhesion %s: %s", args.adhesion, t->err.text);
+        d->work = run->adhesion.problem.work;
+        d->law = run->adhesion.problem.law;
+        d->range = run->adhesion.problem.range;
+    }
+    d->mu = known(args.mu);
+    d->tangential = known(args.tangential);
+    d->speed = known(args.speed);
+    d->time = known(args.time);
+    d->distance = known(args.distance);
+    if (args.coefficient != NULL) {
+        read_numbers(t, "coefficient", args.coefficient, UNIT_WEAR, 1, worn);
+        d->wear = worn[0] + worn[1];
+    }
+    if (args.conductivity != NULL)
+        read_conductivities(t, d->conductivity);
+    if (args.diffusivity.n > 0) {
+        if (args.diffusivity.n != 2)
+            tool_usage(t, "--diffusivity: give two numbers, for body 1 and body 2");
+        memcpy(d->diffusivity, args.diffusivity.v, sizeof d->diffusivity);
+    }
+    d->moving = args.moving != NULL && strcmp(args.moving, "1") == 0 ? 1 : 2;
+    run->bounds = (struct rc_scene_bounds){.relative = args.within,
+                                           .temperature = read_difference(t),
+                                           .friction = args.within_friction,
+                                           .figures = (unsigned)args.figures};
+}
+
+/* ---- one case ---- */
+
+/* A nameless file that is deleted when it is closed. */
+static int
+file_of(struct tool *t)
+{
+    FILE *file = tmpfile();
+    int own;
+
+    if (file == NULL || (own = dup(fileno(file))) < 0)
+        tool_die(t, "no temporary file can be made: set TMPDIR to a folder with room");
+    fclose(file);
+    return own;
+}
+
+static void
+write_heights(struct tool *t, const struct rc_grid *g, int to)
+{
+    FILE *file = fdopen(dup(to), "wb");
+    RC_OWN(rc_writer, w) = file == NULL ? NULL : rc_writer_new(file, &t->err);
+
+    if (w == NULL || rc_writer_put(w, g, &t->err) != RC_OK || rc_writer_end(w, &t->err) != RC_OK)
+        tool_die(t, "the heights cannot be passed on: %s", t->err.text);
+    if (fclose(file) != 0)
+        tool_die(t, "the heights cannot be passed on: set TMPDIR to a folder with room");
+}
+
+/* Solves the elastic contact by rc-solve, as the input of other programs. */
+static bool
+solve_contact(struct run *run, const struct scene_command *any, int in, int out)
+{
+    const char *word[SCENE_WORDS];
+    struct process process = {.in = in, .out = out, .allowed = 1e9, .doing = "elastic contact"};
+    size_t n = 0;
+    enum process_end end;
+
+    for (size_t k = 0; any->word[0][k] != NULL; k++)
+        word[n++] = any->word[0][k];
+    word[n++] = "--quiet";
+    word[n] = NULL;
+    end = process_run(&run->t, word, &process);
+    free(process.said);
+    if (end == PROCESS_INTERRUPTED)
+        tool_die(&run->t, "interrupted");
+    return end == PROCESS_ENDED;
+}
+
+/* The verdict by a computed change. */
+static void
+decide(struct run *run, struct line *l, const struct rc_contact *c, const struct scene_found *found)
+{
+    const double before[] = {c->contact_area, c->max_pressure, c->approach};
+    struct rc_scene_effect e = l->effect;
+    bool any = false;
+
+    for (int f = 0; f < RC_SCENE_FIGURES; f++) {
+        const double v = found->figure[f], change = f < 3 ? fabs(v / before[f] - 1) : fabs(v);
+        e.change[f] = (struct rc_interval){NAN, NAN};
+        if (isnan(v))
+            continue;
+        e.change[f] = (struct rc_interval){change, change};
+        any = true;
+    }
+    if (!any || !found->converged)
+        return;
+    e.basis = RC_SCENE_COMPUTED;
+    e.unfit[0] = '\0';
+    l->effect = e;
+    l->verdict = rc_scene_judge(&e, &run->bounds, &l->figure);
+    l->decided = true;
+}
+
+static void
+name_commands(struct run *run, const struct rc_grid *g, struct line line[], size_t n,
+              const char *const load[2])
+{
+    RC_OWNED char *body = tool_room(&run->t, 4, RC_NUMBER_SIZE, "a command");
+    int in = file_of(&run->t), contact = -1;
+
+    snprintf(body, 4 * RC_NUMBER_SIZE, "%s,%s,%s", rc_number(run->data.thickness),
+             rc_number(args.physics.pair.one.e), rc_number(args.physics.pair.one.nu));
+    write_heights(&run->t, g, in);
+    for (size_t k = 0; k < n; k++) {
+        struct line *l = &line[k];
+        struct scene_found found;
+
+        l->seconds = l->convolutions = NAN;
+        if (l->verdict == RC_SCENE_NEGLIGIBLE || l->verdict == RC_SCENE_MISSING)
+            continue;
+        l->commanded = scene_command(&run->t, l->effect.name, load, body, l->with, &l->command);
+        if (!l->commanded)
+            continue;
+        if (l->command.programs > 1 && contact < 0) {
+            contact = file_of(&run->t);
+            if (!solve_contact(run, &l->command, in, contact))
+                continue;
+        }
+        if (!scene_run(&run->t, &l->command, l->effect.name, in, contact, true, &found, l->why))
+            continue;
+        l->seconds = found.seconds;
+        l->convolutions = found.convolutions;
+        if (l->verdict == RC_SCENE_UNDECIDED && l->seconds < args.decide &&
+            scene_run(&run->t, &l->command, l->effect.name, in, contact, false, &found, l->why))
+            decide(run, l, &l->base, &found);
+    }
+    close(in);
+    if (contact >= 0)
+        close(contact);
+}
+
+/* ---- output ---- */
+
+static const char *const plain_names[RC_SCENE_FIGURES] = {
+    "contact area", "largest pressure",       "approach", "tangential displacement",
+    "temperature",  "coefficient of friction"};
+
+/* "12 %", "8.8 K". */
+static const char *
+amount(enum rc_scene_figure figure, double v, char text[SHOWN_NUMBER])
+{
+    if (figure == RC_SCENE_TEMPERATURE)
+        snprintf(text, SHOWN_NUMBER, "%.3g K", v);
+    else if (figure == RC_SCENE_FRICTION)
+        snprintf(text, SHOWN_NUMBER, "%.2g", v);
+    else if (v < 0.1)
+        snprintf(text, SHOWN_NUMBER, "%.2g %%", 100 * v);
+    else if (v < 10)
+        snprintf(text, SHOWN_NUMBER, "%.0f %%", 100 * v);
+    else
+        snprintf(text, SHOWN_NUMBER, "%.3g times", v);
+    return text;
+}
+
+static void
+print_change(const struct line *l, FILE *out)
+{
+    const struct rc_interval *c = &l->effect.change[l->figure];
+    char low[SHOWN_NUMBER], high[SHOWN_NUMBER];
+    const char *what = plain_names[l->figure], *name = l->effect.name;
+    double most = 0;
+
+    for (int f = 0; f < RC_SCENE_FIGURES; f++)
+        most = fmax(most, isnan(l->effect.change[f].high) ? 0 : l->effect.change[f].high);
+    fprintf(out, "%s", rc_scene_verdict_names[l->verdict]);
+    if (l->effect.unfit[0] != '\0')
+        fprintf(out, ": %s", l->effect.unfit);
+    else if (isinf(most) && strcmp(name, "slip") == 0)
+        fputs(": the bodies slide, the force is above mu times the load", out);
+    else if (isinf(most))
+        fputs(": it cannot carry the load", out);
+    else if (most == 0)
+        fputs(": changes nothing", out);
+    else if (l->effect.basis != RC_SCENE_EXACT && l->effect.nodes < 20)
+        fprintf(out, ": %zu nodes in contact; refine the grid first", l->effect.nodes);
+    else if (l->verdict == RC_SCENE_NEGLIGIBLE)
+        fprintf(out, ": changes the %s by at most %s", what, amount(l->figure, c->high, high));
+    else if (c->high - c->low < 0.02 * c->high)
+        fprintf(out, ": changes the %s by %s", what, amount(l->figure, c->high, high));
+    else if (c->low == 0)
+        fprintf(out, ": changes the %s by up to %s", what, amount(l->figure, c->high, high));
+    else
+        fprintf(out, ": changes the %s by %s to %s", what, amount(l->figure, c->low, low),
+                amount(l->figure, c->high, high));
+    if (l->decided)
+        fputs(" (computed)", out);
+    fputc('\n', out);
+}
+
+static void
+print_warnings(struct run *run, const struct rc_grid *g, const struct rc_contact *c,
+               const double *p, double estar)
+{
+    const struct rc_boundary b = args.physics.boundary;
+    const double strain = 0.1, part = 0.01;
+    size_t least, most;
+    bool edge;
+
+    rc_extremes(g->nx * g->ny, p, &least, &most);
+    edge = (!b.x && g->nx > 1 && (most % g->nx == 0 || most % g->nx == g->nx - 1)) ||
+           (!b.y && g->ny > 1 && (most / g->nx == 0 || most / g->nx == g->ny - 1));
+    if (edge || c->edge_load_fraction > part)
+        tool_warn(&run->t,
+                  "%s: %s: the largest pressure is no property of the surface: take a larger map, "
+                  "a smaller load, or --periodic if the surface repeats",
+                  tool_where(&run->t, g),
+                  edge ? "the largest pressure is at the edge of the map"
+                       : "the contact reaches the edge of the map");
+    if (c->max_pressure > strain * estar)
+        tool_warn(&run->t,
+                  "%s: the largest pressure, %s, is %.2g of E*: beyond 0.1 a solid is not linear "
+                  "elastic",
+                  tool_where(&run->t, g), shown_in_unit(c->max_pressure, "Pa"),
+                  c->max_pressure / estar);
+}
+
+/* The verdicts in the order of the table: what limits the others, then effects that are called for, the
+ * largest first, undecided ones, negligible ones. */
+static double
+rank_of(const struct line *l)
+{
+    const double grid = strcmp(l->effect.name, "grid") == 0 && l->verdict != RC_SCENE_NEGLIGIBLE;
+    const double high = l->effect.change[l->figure].high;
+
+    return grid ? -1 : l->verdict + 1 / (2 + (isnan(high) ? 0 : fmin(high, 1e9)));
+}
+
+/* Of pointers: a command points into its line. */
+static int
+by_rank(const void *a, const void *b)
+{
+    const double x = rank_of(*(struct line *const *)a), y = rank_of(*(struct line *const *)b);
+
+    return (x > y) - (x < y);
+}
+
+static void
+print_table(struct run *run, const struct rc_grid *g, const struct rc_contact *c,
+            struct line *const line[], size_t n, const char *file)
+{
+    FILE *out = run->t.output.file;
+    bool first = true;
+
+    fprintf(out, "%s, case %zu: %zu x %zu nodes, %s, contact %.3g %%, largest pressure %s",
+            rc_grid_get(g, "source") == NULL ? file : rc_grid_get(g, "source"), rc_grid_case(g),
+            g->nx, g->ny, shown_in_unit(c->load, "N"), 100 * c->contact_fraction,
+            shown_in_unit(c->max_pressure, "Pa"));
+    if (isfinite(c->approach))
+        fprintf(out, ", approach %s", shown_in_unit(c->approach, "m"));
+    fputc('\n', out);
+    for (size_t k = 0; k < n; k++) {
+        if (line[k]->verdict == RC_SCENE_MISSING)
+            continue;
+        fprintf(out, "  %-30s ", line[k]->effect.title);
+        print_change(line[k], out);
+        if (!line[k]->commanded || line[k]->decided)
+            continue;
+        fputs("      ", out);
+        scene_show(&line[k]->command, file, out);
+        if (!isnan(line[k]->seconds))
+            fprintf(out, "   (about %.2g s)", line[k]->seconds);
+        fputc('\n', out);
+    }
+    for (size_t k = 0; k < n; k++) {
+        const char *needs = line[k]->effect.missing;
+        if (line[k]->verdict != RC_SCENE_MISSING)
+            continue;
+        fprintf(out, "%s%s (", first ? "  data missing: " : ", ", line[k]->effect.title);
+        for (const char *at = needs; *at != '\0'; at += strspn(at, " ")) {
+            fprintf(out, "%s--%.*s", at == needs ? "" : " ", (int)strcspn(at, " "), at);
+            at += strcspn(at, " ");
+        }
+        fputc(')', out);
+        first = false;
+    }
+    fputs(first ? "" : "\n", out);
+}
+
+static void
+put_effect(struct report *r, const struct line *l, const char *name)
+{
+    report_object(r, name);
+    report_text(r, "effect", l->effect.name);
+    report_text(r, "verdict", rc_scene_verdict_names[l->verdict]);
+    report_text(r, "basis",
+                l->verdict == RC_SCENE_MISSING ? NULL : rc_scene_basis_names[l->effect.basis]);
+    report_text(r, "missing", l->effect.missing);
+    report_text(r, "unfit", l->effect.unfit[0] == '\0' ? NULL : l->effect.unfit);
+    report_bool(r, "decided", l->decided);
+    report_object(r, "figures");
+    for (int f = 0; f < RC_SCENE_FIGURES; f++)
+        if (!isnan(l->effect.change[f].high)) {
+            report_object(r, rc_scene_figure_names[f]);
+            report_number(r, "low", l->effect.change[f].low, NULL);
+            report_number(r, "high", l->effect.change[f].high, NULL);
+            report_end(r);
+        }
+    report_end(r);
+    report_object(r, "numbers");
+    for (int k = 0; k < RC_SCENE_NUMBERS && l->effect.number_name[k] != NULL; k++)
+        report_number(r, l->effect.number_name[k], l->effect.number[k], NULL);
+    report_end(r);
+    report_array(r, "command");
+    for (size_t p = 0; l->commanded && p < l->command.programs; p++) {
+        if (p > 0)
+            report_text(r, NULL, "|");
+        for (size_t k = 0; l->command.word[p][k] != NULL; k++)
+            report_text(r, NULL, l->command.word[p][k]);
+    }
+    report_end(r);
+    report_number(r, "forecast_convolutions", l->convolutions, NULL);
+    report_number(r, "forecast_seconds", l->seconds, "s");
+    report_end(r);
+}
+
+static void
+put_report(struct run *run, const struct rc_grid *g, const struct rc_scene *s,
+           const struct rc_contact *c, struct line *const line[], size_t n, double seconds)
+{
+    struct report *r = &run->report;
+
+    if (r->separator != 0) { /* a row for each effect */
+        for (size_t k = 0; k < n; k++) {
+            const struct rc_interval *at = &line[k]->effect.change[line[k]->figure];
+            report_begin(r);
+            report_map(r, g, rc_grid_case(g));
+            report_number(r, "load", c->load, "N");
+            report_text(r, "effect", line[k]->effect.name);
+            report_text(r, "verdict", rc_scene_verdict_names[line[k]->verdict]);
+            report_text(r, "figure", rc_scene_figure_names[line[k]->figure]);
+            report_number(r, "low", at->low, NULL);
+            report_number(r, "high", at->high, NULL);
+            report_number(r, "forecast_seconds", line[k]->seconds, "s");
+            report_finish_row(r);
+        }
+        return;
+    }
+    report_begin(r);
+    report_map(r, g, rc_grid_case(g));
+    boundary_report(r, g, args.physics.boundary);
+    report_number(r, "load", c->load, "N");
+    report_number(r, "within", args.within, NULL);
+    report_number(r, "contact_area", c->contact_area, "m2");
+    report_number(r, "contact_fraction", c->contact_fraction, NULL);
+    report_number(r, "max_pressure", c->max_pressure, "Pa");
+    report_number(r, "approach", c->approach, "m");
+    report_count(r, "contact_nodes", c->contact_nodes, NULL);
+    report_number(r, "pressure_error_estimate", c->pressure_error, NULL);
+    report_array(r, "scene");
+    for (size_t k = 0; k < n; k++)
+        put_effect(r, line[k], NULL);
+    report_end(r);
+    report_number(r, "convolutions", rc_scene_convolutions(s), NULL);
+    report_seconds(r, (const struct report_phase[]){{NULL, 0}}, seconds);
+    report_memory(r);
+    report_finish_row(r);
+}
+
+/* Contacts that the rows solve beside the elastic one, some more than one. */
+static void
+show_plan(struct run *run, const struct rc_grid *g, size_t step)
+{
+    const struct rc_scene_data *d = &run->data;
+    struct rc_problem problem = physics_problem(&args.physics, g, step);
+    struct rc_expected expected;
+    const struct plan plan = plan_begin(&run->t, &run->report, g, rc_grid_case(g),
+                                        rc_boundary_word(args.physics.boundary), "");
+    const bool one[] = {
+        d->hardness > 0,   d->layers > 0,       d->thickness > 0,
+        d->tangential > 0, d->wear > 0,         d->work > 0,
+        d->work > 0,       d->material != NULL, d->speed > 0 && d->material != NULL};
+    size_t contacts = 2; /* with a free tilt */
+
+    for (size_t k = 0; k < sizeof one / sizeof *one; k++)
+        contacts += one[k];
+    problem.threads = run->t.threads;
+    problem.discretization = true;
+    problem.hardness = 0;
+    problem.pair.one.layers = 0;
+    tool_must(&run->t, g, rc_solver_expect(rc_shape_of(g), &problem, &expected, &run->t.err));
+    plan_say(&plan, "contacts", "%zu", contacts);
+    plan_end(&plan, expected.convolutions * (double)contacts, "",
+             expected.seconds * (double)contacts,
+             tool_memory_with(expected.memory +
+                              12 * rc_grid_nodes(g) * sizeof *g->v)); /* maps of three contacts */
+}
+
+static void
+do_load(struct run *run, const struct rc_grid *g, size_t step)
+{
+    static struct line line[LINES];
+    struct line *sorted[LINES];
+    struct tool *t = &run->t;
+    const struct numbers *steps = physics_steps(&args.physics);
+    const double began = tool_now();
+    struct rc_problem problem = physics_problem(&args.physics, g, step);
+    char value[64];
+    const char *const load[2] = {args.physics.load.n > 0            ? "--load"
+                                 : args.physics.mean_pressure.n > 0 ? "--mean-pressure"
+                                                                    : "--approach",
+                                 value};
+    struct rc_contact contact;
+    const char *with = "";
+    size_t n = 0;
+
+    if (args.physics.load.per_metre)
+        snprintf(value, sizeof value, "%sN/m", rc_number(steps->v[step]));
+    else
+        scene_number_in_unit(steps->v[step],
+                             args.physics.load.n > 0            ? UNIT_N
+                             : args.physics.mean_pressure.n > 0 ? UNIT_PA
+                                                                : UNIT_M,
+                             value);
+    problem.threads = t->threads;
+    problem.tol = 1e-4;
+    struct rc_scene *s =
+        tool_made(t, g, rc_scene_new(rc_shape_of(g), g->v, &problem, &run->data, &t->err));
+
+    contact = *rc_scene_contact(s);
+    print_warnings(run, g, &contact, rc_scene_pressure(s), args.physics.surface_estar);
+    for (size_t k = 0; rc_scene_name(k) != NULL && n < LINES; k++, n++) {
+        struct line *l = &line[n];
+        *l = (struct line){.seconds = NAN, .convolutions = NAN, .with = ""};
+        tool_progress(t, (double)k / 13, "%s", rc_scene_name(k));
+        l->base = strcmp(rc_scene_name(k), "yield") == 0 ? contact : *rc_scene_contact(s);
+        tool_must(t, g, rc_scene_estimate(s, k, &l->effect, &t->err));
+        l->verdict = rc_scene_judge(&l->effect, &run->bounds, &l->figure);
+        l->with = with;
+        if (l->verdict == RC_SCENE_CALLS) {
+            rc_scene_accept(s, k);
+            with = strcmp(rc_scene_name(k), "coat") == 0       ? "layer"
+                   : strcmp(rc_scene_name(k), "hardness") != 0 ? with
+                   : strcmp(with, "layer") == 0                ? "layer hardness"
+                                                               : "hardness";
+        }
+    }
+    tool_progress_end(t);
+    name_commands(run, g, line, n, load);
+    for (size_t k = 0; k < n; k++)
+        sorted[k] = &line[k];
+    qsort(sorted, n, sizeof *sorted, by_rank);
+    if (!t->output.report_alone)
+        print_table(run, g, &contact, sorted, n, t->input.source);
+    if (report_wanted(&run->report))
+        put_report(run, g, s, &contact, sorted, n, tool_now() - began);
+    rc_scene_free(s);
+}
+
+int
+main(int argc, char **argv)
+{
+    static struct run run;
+    struct rc_grid *g;
+
+    tool_start(&run.t, &info, argc, argv, &args);
+    read_data(&run);
+    report_open(&run.report, &run.t, args.report);
+    while ((g = tool_channel(&run.t, "height", false)) != NULL) {
+        physics_heights(&run.t, &args.physics, g);
+        for (size_t k = 0; k < physics_steps(&args.physics)->n; k++)
+            (args.dry_run ? show_plan : do_load)(&run, g, k);
+        rc_grid_free(g);
+    }
+    report_close(&run.report);
+    rc_relaxation_free(run.material.material);
+    return tool_finish(&run.t);
+}

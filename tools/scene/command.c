@@ -1,0 +1,274 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Commands that compute an effect: what they need, their forecasts and their results. */
+#include "scene.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+/* The options that follow those of the contact, and a second program with its options. Words that are no
+ * names of options of rc-scene are taken as they are. */
+static const struct {
+    const char *effect, *solve, *program, *options;
+    bool relaxes; /* --relaxation has the modulus of body 1 */
+    /* names of the figures in the report of the last program, in the order of enum rc_scene_figure */
+    const char *figure[RC_SCENE_FIGURES];
+} rows[] = {
+    {.effect = "grid", .solve = "--discretization"},
+    {.effect = "tilt",
+     .solve = "--tilt free",
+     .figure = {"contact_area", "max_pressure", "approach"}},
+    {.effect = "thin", .solve = "", .figure = {"contact_area", "max_pressure", "approach"}},
+    {.effect = "coat", .solve = "layer", .figure = {"contact_area", "max_pressure", "approach"}},
+    {.effect = "hardness",
+     .solve = "hardness",
+     .figure = {"contact_area", "max_pressure", "approach"}},
+    {.effect = "slip", .solve = "", .program = "rc-slip", .options = "mu tangential"},
+    {.effect = "relaxation",
+     .solve = "relaxation time",
+     .relaxes = true,
+     .figure = {"contact_area", "max_pressure", "approach"}},
+    {.effect = "yield",
+     .solve = "yield",
+     .figure = {"contact_area", "max_pressure", "indentation"}},
+    {.effect = "adhesion",
+     .solve = "adhesion",
+     .figure = {"contact_area", "max_pressure", "approach"}},
+    {.effect = "wear",
+     .solve = "",
+     .program = "rc-wear",
+     .options = "coefficient distance",
+     .figure = {"contact_area", "max_pressure"}},
+    {.effect = "heat",
+     .solve = "",
+     .program = "rc-heat",
+     .options = "mu speed conductivity diffusivity moving time",
+     .figure = {[RC_SCENE_TEMPERATURE] = "max_temperature"}},
+    {.effect = "dissimilar",
+     .solve = "--output pressure,gap,height",
+     .program = "rc-slip",
+     .options = "mu --coupling full --tangential 0N"},
+    {.effect = "sliding", .solve = "relaxation speed", .relaxes = true},
+};
+static const char contact_options[] =
+    "estar E1 nu1 E2 nu2 radius cylinder periodic datum"; /* of the contact, without its load */
+
+static size_t
+row_of(const char *effect)
+{
+    size_t k = 0;
+
+    while (k < sizeof rows / sizeof *rows && strcmp(rows[k].effect, effect) != 0)
+        k++;
+    return k;
+}
+
+/* ---- words ---- */
+
+const char *
+scene_number_in_unit(double value, enum unit unit, char text[64])
+{
+    static const char *const units[] = {
+        [UNIT_M] = "m", [UNIT_N] = "N", [UNIT_PA] = "Pa", [UNIT_HARD] = "Pa"};
+    double again;
+    size_t n = 0;
+    struct rc_err err;
+
+    if (unit < sizeof units / sizeof *units && units[unit] != NULL) {
+        for (const char *at = shown_in_unit(value, units[unit]); *at != '\0' && n < 60; at++)
+            if (*at != ' ')
+                text[n++] = *at;
+        text[n] = '\0';
+        if (unit_number(text, unit, &again, &err) == RC_OK && again == value)
+            return text;
+    }
+    snprintf(text, 64, "%s", rc_number(value));
+    return text;
+}
+
+/* Adds an option of rc-scene, if it was given, as `--name value`. */
+static void
+add_option(struct tool *t, const char *name, const char **word, char (*text)[96], size_t *n)
+{
+    for (size_t k = 0; k < t->option.n; k++) {
+        const struct opt *o = &t->option.row[k];
+        char pretty[64];
+        const char *value;
+        if (o->name == NULL || strcmp(o->name, name) != 0 || !t->option.given[k] ||
+            *n + 3 >= SCENE_WORDS)
+            continue;
+        if (o->type == OPT_TEXTS) { /* --layer, once for each */
+            const struct steps *steps = tool_value(t, o);
+            for (size_t i = 0; i < steps->n && *n + 3 < SCENE_WORDS; i++) {
+                snprintf(text[*n], sizeof *text, "--%s", name);
+                word[*n] = text[*n];
+                word[*n + 1] = steps->step[i].text;
+                *n += 2;
+            }
+            continue;
+        }
+        value = o->type == OPT_NUMBER && !isinf(*(double *)tool_value(t, o))
+                    ? scene_number_in_unit(*(double *)tool_value(t, o), o->unit, pretty)
+                    : tool_result_value(t, k);
+        if (o->optional && value[0] != '\0' && strcmp(value, "yes") != 0)
+            snprintf(text[*n], sizeof *text, "--%s=%s", name, value);
+        else
+            snprintf(text[*n], sizeof *text, "--%s", name);
+        word[*n] = text[*n];
+        ++*n;
+        if (o->optional || o->type == OPT_FLAG)
+            continue;
+        snprintf(text[*n], sizeof *text, "%s", value);
+        word[*n] = text[*n];
+        ++*n;
+    }
+}
+
+/* Adds the words of a row: names of options, or words as they are. */
+static void
+add_words(struct tool *t, const char *words, bool relaxes, const char **word, char (*text)[96],
+          size_t *n)
+{
+    bool plain = false; /* the word before was one as it is */
+
+    for (const char *at = words; *at != '\0'; at += strspn(at, " ")) {
+        const size_t length = strcspn(at, " ");
+        char name[48];
+        snprintf(name, sizeof name, "%.*s", (int)length, at);
+        at += length;
+        if (relaxes && strcmp(name, "E1") == 0)
+            continue;
+        if (name[0] != '-' && !plain) {
+            add_option(t, name, word, text, n);
+            continue;
+        }
+        plain = name[0] == '-' && strcmp(name, "--discretization") != 0;
+        if (*n + 1 < SCENE_WORDS) {
+            snprintf(text[*n], sizeof *text, "%s", name);
+            word[*n] = text[*n];
+            ++*n;
+        }
+    }
+}
+
+bool
+scene_command(struct tool *t, const char *effect, const char *const load[2], const char *body,
+              const char *with, struct scene_command *c)
+{
+    const size_t k = row_of(effect);
+    const bool thin = strcmp(effect, "thin") == 0;
+    size_t n = 0;
+
+    if (k == sizeof rows / sizeof *rows)
+        return false;
+    c->programs = rows[k].program == NULL ? 1 : 2;
+    c->word[0][n++] = "rc-solve";
+    c->word[0][n++] = load[0];
+    c->word[0][n++] = load[1];
+    if (thin) { /* body 1 is a layer on a rigid base */
+        static const char *const of_body[] = {"--E1", "rigid", "--layer"};
+        for (size_t i = 0; i < 3; i++)
+            c->word[0][n++] = of_body[i];
+        c->word[0][n++] = body;
+        add_words(t, "E2 nu2 radius cylinder periodic datum", false, c->word[0], c->text[0], &n);
+    } else {
+        add_words(t, contact_options, rows[k].relaxes, c->word[0], c->text[0], &n);
+    }
+    add_words(t, rows[k].solve, false, c->word[0], c->text[0], &n);
+    if (strcmp(effect, "yield") != 0)
+        add_words(t, with, false, c->word[0], c->text[0], &n);
+    c->word[0][n] = NULL;
+    if (rows[k].program == NULL)
+        return true;
+    n = 0;
+    c->word[1][n++] = rows[k].program;
+    add_words(t, rows[k].options, false, c->word[1], c->text[1], &n);
+    c->word[1][n] = NULL;
+    return true;
+}
+
+void
+scene_show(const struct scene_command *c, const char *file, FILE *out)
+{
+    for (size_t p = 0; p < c->programs; p++) {
+        fputs(p > 0 ? " | " : "", out);
+        for (size_t k = 0; c->word[p][k] != NULL; k++) {
+            fputs(k == 0 ? "" : " ", out);
+            shown_shell_word(out, c->word[p][k]);
+        }
+        if (p == 0) {
+            fputc(' ', out);
+            shown_shell_word(out, file);
+        }
+    }
+}
+
+/* ---- runs ---- */
+
+/* The last line of a report, or of what a tool said. */
+static const char *
+last_object(char *said)
+{
+    char *line = said == NULL ? NULL : strrchr(said, '{');
+
+    while (line != NULL && line > said && line[-1] != '\n')
+        line--;
+    return line;
+}
+
+static void
+read_report(const char *object, size_t row, bool plan, struct scene_found *found)
+{
+    const char *total = json_member(object, "seconds");
+
+    for (int f = 0; f < RC_SCENE_FIGURES; f++)
+        if (rows[row].figure[f] != NULL)
+            found->figure[f] = json_real(json_member(object, rows[row].figure[f]));
+    found->converged = json_real(json_member(object, "converged")) == 1;
+    found->seconds = json_real(plan ? json_member(object, "expected_seconds")
+                                    : json_member(total == NULL ? "{}" : total, "total"));
+    found->convolutions =
+        json_real(json_member(object, plan ? "expected_convolutions" : "convolutions"));
+}
+
+bool
+scene_run(struct tool *t, const struct scene_command *c, const char *effect, int in, int contact,
+          bool plan, struct scene_found *found, char why[160])
+{
+    const size_t row = row_of(effect), last = c->programs - 1;
+    bool fine = true;
+
+    *found = (struct scene_found){.seconds = NAN, .convolutions = NAN};
+    for (int f = 0; f < RC_SCENE_FIGURES; f++)
+        found->figure[f] = NAN;
+    /* the elastic contact is the input of a second program */
+    const char *word[SCENE_WORDS + 8];
+    struct process process = {
+        .in = last == 0 ? in : contact, .out = -1, .allowed = 1e9, .doing = effect};
+    size_t n = 0;
+    enum process_end end;
+    const char *object;
+    for (size_t k = 0; c->word[last][k] != NULL; k++)
+        word[n++] = c->word[last][k];
+    word[n++] = "--quiet";
+    word[n++] = "--report";
+    word[n++] = "-";
+    if (plan)
+        word[n++] = "--dry-run";
+    word[n] = NULL;
+    end = process_run(t, word, &process);
+    object = last_object(process.said);
+    if (end == PROCESS_INTERRUPTED)
+        tool_die(t, "interrupted");
+    if (end != PROCESS_ENDED || object == NULL) {
+        const char *said = process.said == NULL ? "" : process.said;
+        snprintf(why, 160, "%s: %.*s", c->word[last][0], (int)strcspn(said, "\n"), said);
+        fine = false;
+    } else {
+        read_report(object, row, plan, found);
+    }
+    free(process.said);
+    return fine;
+}

@@ -1,0 +1,44 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/*
+ * The interface of this folder: rc-scene. For each effect of the library a row names the command that computes
+ * it.
+ */
+#ifndef RC_TOOL_SCENE_H
+#define RC_TOOL_SCENE_H
+
+#include <stdio.h>
+
+#include "libcontact/contact.h"
+#include "tools/cli/cli.h"
+
+enum {
+    SCENE_WORDS = 96,
+    SCENE_PROGRAMS = 2
+};
+
+/* The programs of a pipe that computes an effect, each with its words. */
+struct scene_command {
+    size_t programs;
+    const char *word[SCENE_PROGRAMS][SCENE_WORDS]; /* the last one is NULL */
+    char text[SCENE_PROGRAMS][SCENE_WORDS][96];    /* of words that are made here */
+};
+/* 210GPa for 2.1e11 Pa, if this is exactly the same number; else its digits. */
+const char *scene_number_in_unit(double value, enum unit unit, char text[64]);
+/* Makes the command. `load`: the option of the load and its value for this case; `body`: body 1 as a layer;
+ * `with`: names of options of effects that are accepted before. False: no program computes this effect. */
+bool scene_command(struct tool *tool, const char *effect, const char *const load[2],
+                   const char *body, const char *with, struct scene_command *command);
+/* Prints the command as a shell reads it, with the file as its input. */
+void scene_show(const struct scene_command *command, const char *file, FILE *out);
+
+/* The figures that a command reports, for the comparison with the elastic contact; NAN: none. */
+struct scene_found {
+    double figure[RC_SCENE_FIGURES], seconds, convolutions;
+    bool converged;
+};
+/* Runs the programs: the first one reads `in`. With `plan` they only forecast their work; a second program then
+ * reads `contact`, the elastic contact. False, and *why, when one of them fails. */
+bool scene_run(struct tool *tool, const struct scene_command *command, const char *effect, int in,
+               int contact, bool plan, struct scene_found *found, char why[160]);
+
+#endif
