@@ -34,6 +34,8 @@ scene --load 240N $steel --yield 1.33GPa --hardness 2.0GPa ball.rcg >lower.json
 claim "a ball above first yield is not negligible" test "$(of yield lower.json verdict)" != negligible
 claim "a hardness below p0 is called for" test "$(of hardness lower.json verdict)" = "calls for it"
 near "$(of hardness lower.json figures max_pressure high)" "$(awk 'BEGIN { print 1 - 2.0 / 2.2238 }')" 0.01 "  it lowers the largest pressure to the hardness"
+scene --load 240N $steel --mu 0.3 --tangential 36N --hardness 2.2GPa ball.rcg >dented.json
+near "$(of slip dented.json numbers stick_fraction)" 0.6300 0.02 "  and with a hardness just below the largest pressure"
 scene --load 240N $steel --mu 0.3 --tangential 80N ball.rcg >slides.json
 claim "a force above mu times the load: the bodies slide" test "$(of slip slides.json verdict)" = "calls for it"
 scene --load 1uN $steel --adhesion 1mJ/m2,exponential,20nm ball.rcg >few.json
