@@ -500,7 +500,7 @@ look(struct rc_model *m, struct rc_point *at, struct rc_err *err)
         return RC_FAIL;
     f->speed = m->to.at[RC_SPEED];
     f->pressure_error = s->course.estimate * hypot(1, s->steepest);
-    f->friction_error = f->friction != 0 ? f->pressure_error * steep / fabs(f->friction) : NAN;
+    f->friction_error = f->friction != 0 ? f->pressure_error * steep / fabs(f->friction) : INFINITY;
     f->tan_delta_max = s->lossy;
     f->track = s->law.repeats ? "repeated" : "fresh";
     f->approach = c->approach - rc_elastic_top(m->inner) + s->top;
