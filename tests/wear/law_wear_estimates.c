@@ -410,8 +410,9 @@ estimates_are_not_below(void **state)
                           is->short_of, is->open, is->steps, is->contacts, is->convolutions);
             for (int k = 0; k < 2; k++) {
                 struct ratios *of = &is->of[k];
-                qsort(of->v, of->n, sizeof *of->v, by_size);
                 below += of->below;
+                if (of->n > 0)
+                    qsort(of->v, of->n, sizeof *of->v, by_size);
                 if (of->n > 0)
                     print_message(
                         "    %s: %zu estimates, %zu below; least %.2f, median %.2f, 90 %% %.2f\n",
