@@ -43,6 +43,7 @@ heights.rcg rc-solve --load 1mN --estar 1GPa --travel 0,1um --counter bad.rcg he
 heights.rcg rc-synth sphere --radius 1mm --like bad.rcg
 heights.rcg rc-cost bad.rcg -- rc-solve --load 1mN --estar 1GPa
 heights.rcg rc-report --load 1mN --estar 1GPa bad.rcg
+heights.rcg rc-scene --load 1mN --estar 1GPa bad.rcg
 solved.rcg rc-slip --mu 0.3 --tangential 1uN bad.rcg
 solved.rcg rc-stress --depths 0,1um bad.rcg
 solved.rcg rc-fatigue --bending-limit 1GPa --torsion-limit 1GPa --depths 1um --pass x bad.rcg
