@@ -1334,8 +1334,8 @@ RC_API enum rc_status rc_heat_expect(const struct rc_shape *shape,
 RC_API struct rc_heat *rc_heat_new(const struct rc_shape *shape,
                                    const struct rc_heat_problem *problem, const double *q,
                                    const double *contact, struct rc_err *err);
-/* One step, of 2 convolutions: RC_MORE; RC_OK when the temperatures match; RC_SHORT after 100 steps or 64 time
- * steps, or when rounding prevents this. RC_FAIL when memory is short. */
+/* One step, of 2 convolutions: RC_MORE; RC_OK when the temperatures match; RC_SHORT after 100 steps or
+ * 64 time steps, or when rounding prevents this. RC_FAIL when memory is short. */
 RC_API enum rc_status rc_heat_step(struct rc_heat *heat, struct rc_err *err);
 /* The figures. Call this and the following functions after the last step. */
 RC_API const struct rc_heat_figures *rc_heat_result(const struct rc_heat *heat);

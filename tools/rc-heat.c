@@ -56,14 +56,18 @@ static const struct opt opts[] = {
      .help = "time since heating began (default: steady state); needed where both axes repeat, or one of "
              "them and a body does not move along the other"},
     {.name = "time-steps", .type = OPT_COUNT, AT(time_steps), .min = 1, .max = 1000, .result = true,
-     .arg = "N", .help = "steps of --time in which the shares of the bodies are found anew (default: as many as --tol needs)"},
+     .arg = "N",
+     .help = "steps of --time in which the shares of the bodies are found anew (default: as many as "
+             "--tol needs)"},
     {.name = "partition", .type = OPT_TEXT, AT(partition), .list = partitions, .result = true,
      .arg = "matched|blok|charron|SHARE",
      .help = "heat of each body: equal temperatures at every node (default), or one number for all"},
     {.name = "depths", .type = OPT_NUMBERS, .unit = UNIT_M, AT(depths), .min = 0, .max = INFINITY,
      .result = true, .arg = "LIST", .help = "depths of the temperatures (default 0)"},
     {.name = "tol", .type = OPT_NUMBER, AT(tol), .min = 0, .max = 0.5, .above = true, .result = true,
-     .arg = "ERROR", .help = "bound of the mismatch of the temperatures, and of the error of the time steps (default 1e-3)"},
+     .arg = "ERROR",
+     .help = "bound of the mismatch of the temperatures, and of the error of the time steps (default "
+             "1e-3)"},
     {.name = "output", .type = OPT_WORDS, AT(output), .list = frames, .arg = "LIST",
      .help = "frames to write, of %s (default: all)"},
     {.name = "report", .type = OPT_REPORT, AT(report), .arg = "FILE",

@@ -42,9 +42,9 @@ enum {
     STARTS = 4,      /* planes from which the search is refined */
     REFINEMENTS = 10 /* each halves the step                       */
 };
-/* Planes whose value is below the largest by at most this part of what varies between planes may be near
- * another maximum that is larger; a hydrostatic stress varies between none. Those within 15 degrees of a better
- * one belong to the same maximum. The cosine of 15 degrees is 0.9659. */
+/* Planes whose value is below the largest by at most this part of what varies between planes may be
+ * near another maximum that is larger; a hydrostatic stress varies between none. Those within 15
+ * degrees of a better one belong to the same maximum. The cosine of 15 degrees is 0.9659. */
 static const double near_best = 0.02, same_hill = 0.9659;
 
 /* Papadopoulos's mean: Gauss's points in the cosine of the normal's angle to z, on the half that is

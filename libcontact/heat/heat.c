@@ -765,7 +765,8 @@ advance(struct rc_heat *h, struct rc_err *err)
     return RC_MORE;
 }
 
-/* Takes the temperatures of the finest run into the result. `change`: of the contact, over the largest rise. */
+/* Takes the temperatures of the finest run into the result. `change`: of the contact, over the largest
+ * rise. */
 static double
 extrapolate(struct rc_heat *h, const struct rc_heat *finest)
 {

@@ -114,10 +114,10 @@ scene_hardness(struct rc_scene *s, struct rc_scene_effect *e, struct rc_err *err
     return compute(s, &p, e, err);
 }
 
-/* Tractions of partial slip are mu (p(P) - p(P - Q/mu)) in bodies with Poisson's ratio 0 (Ciavarella 1998,
- * Int. J. Solids Struct. 35, 2349; Jaeger 1998, J. Appl. Mech. 65, 1): one more contact, at the load P - Q/mu,
- * has the stick zone and the displacement. Other ratios change the displacement over that of linear theory
- * by up to a fifth of its excess. */
+/* Tractions of partial slip are mu (p(P) - p(P - Q/mu)) in bodies with Poisson's ratio 0 (Ciavarella
+ * 1998, Int. J. Solids Struct. 35, 2349; Jaeger 1998, J. Appl. Mech. 65, 1): one more contact, at the
+ * load P - Q/mu, has the stick zone and the displacement. Other ratios change the displacement over
+ * that of linear theory by up to a fifth of its excess. */
 enum rc_status
 scene_slip(struct rc_scene *s, struct rc_scene_effect *e, struct rc_err *err)
 {

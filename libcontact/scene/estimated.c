@@ -129,8 +129,8 @@ scene_yield(struct rc_scene *s, struct rc_scene_effect *e, struct rc_err *err)
 
 /* ---- adhesion ---- */
 
-/* The contact in `other` under the attraction at the gap of `from`: the heights with its displacement, and the
- * load with its sum. In contact the attraction has its full strength. */
+/* The contact in `other` under the attraction at the gap of `from`: the heights with its displacement,
+ * and the load with its sum. In contact the attraction has its full strength. */
 static enum rc_status
 attracted(struct rc_scene *s, const struct rc_adhesion_problem *problem,
           const struct rc_adhesion_scales *scales, const struct solved *from, struct rc_err *err)
@@ -164,9 +164,10 @@ attracted(struct rc_scene *s, const struct rc_adhesion_problem *problem,
     return status;
 }
 
-/* Elastic contacts under the attraction at the gap of the contact before: the attraction only grows from one to
- * the next, and their area is below that of the adhesive contact. On 200 scenes the change of the second one
- * was 1 to 1.9 times smaller than that of the adhesive contact in area, and 1 to 1.3 times in pressure. */
+/* Elastic contacts under the attraction at the gap of the contact before: the attraction only grows
+ * from one to the next, and their area is below that of the adhesive contact. On 200 scenes the change
+ * of the second one was 1 to 1.9 times smaller than that of the adhesive contact in area, and 1 to 1.3
+ * times in pressure. */
 enum rc_status
 scene_adhesion(struct rc_scene *s, struct rc_scene_effect *e, struct rc_err *err)
 {
@@ -208,9 +209,9 @@ scene_adhesion(struct rc_scene *s, struct rc_scene_effect *e, struct rc_err *err
 
 /* ---- wear ---- */
 
-/* One implicit step of Archard's law over the whole distance is the contact of bodies with the compliance
- * k s at each node. A wave that decays as exp(-x) falls to 1/(1 + x) in it. On 200 scenes of 48 x 48 nodes the
- * pressure changed by 0.98 to 1.31 times as much, and the area by 0.84 to 1.11 times. */
+/* One implicit step of Archard's law over the whole distance is the contact of bodies with the
+ * compliance k s at each node. A wave that decays as exp(-x) falls to 1/(1 + x) in it. On 200 scenes of
+ * 48 x 48 nodes the pressure changed by 0.98 to 1.31 times as much, and the area by 0.84 to 1.11 times. */
 enum rc_status
 scene_wear(struct rc_scene *s, struct rc_scene_effect *e, struct rc_err *err)
 {
@@ -240,10 +241,10 @@ scene_wear(struct rc_scene *s, struct rc_scene_effect *e, struct rc_err *err)
 
 /* ---- heat ---- */
 
-/* Bodies at rest: conduction and elastic displacement have the same kernel 1/r, so that the temperature of a body
- * is proportional to the displacement. Motion lowers it, to the sum of both limits of Jaeger (1942) at the
- * radius of the largest patch. The mean flux of a periodic map heats each body as a wall, since time 0. Both
- * bodies have the same temperature in contact: their resistances are in parallel. */
+/* Bodies at rest: conduction and elastic displacement have the same kernel 1/r, so that the temperature
+ * of a body is proportional to the displacement. Motion lowers it, to the sum of both limits of Jaeger
+ * (1942) at the radius of the largest patch. The mean flux of a periodic map heats each body as a wall,
+ * since time 0. Both bodies have the same temperature in contact: their resistances are in parallel. */
 enum rc_status
 scene_heat(struct rc_scene *s, struct rc_scene_effect *e, struct rc_err *err)
 {
@@ -304,10 +305,11 @@ dundurs(const struct rc_pair *pair)
            (2 * ((1 - a->nu) * ca + (1 - b->nu) * cb));
 }
 
-/* Pressure and traction of the pressed bodies in a single increment. In many increments the pressure of 200
- * scenes changed by 0.16 to 2.2 times as much. Where they slide, tractions of mu p change the pressure by up to
- * mu beta. Full stick under an axisymmetric punch raises load over approach by ln((1 + beta)/(1 - beta))/(2 beta)
- * (Spence 1968, Proc. R. Soc. A 305, 55), full stick of a wave by 1/(1 - beta^2). */
+/* Pressure and traction of the pressed bodies in a single increment. In many increments the pressure of
+ * 200 scenes changed by 0.16 to 2.2 times as much. Where they slide, tractions of mu p change the
+ * pressure by up to mu beta. Full stick under an axisymmetric punch raises load over approach by ln((1
+ * + beta)/(1 - beta))/(2 beta) (Spence 1968, Proc. R. Soc. A 305, 55), full stick of a wave by 1/(1 -
+ * beta^2). */
 enum rc_status
 scene_dissimilar(struct rc_scene *s, struct rc_scene_effect *e, struct rc_err *err)
 {
@@ -425,7 +427,8 @@ sum_waves(const struct rc_scene *s, const double *p, struct waves *to, struct rc
 }
 
 /* The modulus of the rubber at this speed is a mean over the waves of the relaxed contact, and one more
- * contact with it gives friction and change. The loss tangent widens what the asymmetry of the contact adds. */
+ * contact with it gives friction and change. The loss tangent widens what the asymmetry of the contact
+ * adds. */
 enum rc_status
 scene_sliding(struct rc_scene *s, struct rc_scene_effect *e, struct rc_err *err)
 {

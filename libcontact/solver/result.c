@@ -261,9 +261,9 @@ rise(double before, double at, double after)
     return bend > 0 && fabs(slope) <= bend ? slope * slope / (2 * bend) : 0;
 }
 
-/* A summit lies anywhere between two nodes: over the higher one by at most this part of its second difference
- * with its neighbours, for waves of four or more nodes. It is (1 - cos(pi/4))/(2 cos(pi/4)), and an eighth for
- * a parabola. */
+/* A summit lies anywhere between two nodes: over the higher one by at most this part of its second
+ * difference with its neighbours, for waves of four or more nodes. It is (1 - cos(pi/4))/(2 cos(pi/4)),
+ * and an eighth for a parabola. */
 static const double summit = 0.2071;
 
 static void

@@ -426,9 +426,9 @@ step(struct rc_model *m, struct rc_err *err)
     return status == RC_MORE || status == RC_FAIL ? status : advance(s, err);
 }
 
-/* The coefficients of friction by the slopes of u = K p, and by the slopes of h. The first one is a quadratic
- * form of p. *steep is the largest difference in contact between its derivative and the coefficient: times the
- * relative L1 error of p it bounds the error of the coefficient to first order. */
+/* The coefficients of friction by the slopes of u = K p, and by the slopes of h. The first one is a
+ * quadratic form of p. *steep is the largest difference in contact between its derivative and the
+ * coefficient: times the relative L1 error of p it bounds the error of the coefficient to first order. */
 static void
 find_friction(struct slide *s, double load, double friction[2], double *steep)
 {

@@ -12,8 +12,8 @@
  * that over the last 1/fraction steps. The method is of first order in the fraction.
  *
  * Two runs go side by side with different alignments, one with half the steps of the other. The result is
- * that of the finer one, and their difference is the estimate of its error; that of the pressure is the largest
- * one in three alignments.
+ * that of the finer one, and their difference is the estimate of its error; that of the pressure is the
+ * largest one in three alignments.
  */
 #include "wear.h"
 

@@ -46,9 +46,9 @@ static const double third_order = 0.0404;
 static const double usual_tol = 0.1;
 /* The smoothing steps before a point take this part of the distance, and at least `fewest` steps. */
 static const double last_part = 0.1, fewest = 4;
-/* Part of the tolerance for the errors of these steps: of the heights, and of the pressure after the last one.
- * After the steps before it the pressure may be `loose` times less accurate, because BDF2 divides the error of
- * a pressure by 3 in each step. */
+/* Part of the tolerance for the errors of these steps: of the heights, and of the pressure after the
+ * last one. After the steps before it the pressure may be `loose` times less accurate, because BDF2
+ * divides the error of a pressure by 3 in each step. */
 static const double of_last = 0.1, of_smooth = 0.3, loose = 10;
 /* The tolerance of their contacts, over the tolerance of the others. Where the last valleys close, a few
  * nodes can carry several times the mean pressure within the usual tolerance. The next contact starts there
@@ -253,8 +253,8 @@ lost(const struct maps *maps, double row, const struct rc_shape *s)
            (row > 0 ? (double)s->nx * rc_sum(maps->deep, s->ny) : 0);
 }
 
-/* The wear per distance of the nodes that wear over that of all nodes at the largest coefficient: now, or on the
- * average so far. Below 1 where nodes that wear less carry the load. */
+/* The wear per distance of the nodes that wear over that of all nodes at the largest coefficient: now,
+ * or on the average so far. Below 1 where nodes that wear less carry the load. */
 static double
 share(const struct wear *v)
 {
@@ -457,8 +457,8 @@ most_worn(const struct wear *v)
 
 static enum rc_status start(struct wear *v, struct rc_err *err);
 
-/* Returns to the start of the leg, and takes shorter steps: where nodes come into contact, the error of the pressure
- * falls with the square root of their tolerance. */
+/* Returns to the start of the leg, and takes shorter steps: where nodes come into contact, the error of
+ * the pressure falls with the square root of their tolerance. */
 static enum rc_status
 try_again(struct wear *v, struct rc_err *err)
 {
@@ -582,9 +582,10 @@ respond(struct wear *v, double *sum, struct rc_err *err)
     return RC_OK;
 }
 
-/* The largest error of the present step, m, as a sum over the nodes: a part of the depth that it wears, down to
- * half of it where earlier steps have used the tolerance. Where the load moves to nodes that do not wear, the
- * wear ends; a part of the tolerance that is left is then used in each e-fold of the distance. */
+/* The largest error of the present step, m, as a sum over the nodes: a part of the depth that it wears,
+ * down to half of it where earlier steps have used the tolerance. Where the load moves to nodes that do
+ * not wear, the wear ends; a part of the tolerance that is left is then used in each e-fold of the
+ * distance. */
 static double
 allowed(const struct wear *v)
 {

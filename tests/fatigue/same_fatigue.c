@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Two ways to the same fatigue: positions of the contact and a pass, few and many rows at a time, one and two
- * threads, other loads on a plan and a new plan. A constant stress in a layer changes no amplitude. The
- * sampling error covers the error of the spacing, also below an index of 0. What cannot be computed is refused. */
+/* Two ways to the same fatigue: positions of the contact and a pass, few and many rows at a time, one
+ * and two threads, other loads on a plan and a new plan. A constant stress in a layer changes no
+ * amplitude. The sampling error covers the error of the spacing, also below an index of 0. What cannot
+ * be computed is refused. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>

@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Verdicts of scenes against the models of the effects. On random surfaces, with effects near their
  * thresholds, "negligible" is never said of an effect that changes a figure by more than the bound, and
- * "calls for it" seldom of one that does not. RC_SHOW prints each scene that is wrong or outside, RC_SHOW=all all of them. */
+ * "calls for it" seldom of one that does not. RC_SHOW prints each scene that is wrong or outside,
+ * RC_SHOW=all all of them. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Random maps and balls that wear, with the tolerances 0.1, 0.01 and 0.001 in turn: one body, both, on a track
- * that wears, with a coefficient of each node, on maps that repeat along one axis, and pairs that slide over
- * each other. The estimated errors of the worn depth and of the pressure are not below the differences to a
- * tight run, and half of them are at most five times (at the tolerance 0.1: eight times) as large. A second
+/* Random maps and balls that wear, with the tolerances 0.1, 0.01 and 0.001 in turn: one body, both, on a
+ * track that wears, with a coefficient of each node, on maps that repeat along one axis, and pairs that slide
+ * over each other. The estimated errors of the worn depth and of the pressure are not below the differences to
+ * a tight run, and half of them are at most five times (at the tolerance 0.1: eight times) as large. A second
  * run, twice as tight, differs from the tight one by at most a tenth of the error.
  *
  *     law_wear_estimates [KIND FIRST LAST]        runs of a kind, 0 to 5 (default: some of all) */

@@ -229,8 +229,8 @@ struct cost_object cost_object_named(const struct cost_case *c, const char *name
 const char *cost_object_name(const struct cost_case *c, struct cost_object object);
 /* The error of the reference: its estimate, or the last change along a list, whichever is larger. */
 double cost_reference_error(const struct cost_case *c, struct cost_object object);
-/* True if the estimate for an object is below 0.9 of its error, less the estimate of the reference or its last
- * change, whichever is smaller. */
+/* True if the estimate for an object is below 0.9 of its error, less the estimate of the reference or
+ * its last change, whichever is smaller. */
 bool cost_is_optimistic(const struct cost_case *c, const struct cost_trial *t,
                         struct cost_object object);
 /* Chooses the ranked object, and sets error, estimate, bound and marks of all trials. */

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
- * The interface of this folder: rc-scene. For each effect of the library a row names the command that computes
- * it.
+ * The interface of this folder: rc-scene. For each effect of the library a row names the command that
+ * computes it.
  */
 #ifndef RC_TOOL_SCENE_H
 #define RC_TOOL_SCENE_H
@@ -36,8 +36,8 @@ struct scene_found {
     double figure[RC_SCENE_FIGURES], seconds, convolutions;
     bool converged;
 };
-/* Runs the programs: the first one reads `in`. With `plan` they only forecast their work; a second program then
- * reads `contact`, the elastic contact. False, and *why, when one of them fails. */
+/* Runs the programs: the first one reads `in`. With `plan` they only forecast their work; a second
+ * program then reads `contact`, the elastic contact. False, and *why, when one of them fails. */
 bool scene_run(struct tool *tool, const struct scene_command *command, const char *effect, int in,
                int contact, bool plan, struct scene_found *found, char why[160]);
 

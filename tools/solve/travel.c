@@ -294,8 +294,9 @@ longest(const struct run *run)
     return (double)(most < g->nx ? most : g->nx) * g->dx;
 }
 
-/* Of 239 positions whose steps were at most half of the half width of the contact no estimated error was below
- * the error; of 91 with longer steps 32 were, down to 0.48 times it (tests/long/estimates.py). */
+/* Of 239 positions whose steps were at most half of the half width of the contact no estimated error
+ * was below the error; of 91 with longer steps 32 were, down to 0.48 times it
+ * (tests/long/estimates.py). */
 static void
 judge(struct run *run, const char *where, const struct solution *s)
 {
