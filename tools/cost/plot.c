@@ -53,7 +53,7 @@ describe(const struct cost_case *c, struct drawing *d)
         .x = {.quantity = d->x_name, .unit = "s", .log = true, .lo = NAN, .hi = NAN, .shown = "s"},
         .y = {.quantity = d->y_name, .unit = "1", .log = true, .lo = NAN, .hi = NAN},
         .series = d->series,
-        .front = "front: nothing is quicker or smaller, and as accurate",
+        .front = "front: nothing is quicker and as accurate",
         .floor = c->reference_error,
         .floor_text = "below the reference's own error"};
 }
@@ -84,6 +84,22 @@ stretch(struct graph_axis *a, double value)
     a->hi = fmax(a->hi, value);
 }
 
+/* The plane of the picture has no memory: its front is that of time and error, without the scatter. */
+static bool
+is_ahead(const struct cost_case *c, const struct cost_trial *t)
+{
+    const double error = fmax(t->error, c->reference_error);
+
+    for (size_t k = 0; k < c->trials; k++) {
+        const struct cost_trial *o = &c->trial[k];
+        const double other = fmax(o->error, c->reference_error);
+        if (o != t && o->state == COST_DONE && !(o->reference && c->trials > 1) && other <= error &&
+            o->seconds <= t->seconds && (other < error || o->seconds < t->seconds))
+            return false;
+    }
+    return true;
+}
+
 static void
 draw_trials(const struct cost_case *c, struct drawing *d)
 {
@@ -100,7 +116,7 @@ draw_trials(const struct cost_case *c, struct drawing *d)
         n = d->series[s].n++;
         d->x[s][n] = t->seconds;
         d->y[s][n] = fmax(t->error, fmax(d->graph.floor / 10, 1e-15));
-        d->point[s][n] = (struct graph_point){.hollow = t->coarse > 1, .front = t->front};
+        d->point[s][n] = (struct graph_point){.hollow = t->coarse > 1, .front = is_ahead(c, t)};
         for (size_t l = 0; l < c->lists; l++)
             if (t->coarse > 1 ? c->list[l].grid : l == c->points)
                 snprintf(d->point[s][n].label, sizeof d->point[s][n].label, "%.15s",
