@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Random maps and balls that wear, with the tolerances 0.1, 0.01 and 0.001 in turn: one body, both, on a
  * track that wears, with a coefficient of each node, on maps that repeat along one axis, and pairs that slide
- * over each other. The estimated errors of the worn depth and of the pressure are not below the differences to
- * a tight run, and half of them are at most five times (at the tolerance 0.1: eight times) as large. A second
+ * over each other. The estimated errors of the worn depth and of the pressure are not below the differences
+ * to a tight run, and half of them are at most five times (at the tolerance 0.1: eight times) as large. A second
  * run, twice as tight, differs from the tight one by at most a tenth of the error.
  *
  *     law_wear_estimates [KIND FIRST LAST]        runs of a kind, 0 to 5 (default: some of all) */
@@ -181,18 +181,6 @@ slide(struct rc_model *m, const struct random_run *r, int q, double *p, double *
         fail_msg("%s", err.text);
 }
 
-static double
-differ(size_t n, const double *a, const double *b)
-{
-    double off = 0, size = 0;
-
-    for (size_t k = 0; k < n; k++) {
-        off += fabs(a[k] - b[k]);
-        size += fabs(b[k]);
-    }
-    return off / size;
-}
-
 static int
 by_size(const void *a, const void *b)
 {
@@ -364,8 +352,8 @@ compare(enum kind kind, uint64_t number, struct tally *tally)
                 const double *a = k == 0 ? is.wear[q] : is.p[q],
                              *b = k == 0 ? tight[1].wear[q] : tight[1].p[q],
                              *c = k == 0 ? tight[0].wear[q] : tight[0].p[q];
-                const double off = differ(k == 0 ? both : n, a, b);
-                open[q][k] = off > 1e-5 && !(differ(k == 0 ? both : n, c, b) <= 0.1 * off);
+                const double off = distance(k == 0 ? both : n, a, b);
+                open[q][k] = off > 1e-5 && !(distance(k == 0 ? both : n, c, b) <= 0.1 * off);
                 wide += open[q][k];
             }
         tight[0] = tight[1];
@@ -373,8 +361,8 @@ compare(enum kind kind, uint64_t number, struct tally *tally)
     tally->open += wide;
     for (int q = 0; q < OUTPUTS; q++)
         for (int k = 0; k < 2; k++) {
-            const double off = k == 0 ? differ(both, is.wear[q], tight[1].wear[q])
-                                      : differ(n, is.p[q], tight[1].p[q]);
+            const double off = k == 0 ? distance(both, is.wear[q], tight[1].wear[q])
+                                      : distance(n, is.p[q], tight[1].p[q]);
             if (!(off > 1e-5) || open[q][k])
                 continue;
             note(&tally->of[k], told[q][k] / off);
