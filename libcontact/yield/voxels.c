@@ -3,6 +3,8 @@
 
 #include <stdlib.h>
 
+#include "libcontact/grid.h"
+
 enum rc_status
 rc_voxels_new(struct rc_voxels *v, size_t slabs, size_t rows)
 {
@@ -34,9 +36,12 @@ enum rc_status
 rc_voxels_add(struct rc_voxel_row *row, size_t n, const uint32_t *place)
 {
     size_t from = row->n, to = row->n + n;
+    struct rc_voxel *more = NULL;
 
-    /* it grows seldom, so without spare memory */
-    struct rc_voxel *more = realloc(row->v, to * sizeof *more);
+    /* A row is a small block, which realloc never refuses; all rows together are most of the memory. It grows
+     * seldom, so without spare memory. */
+    if (rc_memory_ask(n * sizeof *more))
+        more = realloc(row->v, to * sizeof *more);
     if (more == NULL)
         return RC_FAIL;
     row->v = more;
