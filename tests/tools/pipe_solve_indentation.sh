@@ -49,7 +49,17 @@ for k in 2 4 8 15 21 23; do
 done
 
 rc-solve --quiet --estar 114GPa --hardness 1GPa --load 1N --report one.json --output pressure ball.rcg -o one.rcg
-claim "without --history it is null" test "$(field indentation one.json) $(field residual_indentation one.json)" = "null null"
+near "$(field indentation one.json)" "$(cell indentation/m 4)" 1e-5 "without --history too: the first load of 1 N has the same indentation"
+claim "  the shape after unloading is not computed" test "$(field residual_indentation one.json)" = null
+bodies="--E1 210GPa --nu1 0.3 --E2 rigid"
+rc-solve --quiet $bodies --load 0.05N,1N --report elastic.tsv --output pressure -o one.rcg ball.rcg
+rc-solve --quiet $bodies --yield 100GPa --load 0.05N,1N --report never.tsv --output pressure -o one.rcg ball.rcg
+of() { awk -F'\t' -v row="$3" -v name="$2" 'NR == 1 { for (c = 1; c <= NF; c++) if ($c == name) at = c } NR == row + 1 { print $at }' "$1"; }
+for k in 1 2; do
+    near "$(of elastic.tsv indentation/m $k)" "$(of never.tsv indentation/m $k)" 1e-6 "elastic, load $k: the indentation is that of a body that does not yield"
+done
+rc-render --curve approach:load --title T -o elastic.svg elastic.tsv
+claim "a curve of elastic loads has the approach" grep -q '>Approach (' elastic.svg
 
 # ---- curves ----
 

@@ -30,15 +30,28 @@ enum helper {
     CONVERGED,
     CASE,
     INDENTATION,
+    RESIDUAL,
     APPROACH,
     JUMPS,
     SOURCE, /* these two are words that distinguish pieces */
     LOAD,
     HELPERS
 };
-static const char *const helper_name[HELPERS] = {
-    "nx",        "ny",   "dx",          "dy",       "estar", "radius", "rms_slope",
-    "converged", "case", "indentation", "approach", "jumps", "source", "load"};
+static const char *const helper_name[HELPERS] = {"nx",
+                                                 "ny",
+                                                 "dx",
+                                                 "dy",
+                                                 "estar",
+                                                 "radius",
+                                                 "rms_slope",
+                                                 "converged",
+                                                 "case",
+                                                 "indentation",
+                                                 "residual_indentation",
+                                                 "approach",
+                                                 "jumps",
+                                                 "source",
+                                                 "load"};
 
 /* The columns of the command line. */
 struct choice {
@@ -245,6 +258,16 @@ helper(const struct curves *c, const struct table *table, enum helper which)
     return table->column[c->choice.asked + which].v;
 }
 
+/* True for a row of a history: it has a residual indentation, or the indentation is not the approach. */
+static bool
+is_history(const struct curves *c, const struct table *table, size_t k)
+{
+    const double indentation = helper(c, table, INDENTATION)[k];
+
+    return isfinite(indentation) && (isfinite(helper(c, table, RESIDUAL)[k]) ||
+                                     indentation != helper(c, table, APPROACH)[k]);
+}
+
 /* In a history each approach counts from the current shape; in a curve over these approaches work would seem
  * to be gained. */
 static void
@@ -254,7 +277,7 @@ count_from_one_shape(struct curves *c, struct table *table)
     bool history = false;
 
     for (size_t k = 0; k < table->rows; k++)
-        history = history || isfinite(from_first[k]);
+        history = history || is_history(c, table, k);
     c->history = c->history || history;
     for (size_t k = 0; k < c->choice.columns && history; k++)
         if (strcmp(c->choice.column[k], helper_name[APPROACH]) == 0)
@@ -471,11 +494,11 @@ enum stretch {
     STRETCHES
 };
 
-/* The column whose change gives the direction of a path: the indentation if the report has it. */
+/* The column whose change gives the direction of a path: the indentation in a history. */
 static const double *
 way_of(const struct curves *c, const struct table *table, size_t from)
 {
-    return helper(c, table, isfinite(helper(c, table, INDENTATION)[from]) ? INDENTATION : APPROACH);
+    return helper(c, table, is_history(c, table, from) ? INDENTATION : APPROACH);
 }
 
 /* The direction from each row of a path to the next. */
@@ -548,7 +571,7 @@ is_path(struct curves *c, const struct table *table, size_t from, size_t to)
         return false;
     if (isfinite(helper(c, table, JUMPS)[from]))
         return true;
-    if (!isfinite(helper(c, table, INDENTATION)[from]) || c->choice.bys == GROUP_COLUMNS)
+    if (!is_history(c, table, from) || c->choice.bys == GROUP_COLUMNS)
         return false;
     step = find_steps(c, table, from, to);
     for (size_t k = 1; k < to - from; k++)

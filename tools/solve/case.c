@@ -212,6 +212,8 @@ judge_load(struct drive *d, struct rc_model *m)
     run->solver = rc_model_solver(m);
     if (elastic != NULL)
         s->contact = elastic->contact;
+    if (elastic != NULL && !solve_moves(run))
+        s->indentation = rc_model_number(m, "indentation");
     SOLVE_EACH (run, e, look)
         if (!e->look(run, m, s))
             return;
