@@ -13,13 +13,15 @@
 
 #include "formats/core/core.h"
 #include "tools/problem/problem.h"
+#include "tools/scene/scene.h"
 
 static struct args {
     struct physics physics;
+    struct scene_args effects;
     double outliers, nu;
     bool mirror;
     const char *title;
-} args = {.physics = PHYSICS_NONE, .outliers = NAN, .nu = NAN};
+} args = {.physics = PHYSICS_NONE, .effects = SCENE_NOTHING, .outliers = NAN, .nu = NAN};
 
 #define AT(field) .at = offsetof(struct args, field)
 /* clang-format off */
@@ -34,6 +36,9 @@ static const struct opt opts[] = {
      .against = RULES({.with = "nu1", .because = "--nu1 is the ratio for the stresses too",
                        .remedy = "leave out --nu"}),
      .help = "Poisson's ratio for the stresses (default: --nu1, else 0.28)"},
+    {.title = "data of the effects"},
+    {.group = scene_options, AT(effects)},
+    {.title = "output"},
     {.name = "title", .type = OPT_TEXT, AT(title), .arg = "TEXT",
      .help = "title of the page (default: the name of the file)"},
     {.name = NULL},
@@ -63,9 +68,12 @@ struct run {
     bool stream;             /* it is a grid stream                  */
     bool assumed;            /* the bodies are the default ones      */
     size_t loads;
+    char load[RC_NUMBER_SIZE + 4]; /* the last one */
     char last[RC_NUMBER_SIZE], outliers[RC_NUMBER_SIZE], nu[RC_NUMBER_SIZE], memory[RC_NUMBER_SIZE];
     const char *contact[WORDS]; /* options of rc-solve */
     size_t contacts;
+    const char *scene[WORDS]; /* options of rc-scene: the last load, the bodies, data of effects */
+    size_t scenes;
     struct text {
         char *text;
         size_t size;
@@ -310,6 +318,63 @@ show_commands(struct run *run, FILE *in, const char *a, const char *b)
     fputs("</pre>\n", out);
 }
 
+/* Shows the verdicts of rc-scene: the lines of effects, indented by two blanks, with their commands, indented
+ * further, and what is missing. Expected times depend on the machine and are left out. */
+static void
+show_effects(struct run *run, FILE *in, const char *a, const char *b)
+{
+    enum {
+        TITLE = 33 /* the verdict begins here */
+    };
+    FILE *out = run->page.file;
+    RC_OWNED char *line = NULL;
+    RC_OWNED char *missing = NULL;
+    size_t room = 0, lines = 0;
+    char *end;
+
+    (void)a, (void)b;
+    fprintf(out, "<p>By how much each effect would change the elastic contact under %s.</p>\n",
+            run->loads > 1 ? "the last load" : "this load");
+    fputs("<table id=\"effects\">\n", out);
+    for (ssize_t n; (n = getline(&line, &room, in)) > 0; lines++) {
+        line[n - 1] = '\0';
+        if ((end = strstr(line, "   (about ")) != NULL)
+            *end = '\0';
+        if (strncmp(line, "  data missing: ", 16) == 0) {
+            missing = strdup(line + 16);
+        } else if (strncmp(line, "      ", 6) == 0) {
+            fputs("<tr><td></td><td><pre>", out);
+            put_text(out, line + 6);
+            fputs("</pre></td></tr>\n", out);
+        } else if (lines > 0 && n > TITLE) {
+            line[TITLE - 1] = '\0';
+            for (char *c = line + TITLE - 2; c > line && *c == ' '; c--)
+                *c = '\0';
+            fputs("<tr><th>", out);
+            put_text(out, line + 2);
+            fputs("</th><td>", out);
+            put_text(out, line + TITLE);
+            fputs("</td></tr>\n", out);
+        }
+    }
+    fputs("</table>\n", out);
+    if (lines == 0)
+        fputs("<p>rc-scene has no verdicts on this contact: see its message.</p>\n", out);
+    if (missing != NULL) {
+        fputs("<p>Data are missing for: ", out);
+        put_text(out, missing);
+        fputs(".</p>\n", out);
+    }
+}
+
+/* rc-scene compares with a uniform body 1. */
+static bool
+has_effects(const struct run *run)
+{
+    (void)run;
+    return !isinf(args.physics.e1);
+}
+
 static bool
 is_measured(const struct run *run)
 {
@@ -330,6 +395,7 @@ static const struct part {
     void (*show)(struct run *run, FILE *in, const char *a, const char *b);
     const char *a, *b;
     bool (*wanted)(const struct run *run); /* NULL: always */
+    bool may_fail;                         /* its file is then empty */
 } parts[] = {
     {.command = "rc-import ORIGINAL", .file = "measured.rcg", .wanted = is_measured},
     {.command = "rc-detrend PREPARED", .file = "surface.rcg"},
@@ -384,6 +450,12 @@ static const struct part {
      .file = "section.png",
      .show = show_picture,
      .a = "Mises stress below the middle of the map, under the last load"},
+    {.heading = "Effects",
+     .command = "rc-scene --quiet SCENE surface.rcg",
+     .file = "effects.txt",
+     .show = show_effects,
+     .wanted = has_effects,
+     .may_fail = true},
     {.heading = "Accuracy",
      .file = "loads.tsv",
      .show = show_table,
@@ -437,6 +509,9 @@ expand(const struct run *run, struct command *c, const char *word)
     else if (strcmp(word, "CONTACT") == 0)
         for (size_t k = 0; k < run->contacts; k++)
             add(c, run->contact[k], NULL);
+    else if (strcmp(word, "SCENE") == 0)
+        for (size_t k = 0; k < run->scenes; k++)
+            add(c, run->scene[k], NULL);
     else if (strcmp(word, "NU") != 0)
         add(c, word, NULL);
     else if (*run->nu != '\0')
@@ -463,7 +538,8 @@ write_command(const struct run *run, const struct command *c)
 
 /* Repeats the messages of a command, and ends as it did if it failed. */
 static void
-take_messages(struct run *run, const char *name, enum process_end end, struct process *p)
+take_messages(struct run *run, const char *name, enum process_end end, struct process *p,
+              bool may_fail)
 {
     struct tool *t = &run->t;
 
@@ -473,7 +549,7 @@ take_messages(struct run *run, const char *name, enum process_end end, struct pr
         tool_die(t, "%s was ended by a signal", name);
     if (p->said != NULL && (end == PROCESS_FAILED || !t->quiet))
         fputs(p->said, stderr);
-    if (end == PROCESS_FAILED) {
+    if (end == PROCESS_FAILED && !may_fail) {
         if (strcmp(name, "rc-import") == 0)
             fprintf(stderr,
                     "%s: if this file needs options of rc-import, write its grid stream to a "
@@ -495,7 +571,9 @@ run_part(struct run *run, const struct part *part)
     struct process p = {
         .in = run->nothing, .out = run->nothing, .folder = folder, .allowed = INFINITY};
     struct command c = {.n = 0};
-    char *words = strdup(part->command), *rest = words;
+    char *words = strdup(part->command), *rest = words, path[WHOLE_PATH];
+    enum process_end end;
+    FILE *empty;
 
     if (words == NULL)
         tool_die(&run->t, "out of memory");
@@ -506,7 +584,14 @@ run_part(struct run *run, const struct part *part)
     if (*run->memory != '\0')
         add(&c, "--memory", run->memory);
     p.doing = c.word[0];
-    take_messages(run, c.word[0], process_run(&run->t, c.word, &p), &p);
+    end = process_run(&run->t, c.word, &p);
+    take_messages(run, c.word[0], end, &p, part->may_fail);
+    if (end == PROCESS_FAILED) {
+        snprintf(path, sizeof path, "%s/%s", folder, part->file);
+        empty = fopen(path, "wb");
+        if (empty == NULL || fclose(empty) != 0)
+            tool_die(&run->t, "%s: %s", path, strerror(errno));
+    }
     free(words);
 }
 
@@ -527,6 +612,44 @@ assume(struct tool *t, const char *name, const char *text)
             (void)unit_numbers(text, o->unit, at, NULL);
         else
             (void)unit_number(text, o->unit, at, NULL);
+    }
+}
+
+/* True for an option of this table; its word may end in "=VALUE". */
+static bool
+is_option(const struct opt *row, const char *word)
+{
+    for (; row->name != NULL; row++)
+        if (strncmp(word, "--", 2) == 0 && strlen(row->name) == strcspn(word + 2, "=") &&
+            strncmp(word + 2, row->name, strlen(row->name)) == 0)
+            return true;
+    return false;
+}
+
+/* Gives rc-solve the options of the contact, and rc-scene those with the last load and the data of
+ * effects. */
+static void
+divide_words(struct run *run)
+{
+    const char *all[WORDS / 2];
+    const struct numbers *steps = physics_steps(&args.physics);
+    const size_t n = tool_result_words(&run->t, all, WORDS / 2);
+    bool of_scene = false, of_load = false;
+
+    snprintf(run->load, sizeof run->load, "%s%s", rc_number(steps->v[steps->n - 1]),
+             steps->per_metre ? "N/m" : "");
+    for (size_t k = 0; k < run->contacts; k++)
+        run->scene[run->scenes++] = run->contact[k];
+    for (size_t k = 0; k < n; k++) {
+        const bool name = strncmp(all[k], "--", 2) == 0, value = of_load && !name;
+        if (name) {
+            of_scene = is_option(scene_options, all[k]);
+            of_load = strcmp(all[k], "--load") == 0 || strcmp(all[k], "--mean-pressure") == 0 ||
+                      strcmp(all[k], "--approach") == 0;
+        }
+        if (!of_scene)
+            run->contact[run->contacts++] = all[k];
+        run->scene[run->scenes++] = value ? run->load : all[k];
     }
 }
 
@@ -555,9 +678,9 @@ check_contact(struct run *run)
     physics_check(t, &args.physics);
     t->quiet = quiet;
     run->loads = physics_steps(&args.physics)->n;
-    run->contacts += tool_result_words(t, run->contact + run->contacts, WORDS / 2);
+    divide_words(run);
     rc_number_text(run->last, (double)run->loads);
-    if (!tool_given(t, "nu1"))
+    if (!tool_given(t, "nu1") && args.physics.layer.n == 0) /* layers have their own */
         rc_number_text(run->nu, isnan(args.nu) ? 0.28 : args.nu);
 }
 
@@ -633,6 +756,7 @@ write_page(struct run *run)
           "color:#222}img{max-width:100%}figure{margin:1em 0}figcaption{color:#595959}"
           "pre{background:#f4f4f4;padding:.8em;white-space:pre-wrap;overflow-wrap:anywhere}"
           "table{font-size:85%}td,th{padding:.2em .6em;text-align:right}"
+          "#effects td,#effects th{text-align:left;vertical-align:top}#effects pre{margin:0}"
           "</style>\n</head>\n<body>\n<h1>",
           out);
     put_text(out, title);
@@ -640,7 +764,7 @@ write_page(struct run *run)
     for (size_t k = 0; k < sizeof parts / sizeof *parts; k++) {
         const struct part *part = &parts[k];
 
-        if (part->heading != NULL)
+        if (part->heading != NULL && (part->wanted == NULL || part->wanted(run)))
             fprintf(out, "<h2>%s</h2>\n", part->heading);
         if (part->show == NULL || (part->wanted != NULL && !part->wanted(run)))
             continue;

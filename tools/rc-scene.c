@@ -11,27 +11,19 @@
 
 static struct args {
     struct physics physics;
-    const char *yield, *adhesion, *relaxation, *conductivity, *coefficient, *moving, *report,
-        *within_temperature;
-    struct numbers diffusivity;
-    double mu, tangential, speed, time, distance, thickness;
+    struct scene_args given;
+    const char *relaxation, *report, *within_temperature;
     double within, within_friction, decide;
     size_t figures;
     bool dry_run;
 } args = {.physics = PHYSICS_NONE,
-          .mu = NAN,
-          .tangential = NAN,
-          .speed = NAN,
-          .time = NAN,
-          .distance = NAN,
-          .thickness = NAN,
+          .given = SCENE_NOTHING,
           .within = 0.01,
           .within_friction = 0.01,
           .decide = NAN};
 
 static const char *const figure_words[] = {"area",        "pressure", "approach", "displacement",
                                            "temperature", "friction", NULL};
-static const char *const moving_words[] = {"1", "2", NULL};
 
 #define AT(field) .at = offsetof(struct args, field)
 #define ABOVE_0 .min = 0, .max = INFINITY, .above = true, .result = true
@@ -39,30 +31,7 @@ static const char *const moving_words[] = {"1", "2", NULL};
 static const struct opt opts[] = {
     {.group = physics_options, .at = offsetof(struct args, physics), .title = "the elastic contact"},
     {.title = "data of the effects"},
-    {.name = "thickness", .type = OPT_NUMBER, .unit = UNIT_M, AT(thickness), ABOVE_0, .arg = "LENGTH",
-     .help = "thin body: thickness of body 1 on a rigid base"},
-    {.name = "yield", .type = OPT_TEXT, AT(yield), .result = true, .arg = "Y",
-     .help = "yield in the volume: yield stress of body 1"},
-    {.name = "adhesion", .type = OPT_TEXT, AT(adhesion), .result = true, .arg = "WORK[,LAW[,RANGE]]",
-     .help = "adhesion: work, law and range of the attraction, as for rc-solve"},
-    {.name = "mu", .type = OPT_NUMBER, AT(mu), ABOVE_0, .arg = "COEFFICIENT",
-     .help = "coefficient of friction: partial slip, dissimilar bodies, heat"},
-    {.name = "tangential", .type = OPT_NUMBER, .unit = UNIT_N, AT(tangential), ABOVE_0, .arg = "FORCE",
-     .help = "partial slip: the tangential force"},
-    {.name = "speed", .type = OPT_NUMBER, .unit = UNIT_SPEED, AT(speed), ABOVE_0, .arg = "V",
-     .help = "sliding speed along x: heat, sliding on rubber"},
-    {.name = "time", .type = OPT_NUMBER, .unit = UNIT_S, AT(time), ABOVE_0, .arg = "TIME",
-     .help = "time since the load acts and heat flows: relaxation, heat"},
-    {.name = "conductivity", .type = OPT_TEXT, AT(conductivity), .result = true, .arg = "K1,K2",
-     .help = "heat: thermal conductivities of both bodies, as in 45W/mK,16W/mK"},
-    {.name = "diffusivity", .type = OPT_NUMBERS, .unit = UNIT_DIFFUSIVITY, AT(diffusivity), ABOVE_0,
-     .arg = "A1,A2", .help = "heat: thermal diffusivities of both bodies"},
-    {.name = "moving", .type = OPT_CHOICE, AT(moving), .list = moving_words, .result = true, .arg = "1|2",
-     .help = "heat: the body that moves past the contact (default 2)"},
-    {.name = "coefficient", .type = OPT_TEXT, AT(coefficient), .result = true, .arg = "K1[,K2]",
-     .help = "wear: coefficients of body 1 and body 2, in mm3/Nm, m2/N or 1/GPa"},
-    {.name = "distance", .type = OPT_NUMBER, .unit = UNIT_M, AT(distance), ABOVE_0, .arg = "LENGTH",
-     .help = "wear: the sliding distance"},
+    {.group = scene_options, .at = offsetof(struct args, given)},
     {.name = "relaxation", .type = OPT_TEXT, AT(relaxation), .result = true, .arg = "EINF,E1:TAU1,...|FILE",
      .against = RULES({.with = "E1 MODULUS", .because = "the moduli of body 1 are those of --relaxation"},
                       {.with = "estar", .because = "body 1 needs its Poisson's ratio"}),
@@ -160,10 +129,10 @@ read_conductivities(struct tool *t, double k[2])
 {
     const char *of;
 
-    if (unit_conductivities(args.conductivity, k, &of, &t->err) != RC_OK)
-        tool_usage(t, "--conductivity %s: %s", args.conductivity, t->err.text);
+    if (unit_conductivities(args.given.conductivity, k, &of, &t->err) != RC_OK)
+        tool_usage(t, "--conductivity %s: %s", args.given.conductivity, t->err.text);
     if (of != NULL && strcmp(of, "W/K") != 0)
-        tool_usage(t, "--conductivity %s: it must be thermal, in W/mK", args.conductivity);
+        tool_usage(t, "--conductivity %s: it must be thermal, in W/mK", args.given.conductivity);
 }
 
 /* A difference of temperatures: 10degC would be read as 283 K. */
@@ -210,36 +179,36 @@ read_data(struct run *run)
     d->hardness = isinf(a->hardness) ? 0 : a->hardness;
     d->layers = a->layer.n;
     d->layer = a->layers;
-    d->thickness = known(args.thickness);
-    if (args.yield != NULL) {
+    d->thickness = known(args.given.thickness);
+    if (args.given.yield != NULL) {
         double y[2] = {0, 0};
-        read_numbers(t, "yield", args.yield, UNIT_PA, 1, y);
+        read_numbers(t, "yield", args.given.yield, UNIT_PA, 1, y);
         d->yield = y[0];
     }
-    if (args.adhesion != NULL) {
-        if (adhesion_law_read(&run->adhesion, args.adhesion, &t->err) != RC_OK)
-            tool_usage(t, "--adhesion %s: %s", args.adhesion, t->err.text);
+    if (args.given.adhesion != NULL) {
+        if (adhesion_law_read(&run->adhesion, args.given.adhesion, &t->err) != RC_OK)
+            tool_usage(t, "--adhesion %s: %s", args.given.adhesion, t->err.text);
         d->work = run->adhesion.problem.work;
         d->law = run->adhesion.problem.law;
         d->range = run->adhesion.problem.range;
     }
-    d->mu = known(args.mu);
-    d->tangential = known(args.tangential);
-    d->speed = known(args.speed);
-    d->time = known(args.time);
-    d->distance = known(args.distance);
-    if (args.coefficient != NULL) {
-        read_numbers(t, "coefficient", args.coefficient, UNIT_WEAR, 1, worn);
+    d->mu = known(args.given.mu);
+    d->tangential = known(args.given.tangential);
+    d->speed = known(args.given.speed);
+    d->time = known(args.given.time);
+    d->distance = known(args.given.distance);
+    if (args.given.coefficient != NULL) {
+        read_numbers(t, "coefficient", args.given.coefficient, UNIT_WEAR, 1, worn);
         d->wear = worn[0] + worn[1];
     }
-    if (args.conductivity != NULL)
+    if (args.given.conductivity != NULL)
         read_conductivities(t, d->conductivity);
-    if (args.diffusivity.n > 0) {
-        if (args.diffusivity.n != 2)
+    if (args.given.diffusivity.n > 0) {
+        if (args.given.diffusivity.n != 2)
             tool_usage(t, "--diffusivity: give two numbers, for body 1 and body 2");
-        memcpy(d->diffusivity, args.diffusivity.v, sizeof d->diffusivity);
+        memcpy(d->diffusivity, args.given.diffusivity.v, sizeof d->diffusivity);
     }
-    d->moving = args.moving != NULL && strcmp(args.moving, "1") == 0 ? 1 : 2;
+    d->moving = args.given.moving != NULL && strcmp(args.given.moving, "1") == 0 ? 1 : 2;
     run->bounds = (struct rc_scene_bounds){.relative = args.within,
                                            .temperature = read_difference(t),
                                            .friction = args.within_friction,
@@ -461,6 +430,28 @@ by_rank(const void *a, const void *b)
     return (x > y) - (x < y);
 }
 
+enum {
+    MISSING = 96
+};
+
+/* The names of the options that an effect needs and that are not given. */
+static const char *
+missing_of(struct tool *t, const char *needs, const char *before, char text[MISSING])
+{
+    size_t n = 0;
+
+    text[0] = '\0';
+    for (const char *at = needs; *at != '\0'; at += strspn(at, " ")) {
+        const int length = (int)strcspn(at, " ");
+        char name[MISSING];
+        snprintf(name, sizeof name, "%.*s", length, at);
+        at += length;
+        if (!tool_given(t, name))
+            n += (size_t)snprintf(text + n, MISSING - n, "%s%s%s", n > 0 ? " " : "", before, name);
+    }
+    return text;
+}
+
 static void
 print_table(struct run *run, const struct rc_grid *g, const struct rc_contact *c,
             struct line *const line[], size_t n, const char *file)
@@ -489,29 +480,38 @@ print_table(struct run *run, const struct rc_grid *g, const struct rc_contact *c
         fputc('\n', out);
     }
     for (size_t k = 0; k < n; k++) {
-        const char *needs = line[k]->effect.missing;
+        char missing[MISSING];
         if (line[k]->verdict != RC_SCENE_MISSING)
             continue;
-        fprintf(out, "%s%s (", first ? "  data missing: " : ", ", line[k]->effect.title);
-        for (const char *at = needs; *at != '\0'; at += strspn(at, " ")) {
-            fprintf(out, "%s--%.*s", at == needs ? "" : " ", (int)strcspn(at, " "), at);
-            at += strcspn(at, " ");
-        }
-        fputc(')', out);
+        fprintf(out, "%s%s (%s)", first ? "  data missing: " : ", ", line[k]->effect.title,
+                missing_of(&run->t, line[k]->effect.missing, "--", missing));
         first = false;
     }
     fputs(first ? "" : "\n", out);
 }
 
 static void
-put_effect(struct report *r, const struct line *l, const char *name)
+put_effect(struct tool *t, struct report *r, const struct line *l)
 {
-    report_object(r, name);
+    RC_OWNED char *sentence = NULL;
+    size_t size;
+    char missing[MISSING];
+    FILE *text = open_memstream(&sentence, &size);
+
+    report_object(r, NULL);
     report_text(r, "effect", l->effect.name);
+    report_text(r, "title", l->effect.title);
     report_text(r, "verdict", rc_scene_verdict_names[l->verdict]);
+    if (text != NULL && l->verdict != RC_SCENE_MISSING)
+        print_change(l, text);
+    if (text == NULL || fclose(text) != 0)
+        tool_die(t, "out of memory");
+    sentence[strcspn(sentence, "\n")] = '\0';
+    report_text(r, "sentence", sentence[0] == '\0' ? NULL : sentence);
     report_text(r, "basis",
                 l->verdict == RC_SCENE_MISSING ? NULL : rc_scene_basis_names[l->effect.basis]);
-    report_text(r, "missing", l->effect.missing);
+    report_text(r, "missing",
+                l->effect.missing == NULL ? NULL : missing_of(t, l->effect.missing, "", missing));
     report_text(r, "unfit", l->effect.unfit[0] == '\0' ? NULL : l->effect.unfit);
     report_bool(r, "decided", l->decided);
     report_object(r, "figures");
@@ -575,7 +575,7 @@ put_report(struct run *run, const struct rc_grid *g, const struct rc_scene *s,
     report_number(r, "pressure_error_estimate", c->pressure_error, NULL);
     report_array(r, "scene");
     for (size_t k = 0; k < n; k++)
-        put_effect(r, line[k], NULL);
+        put_effect(&run->t, r, line[k]);
     report_end(r);
     report_number(r, "convolutions", rc_scene_convolutions(s), NULL);
     report_seconds(r, (const struct report_phase[]){{NULL, 0}}, seconds);

@@ -44,7 +44,8 @@ HEADERS = {'Cache-Control': 'no-store', 'X-Content-Type-Options': 'nosniff', 'Re
            "connect-src 'self'; base-uri 'none'; form-action 'none'; frame-ancestors 'none'"}
 # Options that the page sets itself, that write further files, or whose files a later run would continue.
 HIDDEN = tools.HIDDEN | {'checkpoint', 'resume', 'interval', 'keep-going', 'psd-map'}
-MAKERS = ('rc-render', 'rc-info', 'rc-export', 'rc-report')
+MAKERS = ('rc-render', 'rc-info', 'rc-export', 'rc-report', 'rc-scene')
+OF_SURFACE = ('rc-report', 'rc-scene')  # about the surface that is pressed
 ACTIVE, ENDED_WELL = ('waiting', 'running'), ('done', 'short')
 
 
@@ -440,16 +441,17 @@ class Request(http.server.BaseHTTPRequestHandler):
         self.send(bytes(tools.draw([ramp], raw=True, quiet=True)), 'image/png')
 
     def get_made(self):
-        """What rc-render, rc-info, rc-export or rc-report makes of a step; the command is in a header."""
+        """What a tool makes of a step, of rc-scene the report; the command is in a header."""
         (run, step, _), tool, options = self.output(), self.query['tool'], json.loads(self.query['options'])
         if tool not in MAKERS:
             raise Refused('%s makes no file here' % tool)
         source = step.report if any(name == 'curve' for name, _ in options) else step.output
         if source is None:
             raise Refused('%s writes no report, so it has no curves: choose another result' % step.tool, 422)
-        if tool == 'rc-report':  # about the surface that is pressed
+        if tool in OF_SURFACE:
             source = next((s.command[-1] for s in run.steps if s.tool == 'rc-solve'), source)
-        words, name = [tool] + words_of(tool, options, self.server.files) + ['-o'], safe_name(self.query['name'])
+        words, name = [tool] + words_of(tool, options, self.server.files), safe_name(self.query['name'])
+        words += ['-o', os.devnull, '--report'] if tool == 'rc-scene' else ['-o']
         with tempfile.TemporaryDirectory(dir=self.server.folder) as folder:
             status, said = self.server.execute(words + [os.path.join(folder, name), source], run.folder)
             if status not in (0, 3):

@@ -149,6 +149,37 @@ def errors(page):
     ok('a curve of six loads is drawn', page.evaluate('() => document.querySelector("#picture").naturalWidth > 300'))
 
 
+def effects(page):
+    """The verdicts on the contact; a button adds an effect to the steps."""
+    def judge():
+        page.evaluate('() => { delete document.body.dataset.judged; }')
+        page.click('#judge')
+        page.wait_for_selector('body[data-judged]', state='attached')
+
+    def command(tool):
+        page.wait_for_timeout(600)
+        return page.inner_text('details:has(> summary code:text("%s")) .command code' % tool)
+
+    page.check('#views input[value=Map]', force=True)
+    page.locator('details:has(code:text("rc-solve")) input').first.fill('60N')
+    page.keyboard.press('Control+Enter')
+    page.wait_for_selector('body[data-run$=done]', state='attached')
+    shown(page, 'Map pressure')
+    page.click('#effects summary')
+    for name, value in (('coefficient', '1e-6mm3/Nm'), ('distance', '1m')):
+        page.select_option('#known select', value=name)
+        page.locator('#known .option:has(label:text-is("%s")) input' % name).fill(value)
+    judge()
+    table = page.inner_text('#verdicts')
+    ok('the contact is judged', 'hardness\tcalls for it: changes the largest pressure by ' in table and 'Data are missing for: ' in table, table[:200])
+    picture(page, 'effects')
+    page.click('#verdicts [name=wear]')
+    ok('  wear is added as a step', command('rc-wear').startswith('rc-wear --coefficient 1e-6mm3/Nm --distance 1m '), command('rc-wear'))
+    page.click('#verdicts [name=tilt]')
+    solve = command('rc-solve')
+    ok('  a free tilt as an option of the contact', '--tilt free' in solve and '--load 60N' in solve and '--hardness' in solve, solve)
+
+
 def remove(page):
     """A run is selected in the list and removed."""
     page.check('#views input[value=Map]', force=True)
@@ -209,7 +240,7 @@ def large(page):
 with sync_playwright() as playwright:
     wide = Browser(playwright)
     page = wide.open()
-    for check in (by_keyboard, errors, remove, crop, large):
+    for check in (by_keyboard, errors, effects, remove, crop, large):
         try:
             check(page)
         except Exception as e:

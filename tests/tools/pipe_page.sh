@@ -46,6 +46,25 @@ claim "options of the contact are passed to rc-solve" bash -c '
     grep -q -- "^rc-detrend --poly 2 --outliers 5 --fill --mirror measured.rcg" options.html &&
     grep -q -- "rc-solve --periodic --load 0.01,0.02 --E1 70000000000 --nu1 0.3 --E2 rigid --hardness 2000000000 --radius 0.005 --output" options.html &&
     grep -q -- "^rc-stress --section" options.html && grep -q "a sphere of radius 5 mm is added, the hardness is 2 GPa, and the map repeats" options.html'
+
+# ---- effects: those of rc-scene ----
+
+known="--load 0.01N,20N --E1 210GPa --nu1 0.3 --E2 210GPa --nu2 0.3 --mu 0.3 --yield 1GPa"
+rc-synth sphere --radius 3mm --nx 48 --dx 4um -o steel.rcg
+rc-report --quiet $known --hardness 1.5GPa -o steel.html steel.rcg
+claim "the page has the verdicts of rc-scene" parsed '^6 pictures' steel.html
+sed -n '/<h2>Effects/,/<h2>Accuracy/p' steel.html >effects.html
+# Hertz: p0^3 = 6 F E*^2/(pi^3 R^2)
+p0=$(awk 'BEGIN { pi = atan2(0, -1); print (6 * 20 * (210e9 / 1.82) ^ 2 / (pi ^ 3 * 9e-6)) ^ (1 / 3) }')
+near "$(sed -n 's/.*<th>hardness<.*calls for it: changes the largest pressure by \([0-9.]*\) %.*/\1/p' effects.html)" \
+    "$(awk -v p="$p0" 'BEGIN { print 100 * (1 - 1.5e9 / p) }')" 0.02 "  of the last load: the hardness lowers the largest pressure to 1.5 GPa"
+claim "  with the command that computes it" grep -q '<pre>rc-solve --load 20N .*--hardness 1.5GPa surface.rcg</pre>' effects.html
+claim "  like bodies do not feel friction" grep -q 'friction of dissimilar bodies</th><td>negligible: changes nothing' effects.html
+claim "  and the data that other effects need" grep -q 'Data are missing for: .*partial slip (--tangential)' effects.html
+claim "  rc-solve does not get them" bash -c '! grep "^rc-solve.*--yield" steel.html | grep -v "<pre>"'
+rc-report --quiet --load 1N --E1 rigid --layer 5um,3GPa,0.4 --E2 rigid -o layers.html steel.rcg
+claim "layers on a rigid body 1: no verdicts" lacks '<h2>Effects' layers.html
+
 rc-synth sphere --nx 33 --dx 1um --radius 1mm -o ball.rcg
 rc-report --quiet --load 0.1N --estar 114GPa -o ball.html ball.rcg
 claim "the form of a grid stream is not removed" bash -c '

@@ -232,6 +232,18 @@ def pipeline():
                 out.write(text)
 
 
+def effects():
+    """rc-scene judges the effects of the contact that was pressed; its report has sentences and commands."""
+    number, known = max(runs()), SOLVE[2:] + [['load', '20N'], ['radius', '3.75mm'], ['mu', '0.3']]
+    status, headers, text = ask('made', {'run': number, 'step': 3, 'tool': 'rc-scene', 'options': json.dumps(known), 'name': 'scene.json'})
+    assert status == 200, text
+    scene = {e['effect']: e for e in json.loads(text)['scene']}
+    assert scene['hardness']['sentence'].startswith('calls for it: changes the largest pressure by '), scene['hardness']
+    assert scene['hardness']['command'][0] == 'rc-solve' and '--hardness' in scene['hardness']['command']
+    assert scene['wear']['sentence'] is None and scene['wear']['missing'] == 'coefficient distance', scene['wear']
+    assert urllib.parse.unquote(headers['X-Command']).startswith('rc-scene '), headers['X-Command']
+
+
 def frames():
     """The binary values of the frames are those of the stream, and the colours those of rc-render."""
     number = max(runs())

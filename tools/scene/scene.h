@@ -6,6 +6,7 @@
 #ifndef RC_TOOL_SCENE_H
 #define RC_TOOL_SCENE_H
 
+#include <math.h>
 #include <stdio.h>
 
 #include "libcontact/contact.h"
@@ -15,6 +16,18 @@ enum {
     SCENE_WORDS = 96,
     SCENE_PROGRAMS = 2
 };
+
+/* Data of the effects, as given; NAN or NULL: not given. */
+struct scene_args {
+    const char *yield, *adhesion, *conductivity, *coefficient, *moving;
+    struct numbers diffusivity;
+    double mu, tangential, speed, time, distance, thickness;
+};
+#define SCENE_NOTHING                                                                              \
+    {                                                                                              \
+        .mu = NAN, .tangential = NAN, .speed = NAN, .time = NAN, .distance = NAN, .thickness = NAN \
+    }
+extern const struct opt scene_options[];
 
 /* The programs of a pipe that computes an effect, each with its words. */
 struct scene_command {

@@ -210,6 +210,8 @@ const collect = trying(async () => {
   if (run?.number !== number) return;
   frames = found;
   $('result').hidden = !frames.length;
+  $('effects').hidden = !run.steps.some(step => step.tool === 'rc-solve' && well(step));
+  $('verdicts').replaceChildren(); // they belong to the contact before
   $('channel').replaceChildren(...frames.map((f, k) => new Option(f.name, k)));
   const last = ['pressure', 'height', frames.at(-1)?.channel].map(name => f => f.channel === name);
   const places = [f => f.name === kept, ...last].map(test => frames.findLastIndex(test));
@@ -340,6 +342,59 @@ function downloads() {
       format => save('rc-export', framed([['format', format]]), `${frame.channel}.${format}`)));
 }
 
+// ---- effects: the verdicts of rc-scene on the contact, and buttons that add an effect to the steps ----
+
+let known = [['mu', ''], ['yield', '']]; // data of the effects, beside the options of the contact
+const pressed = () => steps.find(step => step.tool === 'rc-solve');
+const judged = name => tables['rc-scene'].options.some(row => row.name === name);
+function drawKnown() {
+  const rows = tables['rc-scene'].options, first = rows.findIndex(row => row.name === 'thickness');
+  tables.known = {options: rows.filter(({name}, k) => k >= first || name === 'layer' || name === 'hardness')};
+  $('known').replaceChildren(form('known', known, () => {}, drawKnown));
+}
+const judge = trying(async () => {
+  if (!pressed()) throw new Error('Add the step “Press” first: the verdicts are about its contact.');
+  const own = given(known), names = own.map(([name]) => name);
+  const words = [...given(pressed().options).filter(([name]) => judged(name) && !names.includes(name)), ...own];
+  tell('rc-scene judges the effects …');
+  const answer = await made('rc-scene', words, 'scene.json'), said = decodeURIComponent(answer.headers.get('X-Words'));
+  const lines = (await answer.text()).trim().split('\n').map(line => JSON.parse(line));
+  const {scene} = lines[(frame?.case ?? 1) - 1] ?? lines.at(-1), missing = scene.filter(e => !e.sentence);
+  $('verdicts').replaceChildren(make('p', {className: 'said', textContent: said}),
+    make('table', {}, ...scene.filter(e => e.sentence).map(e => make('tr', {}, make('th', {textContent: e.title}),
+      make('td', {textContent: e.sentence}),
+      make('td', {}, ...(e.command.length ? [button('Add', () => addEffect(e), {name: e.effect})] : []))))),
+    hint(missing.length ? 'Data are missing for: ' + missing.map(e => `${e.title} (${e.missing})`).join(', ') + '.' : ''));
+  document.body.dataset.judged = scene.length;
+  tell('The table below the result has the verdicts.');
+});
+// The options of a command, [[name, value], ...], of which the first word is the tool.
+function optionsOf([tool, ...words]) {
+  const found = [];
+  for (const word of words) {
+    const [name, ...value] = word.slice(2).split('=');
+    if (found.length && !word.startsWith('--')) found.at(-1)[1] = word;
+    else found.push([name, value.length ? value.join('=') : undefined]);
+  }
+  const row = name => tables[tool].options.find(other => other.name === name);
+  return found.filter(([name]) => row(name)).map(([name, value]) =>
+    [name, value ?? (isFlag(row(name)) ? true : row(name).words[0])]);
+}
+// Gives the step of each tool the options of the command. The contact keeps its loads.
+function addEffect({command, title: what}) {
+  const at = command.indexOf('|'), all = at < 0 ? [command] : [command.slice(0, at), command.slice(at + 1)];
+  for (const words of all) {
+    const options = optionsOf(words), has = name => options.some(option => option[0] === name), [tool] = words;
+    const loads = name => /^(load|mean-pressure|approach)$/.test(name);
+    const step = steps.find(other => other.tool === tool) ?? (steps.push({tool, options: []}), steps.at(-1));
+    const kept = step.options.filter(([name]) => loads(name) || !has(name) && !(tool === 'rc-solve' && judged(name)));
+    step.options = [...kept, ...options.filter(([name]) => !loads(name) || tool !== 'rc-solve')];
+    step.open = true;
+  }
+  drawSteps();
+  tell(`The steps have this effect now: ${what}. Run the steps to see it.`);
+}
+
 // ---- the beginning ----
 
 const upload = trying(async chosen => {
@@ -359,6 +414,7 @@ trying(async () => {
     const field = make('input', {type: 'radio', name: 'view', value, checked: value === view, onchange});
     return make('label', {}, field, make('span', {textContent: value}));
   }));
+  drawKnown();
   const events = new EventSource('events'), [sample, opened] = desk.first;
   events.onmessage = e => { runs = JSON.parse(e.data); news(); };
   events.onerror = () => tell('No connection to rc-app: it has ended, or four pages are open.', 'failed');
@@ -370,6 +426,7 @@ trying(async () => {
   } else if (opened !== null) begin(desk.files[opened]);
 })();
 const CLICKS = {
+  judge,
   go: () => start(99), cancel: () => drop(run.number), remove: () => drop(run.number), crop,
   all: () => map.fit(), in: () => map.zoom(1.5), out: () => map.zoom(1 / 1.5),
   quit: trying(async () => {

@@ -1,0 +1,39 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Options with the data of the effects, of rc-scene and rc-report. */
+#include <stddef.h>
+
+#include "scene.h"
+
+static const char *const moving_words[] = {"1", "2", NULL};
+
+#define AT(field) .at = offsetof(struct scene_args, field)
+#define ABOVE_0 .min = 0, .max = INFINITY, .above = true, .result = true
+/* clang-format off */
+const struct opt scene_options[] = {
+    {.name = "thickness", .type = OPT_NUMBER, .unit = UNIT_M, AT(thickness), ABOVE_0, .arg = "LENGTH",
+     .help = "thin body: thickness of body 1 on a rigid base"},
+    {.name = "yield", .type = OPT_TEXT, AT(yield), .result = true, .arg = "Y",
+     .help = "yield in the volume: yield stress of body 1"},
+    {.name = "adhesion", .type = OPT_TEXT, AT(adhesion), .result = true, .arg = "WORK[,LAW[,RANGE]]",
+     .help = "adhesion: work, law and range of the attraction, as for rc-solve"},
+    {.name = "mu", .type = OPT_NUMBER, AT(mu), ABOVE_0, .arg = "COEFFICIENT",
+     .help = "coefficient of friction: partial slip, dissimilar bodies, heat"},
+    {.name = "tangential", .type = OPT_NUMBER, .unit = UNIT_N, AT(tangential), ABOVE_0, .arg = "FORCE",
+     .help = "partial slip: the tangential force"},
+    {.name = "speed", .type = OPT_NUMBER, .unit = UNIT_SPEED, AT(speed), ABOVE_0, .arg = "V",
+     .help = "sliding speed along x: heat, sliding on rubber"},
+    {.name = "time", .type = OPT_NUMBER, .unit = UNIT_S, AT(time), ABOVE_0, .arg = "TIME",
+     .help = "time since the load acts and heat flows: relaxation, heat"},
+    {.name = "conductivity", .type = OPT_TEXT, AT(conductivity), .result = true, .arg = "K1,K2",
+     .help = "heat: thermal conductivities of both bodies, as in 45W/mK,16W/mK"},
+    {.name = "diffusivity", .type = OPT_NUMBERS, .unit = UNIT_DIFFUSIVITY, AT(diffusivity), ABOVE_0,
+     .arg = "A1,A2", .help = "heat: thermal diffusivities of both bodies"},
+    {.name = "moving", .type = OPT_CHOICE, AT(moving), .list = moving_words, .result = true, .arg = "1|2",
+     .help = "heat: the body that moves past the contact (default 2)"},
+    {.name = "coefficient", .type = OPT_TEXT, AT(coefficient), .result = true, .arg = "K1[,K2]",
+     .help = "wear: coefficients of body 1 and body 2, in mm3/Nm, m2/N or 1/GPa"},
+    {.name = "distance", .type = OPT_NUMBER, .unit = UNIT_M, AT(distance), ABOVE_0, .arg = "LENGTH",
+     .help = "wear: the sliding distance"},
+    {.name = NULL},
+};
+/* clang-format on */
