@@ -89,6 +89,7 @@ tools/frames        | %public tools/cli/cli.h tools/text/text.h | %physics %cli
 tools/frames        | formats/core/core.h                      | formats/core
 tools/problem       | %public tools/cli/cli.h                  | %physics %cli
 tools/problem       | tools/frames/frames.h                    | tools/frames
+tools/materials     | tools/cli/cli.h                          | libcontact %cli
 tools/journal       | tools/cli/cli.h                          | libcontact formats/rcg %cli
 tools/model         | %public tools/cli/cli.h                  | %physics %cli
 tools/model         | tools/frames/frames.h                    | tools/frames
@@ -99,7 +100,7 @@ tools/plot          | tools/canvas/canvas.h                    | tools/canvas
 tools/cost          | %public tools/cli/cli.h tools/plot/plot.h | %physics %cli %plot
 tools/cost          | formats/rcg/rcg.h                        | formats/rcg
 tools/solve         | %public tools/cli/cli.h tools/plot/plot.h | %physics %cli %plot
-tools/solve         | tools/frames/frames.h                    | tools/frames
+tools/solve         | tools/frames/frames.h tools/materials/materials.h | tools/frames tools/materials
 tools/solve         | formats/core/core.h                      | formats/core formats/rcg
 tools/solve         | tools/model/model.h tools/problem/problem.h | tools/model tools/problem
 tools/slip          | %public tools/cli/cli.h                  | %physics %cli
@@ -129,6 +130,7 @@ tools               | tools/scene/scene.h                      | tools/scene lib
 tools               | tools/leak/leak.h tools/fatigue/fatigue.h | tools/leak tools/fatigue
 tools               | tools/info/info.h tools/slip/slip.h      | tools/info tools/slip
 tools               | tools/problem/problem.h tools/model/model.h | tools/problem tools/model
+tools               | tools/materials/materials.h              | tools/materials
 tools               | tools/import/import.h                    | tools/import
 tools               | tools/pick/pick.h tools/synth/synth.h    | tools/pick tools/synth
 tools               | formats/core/core.h formats/rcg/rcg.h    | formats/core formats/rcg

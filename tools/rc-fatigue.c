@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "tools/fatigue/fatigue.h"
+#include "tools/materials/materials.h"
 #include "tools/stress/stress.h"
 
 static struct args {
@@ -58,6 +59,7 @@ static const struct opt opts[] = {
     {.name = "residual", .type = OPT_TEXT, AT(residual), .result = true, .arg = "FILE",
      .help = "stresses that are always there, as rc-stress --residual writes them at these depths"},
     {.group = stress_body_options, AT(asked)},
+    {.group = material_options_of_one},
     {.name = "planes", .type = OPT_FLAG, AT(planes), .result = true,
      .help = "also write the angles of Findley's plane: frames plane-tilt and plane-turn"},
     {.name = "life", .type = OPT_NUMBERS, AT(life), .min = 0, .max = INFINITY, .result = true,
@@ -85,6 +87,8 @@ static const struct tool_info info = {
         "  rc-render --curve depth:dangvan -o curve.png depths.tsv\n",
     .opts = opts,
     .figures = (const char *const[]){"fatigue", NULL},
+    .fill = materials_fill,
+    .of_materials = (const char *const[]){"nu", NULL},
     .reads = READS_STREAM,
     .writes = WRITES_STREAM,
 };

@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "tools/frames/frames.h"
+#include "tools/materials/materials.h"
 #include "tools/model/model.h"
 
 static struct args {
@@ -59,6 +60,7 @@ static const struct opt opts[] = {
      .arg = "N",
      .help = "steps of --time in which the shares of the bodies are found anew (default: as many as "
              "--tol needs)"},
+    {.group = material_options},
     {.name = "partition", .type = OPT_TEXT, AT(partition), .list = partitions, .result = true,
      .arg = "matched|blok|charron|SHARE",
      .help = "heat of each body: equal temperatures at every node (default), or one number for all"},
@@ -93,6 +95,8 @@ static const struct tool_info info = {
                 "          --diffusivity 12mm2/s,12mm2/s --report fretting.tsv -o warm.rcg\n",
     .opts = opts,
     .figures = (const char *const[]){"heat", NULL},
+    .fill = materials_fill,
+    .of_materials = (const char *const[]){"conductivity", "diffusivity", NULL},
     .reads = READS_STREAM,
     .writes = WRITES_STREAM,
 };

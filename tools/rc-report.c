@@ -12,6 +12,7 @@
 #include <unistd.h>
 
 #include "formats/core/core.h"
+#include "tools/materials/materials.h"
 #include "tools/problem/problem.h"
 #include "tools/scene/scene.h"
 
@@ -32,6 +33,7 @@ static const struct opt opts[] = {
      .help = "add the mirror images about two edges, and solve the contact as periodic; with "
              "--periodic=x or y those along this axis"},
     {.group = physics_options, AT(physics)},
+    {.group = material_options},
     {.name = "nu", .type = OPT_NUMBER, AT(nu), .min = -1, .max = 0.5, .above = true, .arg = "RATIO",
      .against = RULES({.with = "nu1", .because = "--nu1 is the ratio for the stresses too",
                        .remedy = "leave out --nu"}),
@@ -53,6 +55,8 @@ static const struct tool_info info = {
         "  rc-report -o page.html surface.x3p\n"
         "  rc-report --outliers 5 --load 1N:20N:log:5 --estar 3GPa -o page.html surface.x3p\n",
     .opts = opts,
+    .fill = materials_fill,
+    .of_materials = (const char *const[]){"E1", "nu1", "E2", "nu2", NULL},
     .reads = READS_FILES,
     .writes = WRITES_BYTES,
 };

@@ -6,6 +6,7 @@
 #include <unistd.h>
 
 #include "tools/frames/frames.h"
+#include "tools/materials/materials.h"
 #include "tools/problem/problem.h"
 #include "tools/scene/scene.h"
 
@@ -30,6 +31,7 @@ static const char *const figure_words[] = {"area",        "pressure", "approach"
 /* clang-format off */
 static const struct opt opts[] = {
     {.group = physics_options, .at = offsetof(struct args, physics), .title = "the elastic contact"},
+    {.group = material_options, .title = "the elastic contact"},
     {.title = "data of the effects"},
     {.group = scene_options, .at = offsetof(struct args, given)},
     {.name = "relaxation", .type = OPT_TEXT, AT(relaxation), .result = true, .arg = "EINF,E1:TAU1,...|FILE",
@@ -74,6 +76,9 @@ static const struct tool_info info = {
     .opts = opts,
     .figures = (const char *const[]){"contact", NULL},
     .own = figures,
+    .fill = materials_fill,
+    .of_materials = (const char *const[]){"E1", "nu1", "E2", "nu2", "hardness", "yield",
+                                          "conductivity", "diffusivity", NULL},
     .reads = READS_STREAM,
     .writes = WRITES_TEXT,
 };

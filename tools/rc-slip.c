@@ -4,6 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "tools/materials/materials.h"
 #include "tools/slip/slip.h"
 
 static struct slip_args args = {
@@ -82,6 +83,7 @@ static const struct opt opts[] = {
      .against = RULES({.with = "E2 rigid", .because = "a rigid body does not deform",
                        .remedy = "leave out --nu2"}),
      .help = "Poisson's ratio of body 2"},
+    {.group = material_options},
     OPT_PERIODIC(offsetof(struct slip_args, repeats),
                  "the map repeats without end, along both axes or the given one (default: the "
                  "stream's boundary, else free)"),
@@ -106,6 +108,8 @@ static const struct tool_info info = {
                 "      --report loop.tsv -o loop.rcg contact.rcg\n",
     .opts = opts,
     .figures = (const char *const[]){"friction", "rolling", NULL},
+    .fill = materials_fill,
+    .of_materials = (const char *const[]){"E1", "nu1", "E2", "nu2", NULL},
     .reads = READS_STREAM,
     .writes = WRITES_STREAM,
 };

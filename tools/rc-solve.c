@@ -11,6 +11,8 @@ static struct tool_info info = {
     .figures = (const char *const[]){"contact", "elastic", "yield", "adhesion", "travel", "sliding",
                                      "viscoelastic", NULL},
     .own = solve_figures,
+    .fill = materials_fill,
+    .of_materials = (const char *const[]){"E1", "nu1", "E2", "nu2", NULL},
     .reads = READS_STREAM,
     .writes = WRITES_STREAM,
     .shares = true,

@@ -4,6 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "tools/materials/materials.h"
 #include "tools/stress/stress.h"
 
 static struct args {
@@ -26,6 +27,7 @@ static const struct opt opts[] = {
     {.name = "components", .type = OPT_WORDS, AT(components), .result = true,
      .words = words_component, .arg = "LIST", .help = "of %s (default: the six and mises)"},
     {.group = stress_body_options, AT(asked)},
+    {.group = material_options_of_one},
     {.name = "section", .type = OPT_TEXT, AT(section), .result = true, .arg = "AXIS=PLACE",
      .help = "only the vertical plane y=PLACE or x=PLACE: one frame whose rows are depths"},
     {.name = "residual", .type = OPT_FLAG, AT(asked.residual), .result = true,
@@ -50,6 +52,8 @@ static const struct tool_info info = {
                 "      rc-render -o section.png\n",
     .opts = opts,
     .figures = (const char *const[]){"stress", NULL},
+    .fill = materials_fill,
+    .of_materials = (const char *const[]){"nu", NULL},
     .reads = READS_STREAM,
     .writes = WRITES_STREAM,
     .shares = true,

@@ -70,11 +70,17 @@ format_words() {
         "$1" --formats | awk 'NR > 1 || !/^(name|format)/ { print "--format", $1 }'
     fi
 }
+# So are the materials.
+material_words() {
+    if says "^--materials\$" help_options "$1"; then
+        rc-solve --materials | awk 'NR > 1 { sub(/[ |].*/, ""); print "--body1", $1; print "--body2", $1 }'
+    fi
+}
 # The words of --help are completed, and completed words are in the manual.
 same_words() {
     "words_in_$2" "$1" | sort -u >there.txt
     help_words "$1" | comm -23 - there.txt >missing.txt
-    { page_words "$pages/$1.1" && format_words "$1"; } | sort -u >known.txt
+    { page_words "$pages/$1.1" && format_words "$1" && material_words "$1"; } | sort -u >known.txt
     # the second name of an option takes the same words
     "$1" --help | sed -n 's/^  \(--[A-Za-z0-9-]*\), \(--[A-Za-z0-9-]*\).*/\2 \1/p' >alias.txt
     awk 'FILENAME == "alias.txt" { of[$1] = $2; next } { print ($1 in of ? of[$1] : $1), $2 }' alias.txt there.txt |

@@ -82,8 +82,8 @@ refuses 2 "unknown unit 'Pa'" "a unit of the wrong kind" "rc-solve --load 24Pa -
 refuses 2 '--depths 0,1um,2: numbers with and without a unit' "a list with and without units" \
     "rc-stress --nu 0.3 --depths 0,1um,2 good.rcg"
 refuses 2 'give one of --load, --mean-pressure and --approach' "no load" "rc-solve --estar 1GPa good.rcg"
-refuses 2 'give the elasticity, either as --estar or' "no elasticity" "rc-solve --load 1N good.rcg"
-refuses 2 'give the elasticity, .* all four' "half an elasticity" "rc-solve --load 1N --E1 210GPa --nu1 0.3 good.rcg"
+refuses 2 'give the elasticity: --estar, or' "no elasticity" "rc-solve --load 1N good.rcg"
+refuses 2 'give the elasticity: .* all four' "half an elasticity" "rc-solve --load 1N --E1 210GPa --nu1 0.3 good.rcg"
 refuses 2 'unknown option --lode: did you mean --load' "an unknown option" "rc-solve --lode 1N good.rcg"
 refuses 1 'nowhere.rcg: No such file' "a file that is not there" "$solve nowhere.rcg"
 refuses 1 'no frame with the channel pressure, only height' "a stream without pressure" \

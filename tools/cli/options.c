@@ -318,7 +318,10 @@ number(struct tool *t, const struct opt *o, const char *text)
     double value;
 
     if (unit_number(text, o->unit, &value, &t->err) != RC_OK)
-        tool_usage(t, "--%s %s: %s", o->name, text, t->err.text);
+        tool_usage(t, "--%s %s: %s%s", o->name, text, t->err.text,
+                   t->info->of_materials != NULL && isalpha((unsigned char)*text)
+                       ? "; a material by its name is --body1 or --body2"
+                       : "");
     check_bounds(t, o, value, false);
     if (o->unit == UNIT_HARD && unit_vickers(text))
         t->vickers = text;
@@ -720,4 +723,14 @@ tool_given(const struct tool *t, const char *name)
         if (strcmp(t->option.row[k].name, name) == 0)
             return t->option.given[k];
     return false;
+}
+
+void
+tool_set_option(struct tool *t, const char *name, const char *text)
+{
+    for (size_t k = 0; k < t->option.n; k++)
+        if (strcmp(t->option.row[k].name, name) == 0) {
+            t->option.given[k] = true;
+            set_value(t, &t->option.row[k], tool_value(t, &t->option.row[k]), text);
+        }
 }

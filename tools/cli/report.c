@@ -458,6 +458,8 @@ report_map(struct report *r, const struct rc_grid *g, size_t number)
 {
     report_count(r, "case", number, NULL);
     report_text(r, "source", rc_grid_get(g, "source"));
+    if (r->tool->materials != NULL)
+        report_text(r, "body_materials", r->tool->materials);
     report_count(r, "nx", g->nx, NULL);
     report_count(r, "ny", g->ny, NULL);
     report_number(r, "dx", g->dx, "m");

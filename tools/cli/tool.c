@@ -67,6 +67,8 @@ tool_start(struct tool *t, const struct tool_info *info, int argc, char **argv, 
     if (ranks_count(t) > 1 && !info->shares)
         tool_usage(t, "%s cannot share its maps among processes: start one process, with --threads",
                    info->name);
+    if (info->fill != NULL)
+        info->fill(t);
     rules_check(t);
     if (t->threads == 0)
         t->threads = threads_wanted(t);

@@ -153,6 +153,10 @@ struct tool_info {
     /* NULL, or returns advice for an input that is not a grid stream and begins with `head`. If it returns
      * NULL, the common advice is printed. */
     const char *(*foreign)(const char *head);
+    /* NULL, or called when the options have been read and before their rules are checked: may set those that
+     * the line does not give. materials_fill sets these, up to NULL. */
+    void (*fill)(struct tool *tool);
+    const char *const *of_materials;
     /* NULL, or called between reading the options and opening the output: may change tool->writes. */
     void (*settle)(struct tool *tool);
     /* NULL, or changes a frame that tool_channel passes on. */
@@ -175,6 +179,7 @@ struct tool {
     bool debug;              /* verbose too, and prints the memory */
     const char *progress;    /* NULL: where a person watches; "", line, json: always            */
     const char *out_name;    /* NULL: standard output                                         */
+    const char *materials;   /* what --body1 and --body2 set, for the report; or NULL         */
     const char *vickers;     /* a hardness as a Vickers number, as it was written; or NULL    */
     enum tool_writes writes; /* info->writes, or text if an option selects it                 */
     char **operand;
@@ -246,6 +251,8 @@ tool_value(const struct tool *tool, const struct opt *o)
 }
 /* True if an option of the tool's own table was given. */
 bool tool_given(const struct tool *tool, const char *name);
+/* Sets an option of the tool as if the line had it. */
+void tool_set_option(struct tool *tool, const char *name, const char *text);
 /* This tool's line for the history of a stream: name, version, the options that change the result, in SI.
  * Valid until the next call. */
 const char *tool_history(struct tool *tool);

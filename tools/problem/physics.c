@@ -118,8 +118,9 @@ check_elasticity(struct tool *t, struct physics *a)
         tool_usage(
             t, "--relaxation has the moduli of body 1: give --nu1, and --E2 --nu2 or --E2 rigid");
     if (tool_given(t, "estar") ? bodies > 0 : bodies < (rigid ? 3 : 4))
-        tool_usage(t, "give the elasticity, either as --estar or as --E1 --nu1 --E2 "
-                      "--nu2, all four (--E2 rigid needs no --nu2)");
+        tool_usage(t,
+                   "give the elasticity: --estar, or --E1 --nu1 --E2 --nu2, all four (--E2 rigid "
+                   "needs no --nu2), or materials by name: --body1 steel --body2 copper");
     if (rigid && tool_given(t, "nu2"))
         tool_warn(t, "--nu2 has no effect beside --E2 rigid: leave it out");
     if (base && tool_given(t, "nu1"))

@@ -65,10 +65,11 @@ static const struct opt of_solver[] = {
 const struct opt *
 solve_options(void)
 {
-    static struct opt opts[SOLVE_EFFECTS + 3];
+    static struct opt opts[SOLVE_EFFECTS + 4];
     size_t frames = SOLVE_PLASTIC + 1, n = 0;
 
     opts[n++] = (struct opt){.group = physics_options, AT(physics), .title = "load and bodies"};
+    opts[n++] = (struct opt){.group = material_options, .title = "load and bodies"};
     for (size_t k = 0; solve_effects[k] != NULL; k++) {
         const char *const *frame = solve_effects[k]->frames;
         assert(k < SOLVE_EFFECTS);

@@ -10,6 +10,7 @@
 #include "libcontact/contact.h"
 #include "tools/cli/cli.h"
 #include "tools/frames/frames.h"
+#include "tools/materials/materials.h"
 #include "tools/model/model.h"
 #include "tools/problem/problem.h"
 #include "effect.h"
