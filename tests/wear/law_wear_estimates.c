@@ -26,6 +26,7 @@ enum kind {
 enum {
     TOLS = 3,
     OUTPUTS = 4,
+    ENOUGH = 50,
     MOST = 24 * 24
 };
 static const char *const name_of[] = {"one body",         "both bodies", "track",
@@ -381,7 +382,7 @@ compare(enum kind kind, uint64_t number, struct tally *tally)
 static void
 estimates_are_not_below(void **state)
 {
-    size_t below = 0;
+    size_t below = 0, wide = 0;
 
     (void)state;
     for (int kind = 0; kind < KINDS; kind++) {
@@ -406,11 +407,14 @@ estimates_are_not_below(void **state)
                         "    %s: %zu estimates, %zu below; least %.2f, median %.2f, 90 %% %.2f\n",
                         k == 0 ? "wear" : "pressure", of->n, of->below, of->v[0], of->v[of->n / 2],
                         of->v[of->n * 9 / 10]);
+                if (of->n >= ENOUGH) /* for a median */
+                    wide += of->v[of->n / 2] > (k == 0 && t == 0 ? 8 : 5);
                 free(of->v);
             }
         }
     }
     assert_int_equal(below, 0);
+    assert_int_equal(wide, 0);
 }
 
 int
