@@ -42,6 +42,13 @@ scene --load 1uN $steel --adhesion 1mJ/m2,exponential,20nm ball.rcg >few.json
 claim "few nodes in contact decide nothing" test "$(of adhesion few.json verdict)" = "not decided"
 claim "  and the table says so" says "nodes in contact; refine the grid first" rc-scene --quiet --load 1uN $steel --adhesion 1mJ/m2,exponential,20nm ball.rcg
 
+scene --load 240N $steel --thickness 0.5mm ball.rcg >thin.json
+claim "the command of a thin body has its layer" grep -q '"--E1", "rigid", "--layer", "0.0005,210000000000,0.3"' thin.json
+$(effect thin thin.json | perl -MJSON::PP -e 'local $/; print join " ", @{JSON::PP->new->decode(<STDIN>)->{command}}') --quiet --report own.json -o x.rcg ball.rcg
+rc-solve --quiet --load 240N $steel --report e.json -o x.rcg ball.rcg
+near "$(of thin thin.json figures max_pressure high)" "$(awk -v a="$(field max_pressure own.json)" -v b="$(field max_pressure e.json)" 'BEGIN { d = a / b - 1; print d < 0 ? -d : d }')" 1e-3 \
+    "  and it computes the change"
+
 # ---- a rough block: the edges ----
 
 rc-synth selfaffine --nx 64 --dx 1um --hurst 0.8 --rms-height 0.3um --rolloff 20um --short-cut 6um --seed 5 -o rough.rcg

@@ -171,7 +171,9 @@ scene_command(struct tool *t, const char *effect, const char *const load[2], con
         static const char *const of_body[] = {"--E1", "rigid", "--layer"};
         for (size_t i = 0; i < 3; i++)
             c->word[0][n++] = of_body[i];
-        c->word[0][n++] = body;
+        snprintf(c->text[0][n], sizeof c->text[0][n], "%s", body); /* the caller frees it */
+        c->word[0][n] = c->text[0][n];
+        n++;
         add_words(t, "E2 nu2 radius cylinder periodic datum", false, c->word[0], c->text[0], &n);
     } else {
         add_words(t, contact_options, rows[k].relaxes, c->word[0], c->text[0], &n);
