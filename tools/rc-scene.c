@@ -368,12 +368,16 @@ print_change(const struct line *l, FILE *out)
         fprintf(out, ": %s", l->effect.unfit);
     else if (isinf(most) && strcmp(name, "slip") == 0)
         fputs(": the bodies slide, the force is above mu times the load", out);
-    else if (isinf(most))
+    else if (isinf(most) && strcmp(name, "grid") != 0)
         fputs(": it cannot carry the load", out);
     else if (most == 0)
         fputs(": changes nothing", out);
     else if (l->effect.basis != RC_SCENE_EXACT && l->effect.nodes < 20)
         fprintf(out, ": %zu nodes in contact; refine the grid first", l->effect.nodes);
+    else if (isinf(c->high))
+        fputs(": the largest pressure is at the edge of the map, where it is no property of the "
+              "surface",
+              out);
     else if (l->verdict == RC_SCENE_NEGLIGIBLE)
         fprintf(out, ": changes the %s by at most %s", what, amount(l->figure, c->high, high));
     else if (c->high - c->low < 0.02 * c->high)

@@ -34,20 +34,64 @@ compute(struct rc_scene *s, const struct rc_problem *problem, struct rc_scene_ef
     return status;
 }
 
-/* The estimates bound the error of the grid from above only; unknown ones have no interval. */
+enum rc_status
+scene_patches(struct rc_scene *s, double *largest, double *corrected, struct rc_err *err)
+{
+    struct rc_patches found = {0};
+    const enum rc_status status = rc_patches_find(
+        &s->shape, s->now.p,
+        &(struct rc_patch_options){
+            .boundary = s->problem.boundary, .each = true, .threads = s->problem.threads},
+        &found, err);
+
+    if (status == RC_OK) {
+        *largest = found.count > 0 ? found.patch[0].area : 0;
+        if (corrected != NULL)
+            *corrected = found.contact_area_corrected;
+    }
+    rc_patches_free(&found);
+    return status;
+}
+
+/* The largest pressure on the outermost nodes of a map that ends there. */
+static bool
+peak_at_edge(const struct rc_scene *s)
+{
+    const size_t nx = s->shape.nx, ny = s->shape.ny;
+    size_t least, most;
+
+    rc_extremes(s->n, s->now.p, &least, &most);
+    return (!s->problem.boundary.x && nx > 1 && (most % nx == 0 || most % nx == nx - 1)) ||
+           (!s->problem.boundary.y && ny > 1 && (most / nx == 0 || most / nx == ny - 1));
+}
+
+/* A finer grid has nearly the area without the steps of this one. Where the same waves had a grid four times as
+ * fine, 200 contacts changed by 0.3 to 1 times this correction, to three nodes, and by at most 0.35 times the
+ * estimate of the area, 0.09 times that of the pressure, and 0.56 times that of the approach; with other spectra
+ * the pressure exceeded its estimate by up to 6 times. At the edge of a map the pressure of a finer grid
+ * grows without end. */
 enum rc_status
 scene_grid(struct rc_scene *s, struct rc_scene_effect *e, struct rc_err *err)
 {
     const struct rc_discretization *d = &s->now.contact.discretization;
+    const double far = 0.01; /* of the load, on the outer 2 % of the map */
+    const double nodes = 3 / (double)s->now.contact.contact_nodes;
+    double largest, corrected, correction;
 
-    (void)err;
-    e->basis = RC_SCENE_BOUND;
+    if (scene_patches(s, &largest, &corrected, err) != RC_OK)
+        return RC_FAIL;
+    correction = 1 - corrected / s->now.contact.contact_area;
+    scene_number(e, "area_correction", correction);
+    e->basis = RC_SCENE_CALIBRATED;
     if (isnan(d->contact_area))
         snprintf(e->unfit, sizeof e->unfit, "the map is too small for a coarser grid");
     else
-        scene_set(e, RC_SCENE_AREA, 0, d->contact_area);
-    if (!isnan(d->max_pressure))
-        scene_set(e, RC_SCENE_PRESSURE, 0, d->max_pressure);
+        scene_set(e, RC_SCENE_AREA, 0.3 * correction - nodes,
+                  fmin(0.6 * d->contact_area, 1.1 * correction + nodes));
+    if (peak_at_edge(s) || s->now.contact.edge_load_fraction > far)
+        scene_set(e, RC_SCENE_PRESSURE, 0, INFINITY);
+    else if (!isnan(d->max_pressure))
+        scene_set(e, RC_SCENE_PRESSURE, 0, fmax(6 * d->max_pressure, 0.02));
     if (!isnan(d->approach))
         scene_set(e, RC_SCENE_APPROACH, 0, d->approach);
     return RC_OK;
@@ -104,12 +148,14 @@ scene_hardness(struct rc_scene *s, struct rc_scene_effect *e, struct rc_err *err
 
     scene_number(e, "max_pressure_over_hardness", c->max_pressure / s->data.hardness);
     e->basis = RC_SCENE_EXACT;
-    if (c->max_pressure <= s->data.hardness)
-        return RC_OK;
-    if (!(p.load < s->data.hardness * area)) {
-        scene_set(e, RC_SCENE_AREA, INFINITY, INFINITY); /* it does not carry the load */
+    if (!(p.load < s->data.hardness * area)) { /* it does not carry the load */
+        for (int f = RC_SCENE_AREA; f <= RC_SCENE_APPROACH; f++)
+            scene_set(e, f, INFINITY, INFINITY);
         return RC_OK;
     }
+    e->basis = scene_elastic_basis(s);
+    if (c->max_pressure <= s->data.hardness)
+        return RC_OK;
     p.hardness = s->data.hardness;
     return compute(s, &p, e, err);
 }
@@ -121,11 +167,11 @@ scene_hardness(struct rc_scene *s, struct rc_scene_effect *e, struct rc_err *err
 enum rc_status
 scene_slip(struct rc_scene *s, struct rc_scene_effect *e, struct rc_err *err)
 {
-    const double part = s->data.tangential / (s->data.mu * s->problem.load), rest = 0.01;
+    const double part = s->data.tangential / (s->data.mu * s->problem.load), most = 0.01;
     struct rc_problem p = s->problem;
     struct asked asked = {.problem = &p, .h = s->now.shape, .stiffness = s->accepted};
     double stiffness = s->now.stiffness, approach = s->now.contact.approach,
-           area = s->now.contact.contact_area, excess;
+           area = s->now.contact.contact_area, excess, rest;
     enum rc_status status = RC_OK;
 
     if (s->problem.pair.one.layers > 0) {
@@ -159,8 +205,8 @@ scene_slip(struct rc_scene *s, struct rc_scene_effect *e, struct rc_err *err)
                                     : "the stiffness of this contact is unknown");
         return RC_OK;
     }
-    scene_set(e, RC_SCENE_DISPLACEMENT, (s->accepted ? 0 : 0.8) * excess - rest,
-              1.2 * excess + rest);
+    rest = fmin(most, 0.5 * excess + 0.0005);
+    scene_set(e, RC_SCENE_DISPLACEMENT, s->accepted ? 0 : 0.8 * excess - rest, 1.2 * excess + rest);
     scene_number(e, "stick_fraction", s->other.contact.contact_area / area);
     return RC_OK;
 }

@@ -25,6 +25,28 @@ set_area(const struct rc_scene *s, struct rc_scene_effect *e, double low, double
     scene_set(e, RC_SCENE_AREA, fmin(low, room_of(s) / 2), fmin(high, room_of(s)));
 }
 
+/* The interval of an area, from the nodes that join from one contact to another. The effect is that of
+ * `to`, or up to `more` times larger: free nodes whose gap would then close may join too, and nodes whose
+ * pressure would vanish may leave. Both ends are whole nodes, so that they have a node to spare. */
+static void
+set_nodes(const struct rc_scene *s, struct rc_scene_effect *e, const struct solved *to,
+          double least, double most, double more)
+{
+    const double n = (double)s->now.contact.contact_nodes, tiny = 0.05,
+                 joined = fabs((double)to->contact.contact_nodes - n);
+    double closing = 0, join = 0, leave = 0;
+
+    for (size_t k = 0; k < s->n; k++)
+        closing = fmax(closing, s->now.gap[k] - to->gap[k]);
+    for (size_t k = 0; k < s->n; k++) {
+        const double closes = fmax(s->now.gap[k], 0) - to->gap[k], falls = s->now.p[k] - to->p[k];
+        join += !(to->p[k] > 0) && to->gap[k] <= (more - 1) * closes + tiny * closing;
+        leave += to->p[k] > 0 && to->p[k] <= (more - 1) * falls;
+    }
+    set_area(s, e, (floor(least * joined) - leave) / n,
+             (ceil(most * joined) + fmax(join, leave)) / n);
+}
+
 static double
 composite(const struct rc_pair *pair)
 {
@@ -32,24 +54,6 @@ composite(const struct rc_pair *pair)
 
     return pair->estar > 0 ? pair->estar
                            : 1 / ((1 - pair->one.nu * pair->one.nu) / pair->one.e + two);
-}
-
-static enum rc_status
-patches_of(struct rc_scene *s, size_t *count, double *largest, struct rc_err *err)
-{
-    struct rc_patches found = {0};
-    const enum rc_status status = rc_patches_find(
-        &s->shape, s->now.p,
-        &(struct rc_patch_options){
-            .boundary = s->problem.boundary, .each = true, .threads = s->problem.threads},
-        &found, err);
-
-    if (status == RC_OK) {
-        *count = found.count;
-        *largest = found.count > 0 ? found.patch[0].area : 0;
-    }
-    rc_patches_free(&found);
-    return status;
 }
 
 /* ---- yield ---- */
@@ -114,7 +118,7 @@ scene_yield(struct rc_scene *s, struct rc_scene_effect *e, struct rc_err *err)
         return RC_FAIL;
     c = mises / y;
     scene_number(e, "mises_over_yield", c);
-    e->basis = RC_SCENE_EXACT;
+    e->basis = scene_elastic_basis(s);
     if (c <= nearly) /* the peak may lie between two depths */
         return RC_OK;
     e->basis = RC_SCENE_CALIBRATED;
@@ -173,7 +177,7 @@ scene_adhesion(struct rc_scene *s, struct rc_scene_effect *e, struct rc_err *err
 {
     const struct rc_adhesion_problem problem = {
         .contact = s->problem, .work = s->data.work, .law = s->data.law, .range = s->data.range};
-    const double node = 1 / (double)s->now.contact.contact_nodes, resolved = 1.1;
+    const double resolved = 1.1;
     double change[RC_SCENE_FIGURES];
     struct rc_adhesion_scales scales;
     enum rc_status status = RC_OK;
@@ -198,7 +202,7 @@ scene_adhesion(struct rc_scene *s, struct rc_scene_effect *e, struct rc_err *err
     if (status != RC_OK)
         return status;
     scene_changes(&s->now, &s->other, change);
-    set_area(s, e, change[RC_SCENE_AREA] - node, 2 * change[RC_SCENE_AREA] + 3 * node);
+    set_nodes(s, e, &s->other, 0.9, 1.5, 2);
     scene_set(e, RC_SCENE_PRESSURE, 0.98 * change[RC_SCENE_PRESSURE] - 0.0005,
               1.5 * change[RC_SCENE_PRESSURE] + 0.001);
     if (rc_there(change[RC_SCENE_APPROACH]))
@@ -215,8 +219,7 @@ scene_adhesion(struct rc_scene *s, struct rc_scene_effect *e, struct rc_err *err
 enum rc_status
 scene_wear(struct rc_scene *s, struct rc_scene_effect *e, struct rc_err *err)
 {
-    const double worn = s->data.wear * s->data.distance,
-                 node = 1 / (double)s->now.contact.contact_nodes;
+    const double worn = s->data.wear * s->data.distance;
     struct rc_problem p = s->problem;
     struct asked asked = {.h = s->now.shape, .compliance = worn};
     double change[RC_SCENE_FIGURES];
@@ -235,7 +238,7 @@ scene_wear(struct rc_scene *s, struct rc_scene_effect *e, struct rc_err *err)
     scene_changes(&s->now, &s->other, change);
     scene_set(e, RC_SCENE_PRESSURE, s->accepted ? 0 : 0.95 * change[RC_SCENE_PRESSURE] - 0.0005,
               fmin(1.4 * change[RC_SCENE_PRESSURE] + 0.001, 1));
-    set_area(s, e, 0.8 * change[RC_SCENE_AREA] - node, 1.15 * change[RC_SCENE_AREA] + 2 * node);
+    set_nodes(s, e, &s->other, 0.8, 1.15, 1.4);
     return RC_OK;
 }
 
@@ -254,7 +257,6 @@ scene_heat(struct rc_scene *s, struct rc_scene_effect *e, struct rc_err *err)
     const int moves = d->moving == 1 ? 0 : 1;
     const double speed = fabs(d->speed), flux = d->mu * speed;
     double most = 0, largest, peclet, rest[2], motion[2], still, moving;
-    size_t patches;
 
     e->basis = RC_SCENE_CALIBRATED;
     if (rc_repeats(s->problem.boundary) == 1) {
@@ -267,7 +269,7 @@ scene_heat(struct rc_scene *s, struct rc_scene_effect *e, struct rc_err *err)
                  "a periodic map has no steady temperature: give --time");
         return RC_OK;
     }
-    if (patches_of(s, &patches, &largest, err) != RC_OK)
+    if (scene_patches(s, &largest, NULL, err) != RC_OK)
         return RC_FAIL;
     for (size_t i = 0; i < s->n; i++)
         most = fmax(most, s->now.u[i]);
@@ -325,7 +327,6 @@ scene_dissimilar(struct rc_scene *s, struct rc_scene_effect *e, struct rc_err *e
                                                     .threads = s->problem.threads},
                                             .increments = 1};
     struct rc_problem inner = s->problem;
-    struct solved pressed = {0};
     struct rc_point to = {0};
     double change[RC_SCENE_FIGURES];
     enum rc_status status;
@@ -349,13 +350,21 @@ scene_dissimilar(struct rc_scene *s, struct rc_scene_effect *e, struct rc_err *e
     status = m == NULL ? RC_FAIL : rc_model_run(m, &to, err);
     if (status == RC_FAIL || rc_model_look(m, NULL, err) == RC_FAIL)
         return RC_FAIL;
-    pressed.contact = rc_elastic_result(m)->contact;
+    if (!rc_store_need(&s->own, s->n, &s->other.p) || !rc_store_need(&s->own, s->n, &s->other.gap))
+        return rc_err_set(err, "out of memory for a contact");
+    if (rc_model_frame(m, "pressure", s->other.p, err) != RC_OK ||
+        rc_model_frame(m, "gap", s->other.gap, err) != RC_OK)
+        return RC_FAIL;
+    s->other.contact = rc_elastic_result(m)->contact;
     s->convolutions += rc_friction_result(m)->convolutions;
-    scene_changes(&s->now, &pressed, change);
+    scene_changes(&s->now, &s->other, change);
     scene_set(e, RC_SCENE_PRESSURE, 0.15 * change[RC_SCENE_PRESSURE] - 0.001,
               fmax(2.5 * change[RC_SCENE_PRESSURE] + 0.001, slides));
-    set_area(s, e, 0.3 * change[RC_SCENE_AREA] - 2 * node,
-             fmax(2 * change[RC_SCENE_AREA], slides) + 2 * node);
+    set_nodes(s, e, &s->other, 0.3, 2, 2.5);
+    e->change[RC_SCENE_AREA].high = fmin(e->change[RC_SCENE_AREA].high + node, room_of(s));
+    if (slides > 0)
+        set_area(s, e, e->change[RC_SCENE_AREA].low,
+                 fmax(2 * change[RC_SCENE_AREA], slides) + 2 * node);
     if (!(s->problem.hardness > 0)) /* with dents the approach counts from another shape */
         scene_set(e, RC_SCENE_APPROACH, 0.1 * change[RC_SCENE_APPROACH] - 0.0005,
                   1.2 * change[RC_SCENE_APPROACH] + 0.0005 + 0.05 * mu * beta);
@@ -432,12 +441,12 @@ sum_waves(const struct rc_scene *s, const double *p, struct waves *to, struct rc
 enum rc_status
 scene_sliding(struct rc_scene *s, struct rc_scene_effect *e, struct rc_err *err)
 {
-    const double node = 1 / (double)s->now.contact.contact_nodes;
+    const double few = 0.02; /* nodes that join or leave */
     struct rc_problem p = s->plain;
     struct solved relaxed = {0};
     struct waves waves;
     double complex j;
-    double loss, area, pressure, approach;
+    double loss, area, pressure, approach, node;
 
     e->basis = RC_SCENE_CALIBRATED;
     if (rc_repeats(s->problem.boundary) != 2) {
@@ -462,6 +471,9 @@ scene_sliding(struct rc_scene *s, struct rc_scene_effect *e, struct rc_err *err)
     area = fabs(s->other.contact.contact_area / relaxed.contact.contact_area - 1);
     pressure = fabs(s->other.contact.max_pressure / relaxed.contact.max_pressure - 1);
     approach = fabs(s->other.contact.approach / relaxed.contact.approach - 1);
+    node = 1 / (double)s->now.contact.contact_nodes;
+    if (fabs(waves.plain / cabs(waves.softer) * creal(compliance_at(s, 0)) - 1) + loss < few * node)
+        node = 0; /* the rubber is as good as relaxed */
     scene_number(e, "modulus_at_speed", p.pair.estar);
     scene_number(e, "loss_tangent", loss);
     scene_set(e, RC_SCENE_AREA, 0.9 * area - node, 1.6 * area + 0.4 * loss + 2 * node);

@@ -57,6 +57,12 @@ scene_set(struct rc_scene_effect *e, enum rc_scene_figure figure, double low, do
 {
     e->change[figure] = (struct rc_interval){fmax(low, 0), fmax(high, 0)};
 }
+/* The area of the largest patch, and that of all without the steps of the grid; NULL: not wanted. */
+enum rc_status scene_patches(struct rc_scene *s, double *largest, double *corrected,
+                             struct rc_err *err);
+/* How it is known that the elastic solution is the solution: for certain, if the grid resolves the contact;
+ * the stresses of few nodes are too small. */
+enum rc_scene_basis scene_elastic_basis(const struct rc_scene *s);
 void scene_number(struct rc_scene_effect *e, const char *name, double value);
 
 /* computed.c */

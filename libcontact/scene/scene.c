@@ -46,6 +46,12 @@ scene_number(struct rc_scene_effect *e, const char *name, double value)
         }
 }
 
+enum rc_scene_basis
+scene_elastic_basis(const struct rc_scene *s)
+{
+    return s->now.contact.contact_nodes < FEW_NODES ? RC_SCENE_BOUND : RC_SCENE_EXACT;
+}
+
 enum rc_status
 scene_solve(struct rc_scene *s, const struct asked *a, struct solved *to, struct rc_err *err)
 {
