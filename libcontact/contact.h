@@ -503,7 +503,8 @@ struct rc_yield_problem {
     /* tolerance of the stress: its lag behind the yield condition (RMS) over the yield stress;
      * 0: chosen */
     double lag;
-    /* strains and stresses in double precision: twice the memory */
+    /* strains and stresses in double precision, and on all nodes in deep slabs too: up to 8 times the
+     * memory */
     bool precise;
 };
 

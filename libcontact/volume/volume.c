@@ -4,6 +4,11 @@
  * into waves, which are stored for each slab. At the depths between groups of RC_SWEEP_SLABS slabs the
  * passing waves are stored. Those at depths within a group are computed again on the way down.
  *
+ * Deep slabs may have fewer nodes, every 2nd, 4th, ... node of the map along each axis, because only long
+ * waves reach them. The waves of such a level are the longest waves of the map, with the same coefficients.
+ * Where the level changes between two groups, waves that the deeper level has pass, and others end. Upward
+ * and downward passes are transposes of each other, so that G stays symmetric.
+ *
  * Storage per node, in numbers: 5 a slab, which the stresses of the slab replace, 3 a group, and 1 for the
  * map in transform. Slices need another 3 a group (downward waves besides the upward ones) and 6 for the
  * slice. Waves between the stored depths are computed for each slice.
@@ -19,13 +24,34 @@
 #include "lines.h"
 #include "sweep.h"
 
-/* Numbers of waves and maps. */
-struct layout {
-    size_t px, py; /* nodes of the period: those of the map, or more */
-    size_t slabs, groups;
+enum {
+    LEVELS = 16, /* more than any map can have */
+    SIDE = 16    /* fewest nodes of a coarser grid along an axis */
+};
+
+/* The nodes of a level, 2^level apart in units of the spacing of the map, and their waves. */
+struct level {
+    struct rc_fft *fft;            /* NULL: no slab has this level */
+    size_t nx, rows;               /* nodes of a row; rows held here */
+    size_t px, py;                 /* nodes of the period: those of the level, or more */
     size_t length, first, columns; /* waves of a column; columns held here             */
     size_t map;                    /* numbers of a map, as waves or as rows            */
-    size_t real;                   /* bytes of a number */
+    double *qy, *alive;            /* numbers of the waves of a column                 */
+    size_t *place;                 /* of each wave of a column in one of the map; level 0: NULL */
+};
+
+/* Slabs of one level that are swept together. */
+struct group {
+    size_t first, n, level;
+    size_t at; /* place of its waves, in numbers */
+    size_t
+        *place; /* of the waves of a column, in a column of the group above; NULL: the same level */
+};
+
+/* Numbers of waves and maps. */
+struct layout {
+    size_t slabs, groups;
+    size_t real; /* bytes of a number */
 };
 
 /* Strain and waves. */
@@ -46,10 +72,12 @@ struct rc_slabs {
     bool whole;
     struct rc_boundary boundary;
     const struct rc_ranks *ranks;
-    struct rc_fft *fft;
+    struct level level[LEVELS];
+    struct group *group;
+    size_t *level_of, *at; /* of each slab: level, and place of its strain in numbers */
     const struct rc_sweep_ops *ops;
-    double *qy, *alive; /* numbers of the waves of a column */
     struct maps maps;
+    char *passing;          /* waves of a column between levels, for each thread */
     struct rc_lines *lines; /* where exactly one axis repeats */
     bool *strained;         /* slabs with strain, from the last rc_slabs_up */
     bool *passes;           /* groups: whether there are waves at its top       */
@@ -59,12 +87,6 @@ struct rc_slabs {
 };
 
 /* ---- plan ---- */
-
-static size_t
-groups_of(size_t slabs)
-{
-    return (slabs + RC_SWEEP_SLABS - 1) / RC_SWEEP_SLABS;
-}
 
 static size_t
 real_size(enum rc_precision precision)
@@ -106,44 +128,157 @@ map_size(const struct rc_shape *shape, size_t length, size_t columns, size_t row
     return (waves + 15) / 16 * 16; /* whole cache lines */
 }
 
-static void
-set_waves(struct rc_slabs *v)
+static struct rc_shape
+coarser(const struct rc_shape *shape, size_t level)
 {
-    rc_fft_period(&v->shape, v->boundary, &v->layout.px, &v->layout.py);
-    v->layout.length = rc_fft_length(v->fft);
-    rc_fft_columns(v->fft, &v->layout.first, &v->layout.columns);
-    v->layout.map = map_size(&v->shape, v->layout.length, v->layout.columns, v->here.ny);
-    for (size_t t = 0; t < v->layout.length && v->qy != NULL && v->alive != NULL; t++) {
-        size_t j = rc_fft_wave(v->fft, t);
-        v->qy[t] = rc_fft_qy(v->fft, j);
-        v->alive[t] = 2 * j != v->layout.py;
+    const double wide = (double)((size_t)1 << level);
+
+    return (struct rc_shape){shape->nx >> level, shape->ny >> level, wide * shape->dx,
+                             wide * shape->dy};
+}
+
+/* True if the nodes of a level are nodes of the map, and its waves are waves of the map. */
+static bool
+has_level(const struct rc_shape *shape, struct rc_boundary boundary, size_t level)
+{
+    const struct rc_shape s = coarser(shape, level);
+    size_t px, py, qx, qy;
+
+    rc_fft_period(shape, boundary, &px, &py);
+    rc_fft_period(&s, boundary, &qx, &qy);
+    return s.nx >= SIDE && s.ny >= SIDE && s.nx << level == shape->nx &&
+           s.ny << level == shape->ny && qx << level == px && qy << level == py;
+}
+
+/* Sets the level of each slab, and returns the number of groups. */
+static size_t
+set_levels(const struct rc_shape *shape, const struct rc_slabs_options *o, size_t *level)
+{
+    const double step = fmax(shape->dx, shape->dy);
+    const bool only = o->slices || rc_repeats(o->boundary) == 1 || rc_ranks_count(o->ranks) > 1;
+    size_t groups = 0, in = 0;
+    double z = 0;
+
+    for (size_t k = 0; k < o->slabs; k++) {
+        const double middle = z + o->thickness[k] / 2;
+        z += o->thickness[k];
+        level[k] = k > 0 ? level[k - 1] : 0;
+        while (!only && level[k] + 1 < LEVELS && has_level(shape, o->boundary, level[k] + 1) &&
+               ldexp(step, (int)level[k] + 1) <= o->coarser * middle)
+            level[k]++;
+        if (k == 0 || level[k] != level[k - 1] || in == RC_SWEEP_SLABS)
+            in = 0;
+        groups += in++ == 0;
+    }
+    return groups;
+}
+
+double
+rc_slabs_by_nodes(const struct rc_shape *shape, const struct rc_slabs_options *o)
+{
+    RC_OWNED size_t *level = rc_alloc(o->slabs, sizeof *level);
+    double sum = 0;
+
+    if (level == NULL)
+        return (double)o->slabs;
+    (void)set_levels(shape, o, level);
+    for (size_t k = 0; k < o->slabs; k++)
+        sum += ldexp(1, -2 * (int)level[k]);
+    return sum;
+}
+
+/* The place of each wave of a column in a column of a finer level; SIZE_MAX: it is dead. */
+static size_t *
+places_in(struct rc_slabs *v, const struct level *l, const struct level *finer)
+{
+    size_t *place = rc_store_take(&v->own, l->length, sizeof *place),
+           *of = rc_store_take(&v->own, finer->length, sizeof *of);
+
+    for (size_t t = 0; t < finer->length && of != NULL; t++)
+        of[rc_fft_wave(finer->fft, t)] = t;
+    for (size_t t = 0; t < l->length && place != NULL && of != NULL; t++) {
+        const size_t j = rc_fft_wave(l->fft, t);
+        place[t] = 2 * j == l->py ? SIZE_MAX : of[2 * j < l->py ? j : finer->py - (l->py - j)];
+    }
+    return place;
+}
+
+static enum rc_status
+make_level(struct rc_slabs *v, const struct rc_slabs_options *o, size_t which, struct rc_err *err)
+{
+    const struct rc_shape s = coarser(&v->shape, which);
+    struct level *l = &v->level[which];
+
+    l->fft = rc_fft_new(o->ranks, v->level[0].fft, &s, o->boundary, o->precision, o->threads, err);
+    if (l->fft == NULL)
+        return RC_FAIL;
+    rc_fft_period(&s, o->boundary, &l->px, &l->py);
+    l->nx = s.nx;
+    l->rows = v->here.ny >> which;
+    l->length = rc_fft_length(l->fft);
+    rc_fft_columns(l->fft, &l->first, &l->columns);
+    l->map = map_size(&s, l->length, l->columns, l->rows);
+    l->qy = rc_store_take(&v->own, l->length, sizeof *l->qy);
+    l->alive = rc_store_take(&v->own, l->length, sizeof *l->alive);
+    for (size_t t = 0; t < l->length && l->qy != NULL && l->alive != NULL; t++) {
+        size_t j = rc_fft_wave(l->fft, t);
+        l->qy[t] = rc_fft_qy(l->fft, j);
+        l->alive[t] = 2 * j != l->py;
+    }
+    if (which > 0)
+        l->place = places_in(v, l, &v->level[0]);
+    return RC_OK;
+}
+
+/* Sets the groups and the places of their numbers; returns the numbers of all strains and waves. */
+static void
+set_groups(struct rc_slabs *v, size_t *strains, size_t *waves)
+{
+    struct group *g = v->group;
+
+    *strains = *waves = 0;
+    for (size_t k = 0; k < v->layout.slabs; k++) {
+        const struct level *l = &v->level[v->level_of[k]];
+        v->at[k] = *strains;
+        *strains += RC_SWEEP_STRAINS * l->map;
+        if (k > 0 && v->level_of[k] == g->level && g->n < RC_SWEEP_SLABS) {
+            g->n++;
+            continue;
+        }
+        g += k > 0;
+        *g = (struct group){.first = k, .n = 1, .level = v->level_of[k], .at = *waves};
+        if (k > 0 && g->level != (g - 1)->level)
+            g->place = places_in(v, l, &v->level[(g - 1)->level]);
+        *waves += RC_SWEEP_WAVES * l->map;
     }
 }
 
 static enum rc_status
 allocate(struct rc_slabs *v, const struct rc_slabs_options *o, struct rc_err *err)
 {
-    const size_t size = v->layout.real;
+    const size_t size = v->layout.real, threads = (size_t)rc_fft_threads(v->level[0].fft);
+    size_t strains = 0, waves = 0;
 
     v->thickness = rc_store_take(&v->own, v->layout.slabs, sizeof *v->thickness);
     v->strained = rc_store_take(&v->own, v->layout.slabs, sizeof *v->strained);
     v->passes = rc_store_take(&v->own, v->layout.groups, sizeof *v->passes);
-    v->qy = rc_store_take(&v->own, rc_fft_length(v->fft), sizeof *v->qy);
-    v->alive = rc_store_take(&v->own, rc_fft_length(v->fft), sizeof *v->alive);
-    set_waves(v);
-    v->maps.strain =
-        rc_store_take(&v->own, RC_SWEEP_STRAINS * v->layout.slabs, v->layout.map * size);
-    v->maps.waves = rc_store_take(&v->own, RC_SWEEP_WAVES * v->layout.groups, v->layout.map * size);
+    v->group = rc_store_take(&v->own, v->layout.groups, sizeof *v->group);
+    v->at = rc_store_take(&v->own, v->layout.slabs, sizeof *v->at);
+    if (v->group != NULL && v->at != NULL)
+        set_groups(v, &strains, &waves);
+    v->maps.strain = rc_store_take(&v->own, strains, size);
+    v->maps.waves = rc_store_take(&v->own, waves, size);
+    if (v->level_of[v->layout.slabs - 1] > 0)
+        v->passing =
+            rc_store_take(&v->own, threads * RC_SWEEP_WAVES * 2 * v->level[0].length, size);
     if (o->whole)
-        v->maps.zz = rc_store_take(&v->own, RC_SWEEP_SLABS, v->layout.map * size);
+        v->maps.zz = rc_store_take(&v->own, RC_SWEEP_SLABS, v->level[0].map * size);
     if (o->slices) {
-        v->maps.down =
-            rc_store_take(&v->own, RC_SWEEP_WAVES * v->layout.groups, v->layout.map * size);
-        v->maps.slice = rc_store_take(&v->own, RC_SWEEP_STRAINS + 1, v->layout.map * size);
+        v->maps.down = rc_store_take(&v->own, waves, size);
+        v->maps.slice = rc_store_take(&v->own, RC_SWEEP_STRAINS + 1, v->level[0].map * size);
     }
     if (o->precision == RC_SINGLE)
-        v->rows = rc_store_take(
-            &v->own, (size_t)rc_fft_threads(v->fft) * RC_COMPONENTS * v->shape.nx, sizeof *v->rows);
+        v->rows = rc_store_take(&v->own, threads * RC_COMPONENTS * v->shape.nx, sizeof *v->rows);
     if (v->own.failed)
         return rc_err_set(err, "out of memory for %zu slabs of %zu x %zu nodes: take fewer slabs",
                           v->layout.slabs, v->shape.nx, v->shape.ny);
@@ -157,31 +292,44 @@ struct rc_slabs *
 rc_slabs_new(const struct rc_shape *shape, const struct rc_slabs_options *o, struct rc_err *err)
 {
     struct rc_rows rows;
+    enum rc_status status = RC_OK;
     RC_OWN(rc_slabs, v) = NULL;
 
     if (check(shape, o, err) != RC_OK)
         return NULL;
     v = calloc(1, sizeof *v);
-    if (rc_ranks_need(o->ranks, v != NULL, err, "out of memory for a plan") != RC_OK)
+    if (v != NULL)
+        v->level_of = rc_store_take(&v->own, o->slabs, sizeof *v->level_of);
+    if (rc_ranks_need(o->ranks, v != NULL && v->level_of != NULL, err,
+                      "out of memory for a plan") != RC_OK)
         return NULL;
     rows = rc_rows_of(o->ranks, shape);
-    *v = (struct rc_slabs){.shape = *shape,
-                           .here = rc_rows_shape(&rows, shape),
-                           .layout = {.slabs = o->slabs,
-                                      .groups = groups_of(o->slabs),
-                                      .real = real_size(o->precision)},
-                           .modulus = 2 * o->shear,
-                           .nu = o->nu,
-                           .whole = o->whole,
-                           .boundary = o->boundary,
-                           .ranks = o->ranks,
-                           .ops = o->precision == RC_SINGLE ? &rc_sweep_single : &rc_sweep_double};
-    v->fft = rc_fft_new(o->ranks, NULL, shape, o->boundary, o->precision, o->threads, err);
-    if (v->fft == NULL || rc_ranks_agree(o->ranks, allocate(v, o, err), err) != RC_OK)
+    v->shape = *shape;
+    v->here = rc_rows_shape(&rows, shape);
+    v->layout = (struct layout){.slabs = o->slabs,
+                                .groups = set_levels(shape, o, v->level_of),
+                                .real = real_size(o->precision)};
+    v->modulus = 2 * o->shear;
+    v->nu = o->nu;
+    v->whole = o->whole;
+    v->boundary = o->boundary;
+    v->ranks = o->ranks;
+    v->ops = o->precision == RC_SINGLE ? &rc_sweep_single : &rc_sweep_double;
+    status = make_level(v, o, 0, err);
+    for (size_t k = 0; k < o->slabs && status == RC_OK; k++)
+        if (v->level[v->level_of[k]].fft == NULL)
+            status = make_level(v, o, v->level_of[k], err);
+    if (status != RC_OK || rc_ranks_agree(o->ranks, allocate(v, o, err), err) != RC_OK)
         return NULL;
     if (rc_repeats(o->boundary) == 1)
-        v->lines = rc_lines_new(shape, o, o->boundary.x ? v->layout.py : v->layout.px, err);
+        v->lines = rc_lines_new(shape, o, o->boundary.x ? v->level[0].py : v->level[0].px, err);
     return rc_repeats(o->boundary) == 1 && v->lines == NULL ? NULL : rc_give(&v);
+}
+
+size_t
+rc_slabs_level(const struct rc_slabs *v, size_t slab)
+{
+    return v->level_of[slab];
 }
 
 void
@@ -190,80 +338,81 @@ rc_slabs_free(struct rc_slabs *v)
     if (v == NULL)
         return;
     rc_lines_free(v->lines);
-    rc_fft_free(v->fft);
+    for (size_t k = LEVELS; k-- > 0;) /* the others work in the memory of the first */
+        rc_fft_free(v->level[k].fft);
     rc_store_free(&v->own);
     free(v);
 }
 
 /* ---- layout ---- */
 
-static void *
-map_of(const struct layout *layout, void *maps, size_t which)
+static const struct level *
+level_of(const struct rc_slabs *v, size_t slab)
 {
-    return (char *)maps + which * layout->map * layout->real;
+    return &v->level[v->level_of[slab]];
+}
+
+/* The address of number `at` of an array in the precision of the sweeps. */
+static void *
+number_of(const struct rc_slabs *v, void *array, size_t at)
+{
+    return (char *)array + at * v->layout.real;
 }
 
 static void *
-strain_of(const struct layout *layout, const struct maps *maps, size_t slab, size_t component)
+strain_of(const struct rc_slabs *v, size_t slab, size_t component)
 {
-    return map_of(layout, maps->strain, slab * RC_SWEEP_STRAINS + component);
+    return number_of(v, v->maps.strain, v->at[slab] + component * level_of(v, slab)->map);
 }
 
-/* The address of column i of waves, with `arrays` arrays a column. */
+/* The address of column i of the waves at the top of a group, of v->maps.waves or down; NULL below the last
+ * group. */
 static void *
-column_of(const struct layout *layout, void *waves, size_t arrays, size_t i)
+waves_in(const struct rc_slabs *v, void *waves, size_t group, size_t i)
 {
-    return waves == NULL ? NULL : (char *)waves + i * arrays * 2 * layout->length * layout->real;
-}
+    const struct group *g = &v->group[group];
 
-/* Waves at the top of a group in column i, of v->waves or v->down; NULL below the last group. */
-static void *
-waves_in(const struct layout *layout, void *waves, size_t group, size_t i)
-{
-    if (group == layout->groups)
-        return NULL;
-    return column_of(layout, map_of(layout, waves, group * RC_SWEEP_WAVES), RC_SWEEP_WAVES, i);
+    return group == v->layout.groups
+               ? NULL
+               : number_of(v, waves, g->at + i * RC_SWEEP_WAVES * 2 * v->level[g->level].length);
 }
 
 static void *
-waves_of(const struct layout *layout, const struct maps *maps, size_t group, size_t i)
+waves_of(const struct rc_slabs *v, size_t group, size_t i)
 {
-    return waves_in(layout, maps->waves, group, i);
+    return waves_in(v, v->maps.waves, group, i);
 }
 
 /* Column i of those held here. */
 static struct rc_sweep_column
-sweep_column(const struct rc_slabs *v, size_t i)
+sweep_column(const struct rc_slabs *v, const struct level *l, size_t i)
 {
-    bool dead = 2 * (v->layout.first + i) == v->layout.px;
+    bool dead = 2 * (l->first + i) == l->px;
 
-    return (struct rc_sweep_column){.length = v->layout.length,
-                                    .qx = rc_fft_qx(v->fft, v->layout.first + i),
-                                    .qy = v->qy,
-                                    .alive = v->alive,
+    return (struct rc_sweep_column){.length = l->length,
+                                    .qx = rc_fft_qx(l->fft, l->first + i),
+                                    .qy = l->qy,
+                                    .alive = l->alive,
                                     .dead = dead,
                                     .nu = v->nu};
 }
 
-/* The slabs of a group in column i; returns their number. */
-static size_t
-slabs_of(const struct rc_slabs *v, size_t group, size_t i, const bool *wanted,
+/* The slabs of a group in column i. */
+static void
+slabs_of(const struct rc_slabs *v, const struct group *g, size_t i, const bool *wanted,
          struct rc_sweep_slab slab[RC_SWEEP_SLABS])
 {
-    size_t first = group * RC_SWEEP_SLABS, n = v->layout.slabs - first;
+    const size_t first = g->first, at = i * 2 * v->level[g->level].length;
 
-    n = n < RC_SWEEP_SLABS ? n : RC_SWEEP_SLABS;
-    for (size_t k = 0; k < n; k++) {
+    for (size_t k = 0; k < g->n; k++) {
         slab[k] = (struct rc_sweep_slab){.thickness = v->thickness[first + k],
                                          .strained = v->strained[first + k],
                                          .wanted = wanted == NULL || wanted[first + k]};
         for (size_t c = 0; c < RC_SWEEP_STRAINS; c++)
-            slab[k].strain[c] =
-                column_of(&v->layout, strain_of(&v->layout, &v->maps, first + k, c), 1, i);
+            slab[k].strain[c] = number_of(v, strain_of(v, first + k, c), at);
         if (v->maps.zz != NULL)
-            slab[k].zz = column_of(&v->layout, map_of(&v->layout, v->maps.zz, k), 1, i);
+            slab[k].zz = number_of(v, v->maps.zz, k * v->level[0].map + at);
     }
-    return n;
 }
 
 /* ---- rows ---- */
@@ -274,9 +423,12 @@ struct pass {
     const struct rc_slab_strain *strain;
     const struct rc_slab_stress *stress;
     const struct rc_slice_stress *slice;
-    size_t slab, component; /* component: of kept_components */
+    const struct group *group; /* of the slab */
+    size_t slab, component;    /* component: of kept_components */
     const double *p;
     double *u;
+    void *waves;         /* of a map that is refined */
+    const size_t *place; /* of each of them in a column of the map */
 };
 
 static const enum rc_component kept_components[RC_SWEEP_STRAINS + 1] = {RC_SXX, RC_SYY, RC_SXY,
@@ -320,7 +472,7 @@ strain_row(void *ctx, size_t j, void *row)
     if (!p->strain->row(p->strain->ctx, p->slab, c, j, to))
         return false;
     if (single(v))
-        to_single(to, v->shape.nx, row);
+        to_single(to, level_of(v, p->slab)->nx, row);
     return true;
 }
 
@@ -357,10 +509,11 @@ displacement_row(void *ctx, size_t j, void *row)
 
 /* Where the stresses of a slab are stored, as waves and then as rows. */
 static void *
-stress_of(const struct layout *layout, const struct maps *maps, size_t slab, size_t component)
+stress_of(const struct rc_slabs *v, const struct group *g, size_t slab, size_t component)
 {
-    return component < RC_SWEEP_STRAINS ? strain_of(layout, maps, slab, component)
-                                        : map_of(layout, maps->zz, slab % RC_SWEEP_SLABS);
+    return component < RC_SWEEP_STRAINS
+               ? strain_of(v, slab, component)
+               : number_of(v, v->maps.zz, (slab - g->first) * v->level[0].map);
 }
 
 static bool
@@ -368,10 +521,10 @@ keep_row(void *ctx, size_t j, void *row)
 {
     const struct pass *p = ctx;
     const struct rc_slabs *v = p->volume;
-    size_t bytes = v->shape.nx * v->layout.real;
+    size_t nx = level_of(v, p->slab)->nx;
 
-    rc_copy_past((char *)stress_of(&v->layout, &v->maps, p->slab, p->component) + j * bytes, row,
-                 bytes);
+    rc_copy_past(number_of(v, stress_of(v, p->group, p->slab, p->component), j * nx), row,
+                 nx * v->layout.real);
     return true;
 }
 
@@ -381,14 +534,13 @@ stress_row(void *ctx, size_t j, void *row)
 {
     const struct pass *p = ctx;
     const struct rc_slabs *v = p->volume;
-    size_t nx = v->shape.nx, bytes = nx * v->layout.real;
+    size_t nx = level_of(v, p->slab)->nx;
     double *s[RC_COMPONENTS] = {NULL};
 
     for (size_t k = 0; k <= p->component; k++) {
         enum rc_component c = kept_components[k];
-        void *at = k == p->component
-                       ? row
-                       : (char *)stress_of(&v->layout, &v->maps, p->slab, k) + j * bytes;
+        void *at =
+            k == p->component ? row : number_of(v, stress_of(v, p->group, p->slab, k), j * nx);
         s[c] = single(v) ? row_of(v->rows, v->shape.nx, c) : at;
         if (single(v))
             to_double(at, nx, s[c]);
@@ -401,29 +553,73 @@ stress_row(void *ctx, size_t j, void *row)
 
 /* ---- up ---- */
 
+/* Memory of this thread for the waves of a column between two levels. */
+static void *
+passing_of(const struct rc_slabs *v)
+{
+    return number_of(v, v->passing,
+                     (size_t)omp_get_thread_num() * RC_SWEEP_WAVES * 2 * v->level[0].length);
+}
+
+/* Copies the waves of a column of a coarser group into a column of the group above it, or `back`. The other
+ * waves of the finer column are 0: those that come from it have decayed there. */
+static void
+copy_waves(const struct rc_slabs *v, const struct group *coarse, bool back, char *of, char *finer)
+{
+    const size_t length = v->level[coarse->level].length, real = v->layout.real,
+                 longer = v->level[(coarse - 1)->level].length;
+
+    if (!back)
+        memset(finer, 0, RC_SWEEP_WAVES * 2 * longer * real);
+    for (size_t c = 0; c < RC_SWEEP_WAVES * 2; c++)
+        for (size_t t = 0; t < length; t++) {
+            char *here = of + (c * length + t) * real;
+            if (coarse->place[t] == SIZE_MAX)
+                memset(here, 0, back ? real : 0);
+            else if (back)
+                memcpy(here, finer + (c * longer + coarse->place[t]) * real, real);
+            else
+                memcpy(finer + (c * longer + coarse->place[t]) * real, here, real);
+        }
+}
+
+/* Whether column i of a group continues in the group below it. */
+static bool
+continues(const struct rc_slabs *v, const struct group *below, size_t i)
+{
+    const struct level *l = &v->level[below->level];
+
+    return below->place == NULL || (i < l->columns && 2 * i != l->px);
+}
+
 static void
 sweep_up(struct rc_slabs *v, size_t group)
 {
-    bool below = group + 1 < v->layout.groups && v->passes[group + 1];
+    const struct group *g = &v->group[group], *next = g + 1;
+    const struct level *l = &v->level[g->level];
+    const bool below = group + 1 < v->layout.groups && v->passes[group + 1];
 
-#pragma omp parallel for num_threads(rc_fft_threads(v->fft)) schedule(static)
-    for (size_t i = 0; i < v->layout.columns; i++) {
-        struct rc_sweep_column column = sweep_column(v, i);
+#pragma omp parallel for num_threads(rc_fft_threads(l->fft)) schedule(static)
+    for (size_t i = 0; i < l->columns; i++) {
+        struct rc_sweep_column column = sweep_column(v, l, i);
         struct rc_sweep_slab slab[RC_SWEEP_SLABS];
-        size_t n = slabs_of(v, group, i, NULL, slab);
-        v->ops->through(&column, n, slab, false,
-                        below ? waves_of(&v->layout, &v->maps, group + 1, i) : NULL,
-                        waves_of(&v->layout, &v->maps, group, i));
+        void *from = below && continues(v, next, i) ? waves_of(v, group + 1, i) : NULL;
+        if (from != NULL && next->place != NULL) {
+            copy_waves(v, next, false, from, passing_of(v));
+            from = passing_of(v);
+        }
+        slabs_of(v, g, i, NULL, slab);
+        v->ops->through(&column, g->n, slab, false, from, waves_of(v, group, i));
     }
 }
 
 static void
 surface_column(void *ctx, size_t i, void *to)
 {
-    const struct pass *p = ctx;
-    struct rc_sweep_column column = sweep_column(p->volume, i);
+    const struct rc_slabs *v = ((const struct pass *)ctx)->volume;
+    struct rc_sweep_column column = sweep_column(v, &v->level[0], i);
 
-    p->volume->ops->surface(&column, waves_of(&p->volume->layout, &p->volume->maps, 0, i), to);
+    v->ops->surface(&column, waves_of(v, 0, i), to);
 }
 
 void
@@ -433,16 +629,14 @@ rc_slabs_up(struct rc_slabs *v, const struct rc_slab_strain *strain, double *u)
     bool any = false;
 
     for (size_t group = v->layout.groups; group-- > 0;) {
-        size_t end = (group + 1) * RC_SWEEP_SLABS < v->layout.slabs ? (group + 1) * RC_SWEEP_SLABS
-                                                                    : v->layout.slabs;
-        for (size_t k = group * RC_SWEEP_SLABS; k < end; k++) {
+        const struct group *g = &v->group[group];
+        for (size_t k = g->first; k < g->first + g->n; k++) {
             v->strained[k] = strain->strained == NULL || strain->strained[k];
             any = any || v->strained[k];
             pass.slab = k;
             for (size_t c = 0; c < RC_SWEEP_STRAINS && v->strained[k]; c++) {
                 pass.component = c;
-                rc_fft_forward(v->fft, strain_row, &pass, strain_of(&v->layout, &v->maps, k, c),
-                               NULL);
+                rc_fft_forward(v->level[g->level].fft, strain_row, &pass, strain_of(v, k, c), NULL);
                 v->counts.forward++;
             }
         }
@@ -455,7 +649,7 @@ rc_slabs_up(struct rc_slabs *v, const struct rc_slab_strain *strain, double *u)
     if (u == NULL)
         return;
     if (any) {
-        rc_fft_back(v->fft, NULL, surface_column, displacement_row, &pass);
+        rc_fft_back(v->level[0].fft, NULL, surface_column, displacement_row, &pass);
         v->counts.back++;
     } else
         memset(u, 0, v->here.nx * v->here.ny * sizeof *u);
@@ -467,11 +661,11 @@ static void
 reflect_column(void *ctx, size_t i, void *p)
 {
     struct rc_slabs *v = ((const struct pass *)ctx)->volume;
-    struct rc_sweep_column column = sweep_column(v, i);
+    struct rc_sweep_column column = sweep_column(v, &v->level[0], i);
 
-    if (v->layout.first + i == 0 && p != NULL)
+    if (v->level[0].first + i == 0 && p != NULL)
         v->mean = single(v) ? *(const float *)p : *(const double *)p;
-    v->ops->reflect(&column, v->passes[0], p, 1 / v->modulus, waves_of(&v->layout, &v->maps, 0, i));
+    v->ops->reflect(&column, v->passes[0], p, 1 / v->modulus, waves_of(v, 0, i));
 }
 
 /* The stress due to a mean pressure, in every slab. On a map that repeats along one axis it is that of lines
@@ -496,17 +690,29 @@ add_mean(const struct rc_shape *shape, struct rc_boundary boundary, double nu, d
 static void
 sweep_down(struct rc_slabs *v, size_t group, const bool *wanted)
 {
-    bool below = group + 1 < v->layout.groups && v->passes[group + 1];
+    const struct group *g = &v->group[group], *next = g + 1;
+    const struct level *l = &v->level[g->level];
+    const bool last = group + 1 == v->layout.groups, below = !last && v->passes[group + 1];
 
-#pragma omp parallel for num_threads(rc_fft_threads(v->fft)) schedule(static)
-    for (size_t i = 0; i < v->layout.columns; i++) {
-        struct rc_sweep_column column = sweep_column(v, i);
+#pragma omp parallel for num_threads(rc_fft_threads(l->fft)) schedule(static)
+    for (size_t i = 0; i < l->columns; i++) {
+        struct rc_sweep_column column = sweep_column(v, l, i);
         struct rc_sweep_slab slab[RC_SWEEP_SLABS];
-        size_t n = slabs_of(v, group, i, wanted, slab);
-        for (size_t k = 0; k < n && v->layout.first + i == 0; k++)
+        const bool on = !last && continues(v, next, i), turns = !last && next->place != NULL;
+        void *to = on ? waves_of(v, group + 1, i) : NULL, *through = to;
+        if (on && turns) {
+            through = passing_of(v);
+            if (below)
+                copy_waves(v, next, false, to, through);
+        } else if (turns && i < v->level[next->level].columns) /* a dead column */
+            memset(waves_of(v, group + 1, i), 0,
+                   RC_SWEEP_WAVES * 2 * v->level[next->level].length * v->layout.real);
+        slabs_of(v, g, i, wanted, slab);
+        for (size_t k = 0; k < g->n && l->first + i == 0; k++)
             add_mean(&v->shape, v->boundary, v->nu, v->mean, &slab[k]);
-        v->ops->down(&column, n, slab, v->modulus, waves_of(&v->layout, &v->maps, group, i), below,
-                     waves_of(&v->layout, &v->maps, group + 1, i));
+        v->ops->down(&column, g->n, slab, v->modulus, waves_of(v, group, i), below && on, through);
+        if (on && turns)
+            copy_waves(v, next, true, to, through);
     }
 }
 
@@ -523,22 +729,25 @@ rc_slabs_down(struct rc_slabs *v, const double *p, const struct rc_slab_stress *
         rc_lines_down(v->lines, p, stress);
     v->mean = 0;
     if (p != NULL) {
-        rc_fft_forward(v->fft, pressure_row, &pass, NULL, reflect_column);
+        rc_fft_forward(v->level[0].fft, pressure_row, &pass, NULL, reflect_column);
         v->counts.forward++;
     } else {
-#pragma omp parallel for num_threads(rc_fft_threads(v->fft)) schedule(static)
-        for (size_t i = 0; i < v->layout.columns; i++)
+#pragma omp parallel for num_threads(rc_fft_threads(v->level[0].fft)) schedule(static)
+        for (size_t i = 0; i < v->level[0].columns; i++)
             reflect_column(&pass, i, NULL);
     }
-    for (size_t k = 0; k < end; k++) {
-        if (k % RC_SWEEP_SLABS == 0)
-            sweep_down(v, k / RC_SWEEP_SLABS, stress->wanted);
+    for (size_t k = 0, group = 0; k < end; k++) {
+        if (k == v->group[group].first + v->group[group].n)
+            group++;
+        if (k == v->group[group].first)
+            sweep_down(v, group, stress->wanted);
         if (stress->wanted != NULL && !stress->wanted[k])
             continue;
         pass.slab = k;
+        pass.group = &v->group[group];
         for (size_t c = 0; c <= last; c++) {
             pass.component = c;
-            rc_fft_back(v->fft, stress_of(&v->layout, &v->maps, k, c), NULL,
+            rc_fft_back(level_of(v, k)->fft, stress_of(v, pass.group, k, c), NULL,
                         c < last ? keep_row : stress_row, &pass);
             v->counts.back++;
         }
@@ -554,18 +763,18 @@ rc_slabs_through(struct rc_slabs *v)
 {
     if (v->lines != NULL)
         rc_lines_through(v->lines);
-#pragma omp parallel for num_threads(rc_fft_threads(v->fft)) schedule(static)
-    for (size_t i = 0; i < v->layout.columns; i++) {
-        struct rc_sweep_column column = sweep_column(v, i);
+#pragma omp parallel for num_threads(rc_fft_threads(v->level[0].fft)) schedule(static)
+    for (size_t i = 0; i < v->level[0].columns; i++) {
+        struct rc_sweep_column column = sweep_column(v, &v->level[0], i);
         struct rc_sweep_slab slab[RC_SWEEP_SLABS];
-        void *top = waves_in(&v->layout, v->maps.down, 0, i);
-        memcpy(top, waves_of(&v->layout, &v->maps, 0, i),
-               RC_SWEEP_WAVES * 2 * v->layout.length * v->layout.real);
+        void *top = waves_in(v, v->maps.down, 0, i);
+        memcpy(top, waves_of(v, 0, i), RC_SWEEP_WAVES * 2 * v->level[0].length * v->layout.real);
         v->ops->reflect(&column, v->passes[0], NULL, 0, top);
         for (size_t group = 0; group + 1 < v->layout.groups; group++) {
-            size_t n = slabs_of(v, group, i, NULL, slab);
-            v->ops->through(&column, n, slab, true, waves_in(&v->layout, v->maps.down, group, i),
-                            waves_in(&v->layout, v->maps.down, group + 1, i));
+            slabs_of(v, &v->group[group], i, NULL, slab);
+            v->ops->through(&column, v->group[group].n, slab, true,
+                            waves_in(v, v->maps.down, group, i),
+                            waves_in(v, v->maps.down, group + 1, i));
         }
     }
 }
@@ -603,6 +812,7 @@ slice_row(void *ctx, size_t j, void *row)
 void
 rc_slabs_slice(struct rc_slabs *v, double depth, const struct rc_slice_stress *stress)
 {
+    const struct level *l = &v->level[0];
     size_t group;
     struct rc_sweep_place place = place_of(&v->layout, v->thickness, depth, &group);
     struct pass pass = {.volume = v, .slice = stress};
@@ -611,25 +821,82 @@ rc_slabs_slice(struct rc_slabs *v, double depth, const struct rc_slice_stress *s
     if (v->lines != NULL)
         rc_lines_slice(v->lines, depth, stress->components);
 
-#pragma omp parallel for num_threads(rc_fft_threads(v->fft)) schedule(static)
-    for (size_t i = 0; i < v->layout.columns; i++) {
-        struct rc_sweep_column column = sweep_column(v, i);
+#pragma omp parallel for num_threads(rc_fft_threads(l->fft)) schedule(static)
+    for (size_t i = 0; i < l->columns; i++) {
+        struct rc_sweep_column column = sweep_column(v, l, i);
         struct rc_sweep_slab slab[RC_SWEEP_SLABS];
-        size_t n = slabs_of(v, group, i, NULL, slab);
         void *to[RC_SWEEP_STRAINS + 1];
+        slabs_of(v, &v->group[group], i, NULL, slab);
         for (size_t c = 0; c <= RC_SWEEP_STRAINS; c++)
-            to[c] = column_of(&v->layout, map_of(&v->layout, v->maps.slice, c), 1, i);
-        v->ops->slice(&column, n, slab, v->modulus, &place,
-                      waves_in(&v->layout, v->maps.down, group, i),
-                      below ? waves_of(&v->layout, &v->maps, group + 1, i) : NULL, to);
+            to[c] = number_of(v, v->maps.slice, c * l->map + i * 2 * l->length);
+        v->ops->slice(&column, v->group[group].n, slab, v->modulus, &place,
+                      waves_in(v, v->maps.down, group, i), below ? waves_of(v, group + 1, i) : NULL,
+                      to);
     }
     for (size_t c = 0; c <= RC_SWEEP_STRAINS; c++) {
         if (!(stress->components >> kept_components[c] & 1))
             continue;
         pass.component = c;
-        rc_fft_back(v->fft, map_of(&v->layout, v->maps.slice, c), NULL, slice_row, &pass);
+        rc_fft_back(l->fft, number_of(v, v->maps.slice, c * l->map), NULL, slice_row, &pass);
         v->counts.back++;
     }
+}
+
+/* ---- between levels ---- */
+
+static bool
+node_row(void *ctx, size_t j, void *row)
+{
+    const struct pass *p = ctx;
+    const struct rc_slabs *v = p->volume;
+    const size_t nx = level_of(v, p->slab)->nx;
+
+    if (single(v))
+        to_single(p->u + j * nx, nx, row);
+    else
+        memcpy(row, p->u + j * nx, nx * sizeof *p->u);
+    return true;
+}
+
+static void
+refined_column(void *ctx, size_t i, void *to)
+{
+    const struct pass *p = ctx;
+    const struct rc_slabs *v = p->volume;
+    const struct level *l = level_of(v, p->slab), *all = &v->level[0];
+    const size_t real = v->layout.real;
+
+    memset(to, 0, 2 * all->length * real);
+    for (size_t t = 0; t < l->length && i < l->columns && 2 * i != l->px; t++)
+        for (size_t half = 0; half < 2 && p->place[t] != SIZE_MAX; half++)
+            memcpy((char *)to + (half * all->length + p->place[t]) * real,
+                   number_of(v, p->waves, (2 * i + half) * l->length + t), real);
+}
+
+static bool
+refined_row(void *ctx, size_t j, void *row)
+{
+    const struct pass *p = ctx;
+    const size_t nx = p->volume->shape.nx;
+
+    if (single(p->volume))
+        to_double(row, nx, p->u + j * nx);
+    else
+        memcpy(p->u + j * nx, row, nx * sizeof *p->u);
+    return true;
+}
+
+void
+rc_slabs_refine(struct rc_slabs *v, size_t slab, double *map)
+{
+    const struct level *l = level_of(v, slab);
+    struct pass pass = {
+        .volume = v, .slab = slab, .u = map, .waves = strain_of(v, slab, 0), .place = l->place};
+
+    if (v->level_of[slab] == 0)
+        return;
+    rc_fft_forward(l->fft, node_row, &pass, pass.waves, NULL);
+    rc_fft_back(v->level[0].fft, NULL, refined_column, refined_row, &pass);
 }
 
 const struct rc_slabs_counts *

@@ -48,12 +48,15 @@ enum {
 };
 
 struct rc_slabs_options {
-    size_t slabs;                 /* number of slabs from the surface down, at least one */
-    const double *thickness;      /* m, thickness of each slab; only rc_slabs_new needs it */
-    double shear, nu;             /* mu, Pa; Poisson's ratio, above -1 and at most 0.5  */
-    struct rc_boundary boundary;  /* the map is padded along its free axes              */
-    bool whole;                   /* all six stresses; otherwise deviators, without szz */
-    bool slices;                  /* rc_slabs_slice will be called                      */
+    size_t slabs;                /* number of slabs from the surface down, at least one */
+    const double *thickness;     /* m, thickness of each slab; only rc_slabs_new needs it */
+    double shear, nu;            /* mu, Pa; Poisson's ratio, above -1 and at most 0.5  */
+    struct rc_boundary boundary; /* the map is padded along its free axes              */
+    bool whole;                  /* all six stresses; otherwise deviators, without szz */
+    bool slices;                 /* rc_slabs_slice will be called                      */
+    /* The nodes of a slab lie 2^level nodes of the map apart, at most this part of its depth. 0: all slabs
+     * have the nodes of the map, and so have those for slices, ranks, and maps that repeat along one axis. */
+    double coarser;
     enum rc_precision precision;  /* precision of the computation; rows and maps are double */
     size_t threads;               /* 0: all                                             */
     const struct rc_ranks *ranks; /* ranks that share the map; NULL: none               */
@@ -65,7 +68,8 @@ struct rc_slab_strain {
     /* Whether each slab has strain; NULL: all have. Slabs without strain are not read and cost only the
      * passing waves. */
     const bool *strained;
-    /* Writes row j of component c of a slab, nx numbers, or returns false if all are 0. c is never RC_SZZ,
+    /* Writes row j of component c of a slab, nx numbers (nx >> rc_slabs_level: the nodes of the slab), or
+     * returns false if all are 0. c is never RC_SZZ,
      * which is -exx - eyy. Shears are those of the tensor, half the engineering shears. */
     bool (*row)(void *ctx, size_t slab, enum rc_component c, size_t j, double *row);
     void *ctx;
@@ -100,6 +104,13 @@ struct rc_slabs;
 struct rc_slabs *rc_slabs_new(const struct rc_shape *shape, const struct rc_slabs_options *options,
                               struct rc_err *err);
 void rc_slabs_free(struct rc_slabs *slabs); /* NULL is allowed */
+/* The slab has the nodes (2^level i, 2^level j) of the map. */
+size_t rc_slabs_level(const struct rc_slabs *slabs, size_t slab);
+/* Turns numbers at the nodes of a slab, row after row, into numbers at the nx ny nodes of the map, by the waves
+ * of its level. */
+void rc_slabs_refine(struct rc_slabs *slabs, size_t slab, double *map);
+/* The number of slabs, each counted as the part of the nodes of the map that it has. */
+double rc_slabs_by_nodes(const struct rc_shape *shape, const struct rc_slabs_options *options);
 RC_OWNER(rc_slabs)
 
 /* u = S' e, m; its mean is 0 unless exactly one axis repeats. u may be NULL. */

@@ -139,6 +139,7 @@ look_between(const struct probe *q, const struct stack *s, struct rc_yield_depth
 /* The stresses of the voxels, for keep_largest. */
 struct seen {
     struct stack *s;
+    const struct rc_slabs *slabs;
     size_t nx;
     double yield; /* Pa */
 };
@@ -149,15 +150,16 @@ keep_largest(void *ctx, size_t slab, size_t j, double *const c[RC_COMPONENTS])
 {
     const struct seen *seen = ctx;
     double most = 0;
+    const size_t level = rc_slabs_level(seen->slabs, slab);
     size_t beyond = 0;
 
     (void)j;
-    for (size_t i = 0; i < seen->nx; i++) {
+    for (size_t i = 0; i < seen->nx >> level; i++) {
         const double at[RC_DEVIATOR] = {c[RC_SXX][i], c[RC_SYY][i], c[RC_SXY][i], c[RC_SXZ][i],
                                         c[RC_SYZ][i]};
         const double mises = rc_mises_of(at);
         most = fmax(most, mises);
-        beyond += mises > seen->yield;
+        beyond += (size_t)(mises > seen->yield) << 2 * level;
     }
 #pragma omp critical
     {
@@ -170,7 +172,7 @@ keep_largest(void *ctx, size_t slab, size_t j, double *const c[RC_COMPONENTS])
 static enum rc_status
 look_at_voxels(const struct probe *q, struct stack *s, double *most, struct rc_err *err)
 {
-    struct seen seen = {s, q->shape->nx, q->yield};
+    struct seen seen = {s, NULL, q->shape->nx, q->yield};
     const struct rc_slab_stress stress = {.row = keep_largest, .ctx = &seen};
     const bool strained[MOST << HALVINGS] = {false};
     const struct rc_slab_strain none = {.strained = strained};
@@ -179,12 +181,14 @@ look_at_voxels(const struct probe *q, struct stack *s, double *most, struct rc_e
                                              .shear = 1, /* Pa; without strain it has no effect */
                                              .nu = q->contact->pair.one.nu,
                                              .boundary = q->contact->boundary,
+                                             .coarser = RC_YIELD_COARSER,
                                              .precision = RC_SINGLE,
                                              .threads = q->contact->threads};
     RC_OWN(rc_slabs, slabs) = rc_slabs_new(q->shape, &options, err);
 
     if (slabs == NULL)
         return RC_FAIL;
+    seen.slabs = slabs;
     memset(s->mises, 0, s->n * sizeof *s->mises);
     memset(s->beyond, 0, s->n * sizeof *s->beyond);
     rc_slabs_up(slabs, &none, NULL);

@@ -364,23 +364,41 @@ press_volume(struct yield *y, struct rc_err *err)
 
 /* ---- memory ---- */
 
+/* The number of slabs, each counted as the part of the nodes of the map that it has. */
+static double
+slabs_by_nodes(const struct rc_yield_problem *problem, const struct rc_shape *shape,
+               const struct rc_yield_depths *depths)
+{
+    const struct rc_slabs_options options = {.slabs = depths->slabs,
+                                             .thickness = depths->thickness,
+                                             .boundary = problem->contact.boundary,
+                                             .coarser = problem->precise ? 0 : RC_YIELD_COARSER,
+                                             .ranks = problem->contact.ranks};
+
+    return depths->thickness != NULL ? rc_slabs_by_nodes(shape, &options)
+           : depths->slabs > 0       ? (double)depths->slabs
+                                     : (double)problem->slabs;
+}
+
 /* Bytes of the volume and of its state, if this part of the voxels yields. */
 static size_t
-volume_bytes(const struct rc_yield_problem *problem, const struct rc_shape *shape, size_t slabs,
-             double part)
+volume_bytes(const struct rc_yield_problem *problem, const struct rc_shape *shape,
+             const struct rc_yield_depths *depths)
 {
     /* bytes a node, measured on 1024 x 1024 nodes: free, periodic */
     static const double body[] = {122, 96}, slab[] = {92.2, 23.1};
     const struct rc_boundary boundary = problem->contact.boundary;
-    const double voxels = part * sizeof(struct rc_voxel);
+    const double voxels = depths->part * sizeof(struct rc_voxel);
+    const size_t slabs = depths->slabs > 0 ? depths->slabs : problem->slabs;
     const bool tries = problem->increments == 0 || problem->companion;
 
     /* a state takes at most the memory of the voxels and of a pressure */
     return rc_slabs_line_bytes(shape, boundary, slabs) +
            (size_t)((double)(shape->nx * shape->ny) *
                     (rc_by_padding(boundary, body[0], body[1]) + (1 + tries) * sizeof(double) +
-                     (double)slabs * (rc_by_padding(boundary, slab[0], slab[1]) +
-                                      (2 + problem->companion) * voxels)));
+                     slabs_by_nodes(problem, shape, depths) *
+                         (rc_by_padding(boundary, slab[0], slab[1]) +
+                          (2 + problem->companion) * voxels)));
 }
 
 /* The cost of a sum in the volume with that of the longer profiles (volume/lines.h), over that without. */
@@ -411,13 +429,15 @@ plan(const struct rc_model *m, const struct rc_point *most, struct rc_expected *
      struct rc_err *err)
 {
     const struct yield *y = (const struct yield *)m;
-    const size_t slabs = y->depths.slabs > 0 ? y->depths.slabs : y->problem.slabs;
-    const size_t volume =
-        slabs > 0 ? volume_bytes(&y->problem, &y->base.shape, slabs, y->depths.part) : 0;
+    const size_t volume = y->depths.slabs > 0 || y->problem.slabs > 0
+                              ? volume_bytes(&y->problem, &y->base.shape, &y->depths)
+                              : 0;
     const double increments = (double)(y->problem.increments > 0 ? y->problem.increments : FIRST);
     static const double sums[] = RC_YIELD_SUMS;
-    const double applied =
-        (RC_YIELD_LAST + RC_YIELD_INCREMENT * increments) * (double)y->depths.slabs;
+    const double applied = y->depths.slabs > 0
+                               ? (RC_YIELD_LAST + RC_YIELD_INCREMENT * increments) *
+                                     slabs_by_nodes(&y->problem, &y->base.shape, &y->depths)
+                               : 0;
 
     if (expect_elastic(&y->base.shape, &y->problem, most->at[RC_LOAD], expected, err) != RC_OK)
         return RC_FAIL;
@@ -433,8 +453,7 @@ plan(const struct rc_model *m, const struct rc_point *most, struct rc_expected *
 static size_t
 more_bytes(const struct yield *y)
 {
-    const size_t volume =
-        volume_bytes(&y->problem, &y->base.shape, y->depths.slabs, y->depths.part);
+    const size_t volume = volume_bytes(&y->problem, &y->base.shape, &y->depths);
     struct rc_expected elastic = {0};
 
     (void)expect_elastic(&y->base.shape, &y->problem, fmax(y->plan.load, y->plan.largest), &elastic,
@@ -706,8 +725,13 @@ set_heights(struct rc_model *m, const double *h, struct rc_err *err)
 
 /* ---- states ---- */
 
-/* A state has counts and loads first. Then comes the pressure of an elastic contact. For a volume come the
- * thicknesses of its slabs, the state before the load, and its own state. */
+/* Of a state. Earlier states, in which deep slabs had all nodes, began with a number of increments. */
+enum {
+    LAYOUT = RC_YIELD_INCREMENTS + 2
+};
+
+/* A state has its layout, counts and loads first. Then comes the pressure of an elastic contact. For a volume
+ * come the thicknesses of its slabs, the state before the load, and its own state. */
 
 /* Forgets the volume, because the state that was read has none. */
 static void
@@ -787,11 +811,17 @@ static void
 state(struct rc_model *m, struct rc_state *s)
 {
     struct yield *y = (struct yield *)m;
+    size_t layout = LAYOUT;
     size_t slabs = y->plastic != NULL ? y->depths.slabs : 0;
     double solved = y->plastic == NULL && y->elastic != NULL && y->stage != APART
                         ? rc_solver_load(y->elastic)
                         : 0;
 
+    rc_state_count(s, &layout, SIZE_MAX / 2);
+    if (layout != LAYOUT) {
+        rc_state_refuse(s, "another version of the program wrote it");
+        return;
+    }
     rc_state_count(s, &y->tries.increments, RC_YIELD_INCREMENTS);
     rc_state_count(s, &y->tries.number, TRIES - 1);
     rc_state_count(s, &y->plan.left, SIZE_MAX / 2);

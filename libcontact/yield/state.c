@@ -168,7 +168,8 @@ rc_yield_solver_exchange(void *plastic, struct rc_state *s)
     if (rc_state_reads(s))
         rc_voxels_clear(&p->voxels);
     for (size_t r = 0; r < p->voxels.slabs * p->voxels.rows; r++)
-        exchange_row(s, columns, p->shape.nx, &p->voxels.row[r]);
+        exchange_row(s, columns, p->shape.nx >> rc_slabs_level(p->slabs, r / p->voxels.rows),
+                     &p->voxels.row[r]);
     if (rc_state_reads(s))
         resume(p, s, (enum rc_yield_solver_stage)stage, load);
 }

@@ -124,6 +124,21 @@ static const double kept_goal = 3e-3;
 static const int place_of[RC_COMPONENTS] = {
     [RC_SXX] = 0, [RC_SYY] = 1, [RC_SZZ] = -1, [RC_SXY] = 2, [RC_SXZ] = 3, [RC_SYZ] = 4};
 
+/* The nodes of a row of a slab. */
+static size_t
+nodes_of(const struct rc_yield_solver *p, size_t slab)
+{
+    return p->shape.nx >> rc_slabs_level(p->slabs, slab);
+}
+
+/* The depth that a voxel stands for in sums over voxels: a voxel of a coarse slab has the area of several
+ * nodes. */
+static double
+weight_of(const struct rc_yield_solver *p, size_t slab)
+{
+    return ldexp(p->maps.thickness[slab], 2 * (int)rc_slabs_level(p->slabs, slab));
+}
+
 /* e + x */
 static bool
 strain_row(void *ctx, size_t slab, enum rc_component c, size_t j, double *to)
@@ -134,7 +149,7 @@ strain_row(void *ctx, size_t slab, enum rc_component c, size_t j, double *to)
 
     if (row->n == 0)
         return false;
-    memset(to, 0, p->shape.nx * sizeof *to);
+    memset(to, 0, nodes_of(p, slab) * sizeof *to);
     for (size_t k = 0; k < row->n; k++)
         to[row->v[k].i] = row->v[k].e[a] + row->v[k].x[a];
     return true;
@@ -196,7 +211,8 @@ flow(const struct rc_yield_body *body, double order, bool follows, struct rc_vox
 }
 
 static void
-sum_up(const struct rc_yield_body *body, const struct rc_voxel *v, double thickness, double *sums)
+sum_up(const struct rc_yield_body *body, const struct rc_voxel *v, double weight, double nodes,
+       double *sums)
 {
     double r[RC_DEVIATOR], turned[RC_DEVIATOR], moved[RC_DEVIATOR], lag;
 
@@ -207,13 +223,13 @@ sum_up(const struct rc_yield_body *body, const struct rc_voxel *v, double thickn
     }
     lag = 2 * body->shear * rc_mises_of(r) / body->yield;
     if (rc_deviator_product(v->f, v->f) > 0 || rc_deviator_product(v->x, v->x) > 0) {
-        sums[RC_LAG] += lag * lag;
-        sums[RC_FLOWING]++;
+        sums[RC_LAG] += nodes * lag * lag;
+        sums[RC_FLOWING] += nodes;
     }
-    sums[RC_NEW_OLD] += thickness * rc_deviator_product(r, turned);
-    sums[RC_CHANGE] += thickness * rc_deviator_product(turned, turned);
-    sums[RC_ADVANCE] += thickness * rc_deviator_product(moved, moved);
-    sums[RC_RESISTED] -= thickness * rc_deviator_product(moved, turned);
+    sums[RC_NEW_OLD] += weight * rc_deviator_product(r, turned);
+    sums[RC_CHANGE] += weight * rc_deviator_product(turned, turned);
+    sums[RC_ADVANCE] += weight * rc_deviator_product(moved, moved);
+    sums[RC_RESISTED] -= weight * rc_deviator_product(moved, turned);
 }
 
 static inline void
@@ -271,9 +287,10 @@ static void
 look_ahead(const struct rc_yield_solver *p, size_t slab, struct rc_voxel_row *row,
            double *const s[])
 {
-    double square = p->body.yield * p->body.yield / 1.5;
+    const double square = p->body.yield * p->body.yield / 1.5, weight = weight_of(p, slab),
+                 nodes = weight / p->maps.thickness[slab];
 
-    for (size_t i = 0, known = 0; i < p->shape.nx; i++) {
+    for (size_t i = 0, known = 0; i < nodes_of(p, slab); i++) {
         struct rc_voxel fresh = {0};
         bool is_known;
         double at[RC_DEVIATOR];
@@ -285,7 +302,7 @@ look_ahead(const struct rc_yield_solver *p, size_t slab, struct rc_voxel_row *ro
             continue;
         flow(&p->body, p->run.order, p->asked.follows, is_known ? &row->v[known] : &fresh, at,
              false);
-        sum_up(&p->body, is_known ? &row->v[known] : &fresh, p->maps.thickness[slab], row->sums);
+        sum_up(&p->body, is_known ? &row->v[known] : &fresh, weight, nodes, row->sums);
     }
 }
 
@@ -301,6 +318,7 @@ stress_row(void *ctx, size_t slab, size_t j, double *const s[RC_COMPONENTS])
 {
     struct rc_yield_solver *p = ctx;
     struct rc_voxel_row *row = rc_voxels_row(&p->voxels, slab, j);
+    const double weight = weight_of(p, slab), nodes = weight / p->maps.thickness[slab];
     bool adds = p->run.trial + 1 == (p->run.increment == p->run.count ? LAST : EACH);
 
     memset(row->sums, 0, sizeof row->sums);
@@ -308,7 +326,7 @@ stress_row(void *ctx, size_t slab, size_t j, double *const s[RC_COMPONENTS])
         look_ahead(p, slab, row, s);
         return;
     }
-    if (take_in(p->body.yield, p->shape.nx, row, s) != RC_OK) {
+    if (take_in(p->body.yield, nodes_of(p, slab), row, s) != RC_OK) {
 #pragma omp atomic write
         p->is.failed = true;
         return;
@@ -317,7 +335,7 @@ stress_row(void *ctx, size_t slab, size_t j, double *const s[RC_COMPONENTS])
         double at[RC_DEVIATOR];
         stress_at(s, row->v[k].i, at);
         flow(&p->body, p->run.order, p->asked.follows, &row->v[k], at, adds);
-        sum_up(&p->body, &row->v[k], p->maps.thickness[slab], row->sums);
+        sum_up(&p->body, &row->v[k], weight, nodes, row->sums);
     }
 }
 
@@ -713,7 +731,7 @@ find_figures(struct rc_yield_solver *p)
         for (size_t j = 0; j < p->voxels.rows; j++) {
             const struct rc_voxel_row *row = rc_voxels_row(&p->voxels, k, j);
             for (size_t i = 0; i < row->n; i++) {
-                double strain = row->v[i].strain, part = cell * p->maps.thickness[k];
+                double strain = row->v[i].strain, part = cell * weight_of(p, k);
                 if (!(strain > 0))
                     continue;
                 f->voxels++;
@@ -1063,23 +1081,46 @@ rc_yield_solver_step(struct rc_yield_solver *p, struct rc_err *err)
     return p->is.stopped ? RC_SHORT : RC_OK;
 }
 
+/* Adds the equivalent strain of a voxel of a coarse slab to the nodes of the map around it. It falls linearly
+ * to 0 at the next voxels: waves would make it negative, and spread it over the map. */
+static void
+spread(const struct rc_yield_solver *p, size_t level, size_t i, size_t j, double strain,
+       double *map)
+{
+    const long wide = 1L << level, nx = (long)p->shape.nx, ny = (long)p->shape.ny;
+
+    for (long y = 1 - wide; y < wide; y++)
+        for (long x = 1 - wide; x < wide; x++) {
+            const long at = (long)(i << level) + x, line = (long)(j << level) + y;
+            if ((at < 0 && !p->boundary.x) || (line < 0 && !p->boundary.y) || at >= nx ||
+                line >= ny)
+                continue;
+            map[(line + ny) % ny * nx + (at + nx) % nx] +=
+                strain * (1 - ldexp((double)labs(x), -(int)level)) *
+                (1 - ldexp((double)labs(y), -(int)level));
+        }
+}
+
 void
 rc_yield_solver_strain(const struct rc_yield_solver *p, size_t slab,
                        double *const e[RC_YIELD_STRAINS])
 {
-    for (size_t c = 0; c < RC_YIELD_STRAINS; c++)
-        if (e[c] != NULL)
-            memset(e[c], 0, p->n * sizeof *e[c]);
-    for (size_t j = 0; j < p->voxels.rows; j++) {
-        const struct rc_voxel_row *row = rc_voxels_row(&p->voxels, slab, j);
-        for (size_t k = 0; k < row->n; k++) {
-            size_t at = j * p->shape.nx + row->v[k].i;
-            for (size_t c = 0; c < RC_DEVIATOR; c++)
-                if (e[c] != NULL)
-                    e[c][at] = row->v[k].e[c];
-            if (e[RC_PEEQ] != NULL)
-                e[RC_PEEQ][at] = row->v[k].strain;
+    const size_t nx = nodes_of(p, slab), level = rc_slabs_level(p->slabs, slab);
+
+    for (size_t c = 0; c < RC_YIELD_STRAINS; c++) {
+        if (e[c] == NULL)
+            continue;
+        memset(e[c], 0, p->n * sizeof *e[c]);
+        for (size_t j = 0; j < p->voxels.rows; j++) {
+            const struct rc_voxel_row *row = rc_voxels_row(&p->voxels, slab, j);
+            for (size_t k = 0; k < row->n; k++)
+                if (c == RC_PEEQ)
+                    spread(p, level, row->v[k].i, j, row->v[k].strain, e[c]);
+                else
+                    e[c][j * nx + row->v[k].i] = row->v[k].e[c];
         }
+        if (c != RC_PEEQ)
+            rc_slabs_refine(p->slabs, slab, e[c]);
     }
 }
 
@@ -1155,6 +1196,7 @@ rc_yield_solver_new(const struct rc_shape *shape, const double *h,
                                        .shear = one->e / (2 * (1 + one->nu)),
                                        .nu = one->nu,
                                        .boundary = contact.boundary,
+                                       .coarser = problem->precise ? 0 : RC_YIELD_COARSER,
                                        .precision = problem->precise ? RC_DOUBLE : RC_SINGLE,
                                        .threads = contact.threads};
 

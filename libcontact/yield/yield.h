@@ -13,6 +13,11 @@
 /* Part of the last increment in the base of the next one: w^2/(1 + 2 w), w = 1. */
 #define RC_YIELD_BETA (1.0 / 3)
 
+/* The nodes of a deep slab lie apart by at most this part of its depth. On five rough contacts the pressure
+ * changed by 1e-4 to 2e-3 for 0.35 and 0.4, by 3e-4 to 2e-3 for 0.5, and by 1e-3 to 5e-3 for 0.7, with 1.6,
+ * 1.7, 1.8 and 2.3 times less memory and time. */
+#define RC_YIELD_COARSER 0.4
+
 enum rc_yield_solver_stage {
     RC_YIELD_NEW,   /* no load was set */
     RC_YIELD_PROBE, /* elastic trials of the load, which change no strain */

@@ -141,11 +141,15 @@ lie() {
         my ($head, $rest) = $s[-1] =~ /^(RCG1\n.*?\n\n)(.*)$/s;
         my $body = substr($rest, 0, length($rest) - 24);
         # two counts, the head of the model, two points, and the state at the last load, whose length comes before it
-        $place = 37 + 1 + 2 + unpack("d<", substr($body, 8 * 35, 8)) if $place eq "slabs";
+        my $slabs = 38 + 1 + 2 + unpack("d<", substr($body, 8 * 35, 8));
+        $place = $place eq "slabs" ? $slabs : $place eq "layout" ? $slabs - 4 : $place;
         substr($body, ($place < 0 ? length($body) : 0) + 8 * $place, 8) = pack("d<", $value);
         $s[-1] = $head . $body . sprintf("crc32 %08x\n", crc32($head . $body)) . "RCGEND 1\n";
         print @s;' -- "$1" "$2" "$3" >lies.rcg
 }
+lie layout 8 kept.rcg # earlier states begin with a number of increments
+refuses 1 'case 3 cannot be continued \(.*another version of the program wrote it\): remove the file to start again' \
+    "a state of an earlier version" "$solve $history --checkpoint lies.rcg --resume -o x.rcg rough.rcg"
 lie slabs 2 kept.rcg
 refuses 1 'case 3 cannot be continued \(.*a size is out of range' "a state of other slabs" \
     "$solve $history --checkpoint lies.rcg --resume -o x.rcg rough.rcg"

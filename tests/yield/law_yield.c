@@ -162,7 +162,7 @@ ball(size_t n, double radius, struct rc_yield_law yield, double lag, double *thi
     struct rc_shape shape = {n, n, 1, 1};
     double *h = malloc(n * n * sizeof *h), dz = 0.5;
     struct rc_yield_problem problem = {
-        .contact = {.boundary = RC_PERIODIC, .pair.one.nu = 0.3, .tol = 1e-4},
+        .contact = {.boundary = RC_PERIODIC, .pair.one.nu = 0.3, .tol = fmin(1e-4, lag / 10)},
         .law = yield,
         .slabs = slabs,
         .thickness = thickness,
