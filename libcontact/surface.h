@@ -155,6 +155,15 @@ RC_API enum rc_status rc_filter(const struct rc_shape *shape, const struct rc_fi
 RC_API enum rc_status rc_outliers(const struct rc_shape *shape, double times,
                                   struct rc_boundary boundary, size_t threads, double *h,
                                   size_t *count, struct rc_err *err);
+/* Sets spikes to missing: single nodes and groups of up to 9 (2 on a profile) that stand alone against their
+ * neighbours, upwards or downwards. Grooves and ridges stay. The height of a group is the drop
+ * from its top to the level at which it grows beyond 9 nodes. It must exceed `times` times the spread of
+ * rc_outliers, and as many times the RMS, in the 9 x 9 nodes around its top, of the differences that
+ * rc_outliers computes, without such groups. *count is the number of removed nodes. RC_FAIL as
+ * rc_outliers. */
+RC_API enum rc_status rc_spikes(const struct rc_shape *shape, double times,
+                                struct rc_boundary boundary, size_t threads, double *h,
+                                size_t *count, struct rc_err *err);
 
 /* Blends the outer `width` (m) of the map into the mean of all heights. In each direction it multiplies the
  * difference from the mean by (1 - cos(pi s / width)) / 2, s the distance of the node from the edge. The map

@@ -51,13 +51,11 @@ command -v rc-import >/dev/null || {
 
 # The sample is a flat rough specimen under a ball of 7.5 mm diameter against steel: half the size
 # and a quarter of the load of Polonsky and Keer's example (1999). Your own FILE is pressed against a flat
-# with a mean pressure, because the script does not know its size. Its spikes are kept, because they may be
-# features.
+# with a mean pressure, because the script does not know its size.
+fit="--poly 2 --spikes 5 --fill"
 if [ $# -eq 0 ]; then
-    fit="--poly 2 --outliers 5 --fill"
     load="--radius 3.75mm --load 60N"
 else
-    fit="--poly 2 --fill"
     load="--mean-pressure 50MPa"
 fi
 mkdir -p rc-demo

@@ -22,7 +22,7 @@ struct work {
 
 /* fraction of filled points above which a warning is given */
 static const double filled_much = 0.05;
-static const double outliers_much = 0.05; /* the same for outliers */
+static const double outliers_much = 0.05; /* the same for outliers and spikes */
 
 /* Removing a form from a periodic surface opens a step between the periods, along the axes along which the
  * form changes. */
@@ -146,6 +146,26 @@ outliers(struct tool *t, struct rc_grid *g, const struct step *step, struct rc_e
     return add_to_key(g, "outliers", count, err);
 }
 
+static enum rc_status
+spikes(struct tool *t, struct rc_grid *g, const struct step *step, struct rc_err *err)
+{
+    const double times = step->value, nodes = (double)rc_grid_nodes(g);
+    const char *where = tool_where(t, g);
+    size_t count;
+
+    if (rc_spikes(rc_shape_of(g), times, map_repeats(g), t->threads, g->v, &count, err) != RC_OK)
+        return RC_FAIL;
+    t->input.missing = true;
+    if ((double)count > outliers_much * nodes)
+        tool_warn(
+            t, "%s: --spikes %g removed %.3g %% of the points (%zu of %.0f): raise the threshold",
+            where, times, 100 * (double)count / nodes, count, nodes);
+    else
+        tool_tell(t, "%s: --spikes %g removed %.3g %% of the points (%zu of %.0f)", where, times,
+                  100 * (double)count / nodes, count, nodes);
+    return add_to_key(g, "spikes", count, err);
+}
+
 /* In a large contact the tapered edges at the mean height carry load. */
 static enum rc_status
 taper(struct tool *t, struct rc_grid *g, const struct step *step, struct rc_err *err)
@@ -221,7 +241,8 @@ mirror(struct tool *t, struct rc_grid *g, const struct step *step, struct rc_err
     g->nx = to.nx;
     g->ny = to.ny;
     if (multiply_key(g, "filled", times, err) != RC_OK ||
-        multiply_key(g, "outliers", times, err) != RC_OK)
+        multiply_key(g, "outliers", times, err) != RC_OK ||
+        multiply_key(g, "spikes", times, err) != RC_OK)
         return RC_FAIL;
     map_set_repeats(t, g, rc_boundary_of(was.x || wanted.x, was.y || wanted.y));
     return RC_OK;
@@ -370,6 +391,8 @@ static const struct opt opts[] = {
      .help = "keep waves shorter than L: the input minus its low-pass"},
     {STEP("outliers", .run = outliers), .real = true, ABOVE_0, .arg = "T",
      .help = "drop points that differ by T deviations from the median of their neighbours"},
+    {STEP("spikes", .run = spikes), .real = true, ABOVE_0, .arg = "T",
+     .help = "drop spikes of 1 to 9 nodes that stand alone by T deviations; grooves stay"},
     {STEP("fill", .run = fill), .help = "fill missing points smoothly from the points around them"},
     {STEP("taper", .run = taper), .unit = UNIT_M, ABOVE_0, .arg = "W",
      .help = "blend a frame of width W into the mean height, so that the map repeats"},
@@ -386,11 +409,11 @@ static const struct opt opts[] = {
 
 static const struct tool_info info = {
     .name = "rc-detrend",
-    .summary = "Level height maps, remove their form, filter, drop outliers, fill missing points",
+    .summary = "Level height maps, remove their form, filter, drop spikes, fill missing points",
     .operands = "[FILE...]",
     .examples =
         "  rc-import bench.x3p | rc-detrend --plane --fill > flat.rcg\n"
-        "  rc-import bench.x3p | rc-detrend --robust --plane --outliers 5 --fill > clean.rcg\n",
+        "  rc-import bench.x3p | rc-detrend --robust --plane --spikes 5 --fill > clean.rcg\n",
     .opts = opts,
     .passing = passing,
     .reads = READS_STREAM,

@@ -103,6 +103,7 @@ static const struct rule keys[] = {
     {"throat_y", NUMBER, .unit = "m"},
     {"filled", FROM(0)},
     {"outliers", FROM(0)},
+    {"spikes", FROM(0)},
     {"taper", FROM(0), .unit = "m"},
     {"form.radius", NUMBER, .unit = "m"},
     {"height.error", FROM(0), .unit = "m"},

@@ -135,34 +135,46 @@ find_differences(const struct square *s, const double *h, int threads, double *d
     }
 }
 
+/* 1.4826 times the median absolute deviation is the standard deviation of a Gaussian. */
 enum rc_status
-rc_outliers(const struct rc_shape *shape, double times, struct rc_boundary boundary, size_t threads,
-            double *h, size_t *count, struct rc_err *err)
+rc_median_differences(const struct rc_shape *shape, struct rc_boundary boundary, size_t threads,
+                      const double *h, double *d, double *spread, struct rc_err *err)
 {
     struct square s = {shape, boundary, shape->nx + 2 * HALF + LANES, NULL};
     int team = rc_useful_threads(shape, threads);
     size_t n = shape->nx * shape->ny;
     struct rc_statistics figures;
-    RC_OWNED double *d = NULL;
     RC_OWNED double *lines = NULL;
-    double limit;
 
-    *count = 0;
     rc_measure(shape, h, &figures);
-    if (!(times > 0))
-        return rc_err_set(err, "outliers beyond %g deviations: the number must be above 0", times);
     if (figures.infinite > 0)
         return rc_err_set(err, "%zu infinite heights have no distance from others",
                           figures.infinite);
-    d = rc_alloc(n, sizeof *d);
     s.lines = lines = rc_alloc((size_t)team, SIDE * s.width * sizeof *lines);
-    if (d == NULL || lines == NULL)
-        return rc_err_set(err, "out of memory for outliers among %zu heights", n);
+    if (lines == NULL)
+        return rc_err_set(err, "out of memory for the neighbours of %zu heights", n);
     find_differences(&s, h, team, d);
-    /* 1.4826 times the median absolute deviation is the standard deviation of a Gaussian */
-    limit = times * 1.4826 * rc_median(d, n, rc_median(d, n, 0, false, team), true, team);
+    *spread = 1.4826 * rc_median(d, n, rc_median(d, n, 0, false, team), true, team);
+    return RC_OK;
+}
+
+enum rc_status
+rc_outliers(const struct rc_shape *shape, double times, struct rc_boundary boundary, size_t threads,
+            double *h, size_t *count, struct rc_err *err)
+{
+    size_t n = shape->nx * shape->ny;
+    RC_OWNED double *d = NULL;
+    double spread;
+
+    *count = 0;
+    if (!(times > 0))
+        return rc_err_set(err, "outliers beyond %g deviations: the number must be above 0", times);
+    if ((d = rc_alloc(n, sizeof *d)) == NULL)
+        return rc_err_set(err, "out of memory for outliers among %zu heights", n);
+    if (rc_median_differences(shape, boundary, threads, h, d, &spread, err) != RC_OK)
+        return RC_FAIL;
     for (size_t k = 0; k < n; k++)
-        if (fabs(d[k]) > limit) {
+        if (fabs(d[k]) > times * spread) {
             h[k] = NAN;
             ++*count;
         }

@@ -9,12 +9,19 @@
 #include <math.h>
 #include <stddef.h>
 
-#include "libcontact/grid.h"
+#include "libcontact/contact.h"
 
 /* The median of v - about or, with `magnitude`, of |v - about|, over the values that are not NaN. For an even
  * number of them it is the mean of the two in the middle. Exact, independent of the number of threads. NAN
  * when all are NaN. */
 double rc_median(const double *v, size_t n, double about, bool magnitude, int threads);
+
+/* The difference of each height from the median of the others in the 5 x 5 nodes around it, NAN where there
+ * is none, and the spread of these differences: 1.4826 times their median absolute deviation. RC_FAIL when a
+ * height is infinite or memory is short. */
+enum rc_status rc_median_differences(const struct rc_shape *shape, struct rc_boundary boundary,
+                                     size_t threads, const double *h, double *d, double *spread,
+                                     struct rc_err *err);
 
 /* The median of |r| times this is the residual at which a point loses all weight (ISO 16610-31, 16610-71):
  * three standard deviations for Gaussian residuals. */

@@ -45,7 +45,7 @@ for tool in /venv/bin/rc-*; do
     [ "$tool" = /venv/bin/rc-app ] || ldd "$tool" 2>&1 | grep -v /venv/ | awk '{ print $1 }'
 done | sort -u | tr '\n' ' '
 echo "are the libraries of the system"
-rc-import rough-steel.x3p | rc-detrend --poly 2 --outliers 5 --fill |
+rc-import rough-steel.x3p | rc-detrend --poly 2 --spikes 5 --fill |
     rc-solve --radius 3.75mm --load 60N --estar 114GPa --hardness 6GPa --report report.json | tee contact.rcg |
     rc-stress --nu 0.28 --depths 0:20um:21 | rc-render --channel mises -o mises.png
 echo "pipeline: $(sha256sum <contact.rcg | cut -c 1-16), $(grep -o '"contact_area": [^,]*' report.json)"
@@ -77,7 +77,7 @@ middle = time.perf_counter()
 import rcg
 end = time.perf_counter()
 print('import: numpy %.3f s, rcg %.3f s more' % (middle - start, end - middle))
-surface = rcg.detrend(rcg.open(rcg.sample()), poly=2, outliers=5, fill=True)
+surface = rcg.detrend(rcg.open(rcg.sample()), poly=2, spikes=5, fill=True)
 print(rcg.solve(surface, radius='3.75mm', load='60N', estar='114GPa', hardness='6GPa'))
 assert os.path.exists(os.path.join(os.path.dirname(rcg.__file__), '__init__.pyi'))
 PYTHON

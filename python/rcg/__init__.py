@@ -3,7 +3,7 @@
 
     import rcg
     surface = rcg.open('rough-steel.x3p')                          # an instrument file, or a grid stream
-    surface = rcg.detrend(surface, poly=2, outliers=5, fill=True)  # steps in the order written
+    surface = rcg.detrend(surface, poly=2, spikes=5, fill=True)  # steps in the order written
     result = rcg.solve(surface, radius='3.75mm', load='60N', estar='114GPa', hardness='6GPa')
     result.pressure                                                # 2-D array, pascals
     result.report['contact_area']                                  # square metres

@@ -42,6 +42,7 @@ commands=$(
 1 rc-import h.mat -o out
 1 rc-import --list h.gwy
 2 rc-detrend --plane --rows bow --poly 3 --lowpass 6um --outliers 5 --taper 3um h.rcg -o out
+1 rc-detrend --spikes 0.5 h.rcg -o out
 1 rc-detrend --sphere --robust h.rcg -o out
 1 rc-detrend --cylinder h.rcg -o out
 1 rc-detrend --fill hole.rcg -o out

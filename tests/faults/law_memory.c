@@ -150,6 +150,18 @@ outliers(double *out, struct rc_err *err)
 }
 
 static enum rc_status
+without_spikes(double *out, struct rc_err *err)
+{
+    size_t count = 0;
+
+    memcpy(out, holed, sizeof holed);
+    if (or_as_before(rc_spikes(&shape, 1, RC_FREE, 1, out, &count, err), out, holed) != RC_OK)
+        return RC_FAIL;
+    out[N] = (double)count;
+    return RC_OK;
+}
+
+static enum rc_status
 tapered(double *out, struct rc_err *err)
 {
     memcpy(out, rough, sizeof rough);
@@ -1050,6 +1062,7 @@ static const struct {
     {.name = "a cylinder", .use = cylinder},
     {.name = "a robust filter", .use = filtered},
     {.name = "outliers", .use = outliers},
+    {.name = "spikes", .use = without_spikes},
     {.name = "a taper", .use = tapered},
     {.name = "holes", .use = holes},
     {.name = "resampling", .use = resampled},

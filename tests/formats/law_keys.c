@@ -42,7 +42,7 @@ static const struct kind {
           "form.radius", "throat_x", "throat_y", "flow_rate", "pressure_drop"),
      LIST("0", "-1", "1", "+1.5e-6", ".5", "5.", "-2E3"), malformed, NULL, NULL},
     {LIST("depth", "hardening", "time", "distance", "cycles", "wear_1", "wear_2", "taper", "filled",
-          "outliers", "height.error", "friction", "flow_conductance"),
+          "outliers", "spikes", "height.error", "friction", "flow_conductance"),
      LIST("0", "1", "1e-6", "2.5"), malformed, negative, NULL},
     {LIST("datum", "estar", "e1", "e2", "hardness", "yield", "tau_max", "thickness",
           "bending_limit", "torsion_limit", "viscosity"),

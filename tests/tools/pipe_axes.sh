@@ -28,7 +28,7 @@ middle() { rc-pick --quiet --crop 0,40,48,40 "$@"; }
 
 # ---- steps of rc-detrend ----
 
-for step in '--lowpass 6um' '--highpass 25um' '--robust --lowpass 9um' '--outliers 2.5 --fill'; do
+for step in '--lowpass 6um' '--highpass 25um' '--robust --lowpass 9um' '--outliers 2.5 --fill' '--spikes 1 --fill'; do
     # shellcheck disable=SC2086
     rc-detrend --quiet $step y.rcg -o after-y.rcg
     # shellcheck disable=SC2086

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-# rc-detrend removes spheres and cylinders and gives their radius, filters, removes outliers and tapers, in
+# rc-detrend removes spheres and cylinders and gives their radius, filters, removes outliers and spikes, tapers, in
 # the given order, and records the steps.
 . "$(dirname "$0")/../pipe.sh"
 
@@ -79,7 +79,7 @@ claim "missing points stay missing" rc-detrend --lowpass 9um holes.rcg -o low.rc
 near "$(figure missing low.rcg)" "$(figure missing holes.rcg)" "$same" "  as many points"
 claim "threads change no bit" bash -c '
     rc-synth selfaffine --hurst 0.8 --rms-height 1um --nx 200 --dx 1um -o rough.rcg
-    for step in "--lowpass 9um" "--highpass 70um --robust" "--outliers 3" "--poly 5 --robust"; do
+    for step in "--lowpass 9um" "--highpass 70um --robust" "--outliers 3" "--spikes 2" "--poly 5 --robust"; do
         rc-detrend --quiet --threads 1 $step rough.rcg -o one.rcg &&
         rc-detrend --quiet --threads 3 $step rough.rcg | cmp - one.rcg || exit 1
     done'
@@ -97,6 +97,22 @@ claim "the steps act in the given order" bash -c '
     says "\"missing\": 0," rc-info --json a.rcg && says "\"missing\": 12," rc-info --json b.rcg'
 claim "many outliers cause a warning" warns '--outliers 0.5 removed [0-9.]+ % of the points \([0-9]+ of 1200\)' \
     rc-detrend --outliers 0.5 spikes.rcg -o c.rcg
+# a scratch of two columns, 3 um deep, and twelve single points of 3 um: 60 and 12 of 1200 points
+map 40 30 'sin(x / 9) + 0.01 * sin(k * k) - (k % 40 == 20 || k % 40 == 21 ? 3 : 0) + (k % 100 == 50 ? 3 : 0)' scratch.rcg
+claim "spikes become missing, and a scratch as deep stays" rc-detrend --spikes 10 scratch.rcg -o clean.rcg
+near "$(figure missing clean.rcg)" 12 "$same" "  the twelve points"
+near "$(figure spikes clean.rcg)" 12 "$same" "  the key counts them"
+near "$(figure minimum clean.rcg)" "$(figure minimum scratch.rcg)" "$same" "  the bottom of the scratch is what it was"
+claim "  one line has their share" warns '--spikes 10 removed 1 % of the points \(12 of 1200\)$' \
+    rc-detrend --verbose --spikes 10 scratch.rcg -o c.rcg
+claim "  and is not printed in a script" bash -c 'rc-detrend --spikes 10 scratch.rcg -o c.rcg 2>err && [ ! -s err ]'
+rc-detrend --quiet --outliers 10 scratch.rcg -o c.rcg
+between 60 "$(figure outliers c.rcg)" 1200 "  --outliers takes the scratch too"
+claim "many spikes cause a warning" warns '--spikes 0.1 removed [0-9.]+ % of the points .*: raise the threshold$' \
+    rc-detrend --spikes 0.1 scratch.rcg -o c.rcg
+claim "a mirror counts spikes four times, and a part of a map has none" bash -c '
+    rc-detrend --spikes 10 --mirror --quiet scratch.rcg -o c.rcg && says "spikes=48" rc-info c.rcg &&
+    rc-pick --quiet --crop 0,0,9,9 c.rcg | rc-info >c.out && ! grep -q "spikes=" c.out'
 claim "a taper makes a surface periodic" bash -c '
     rc-detrend --plane --taper 5um spikes.rcg -o a.rcg && says "\"periodic\": \"yes\"" rc-info --json a.rcg'
 # the taper covers, of 40 x 30 nodes 1.1 um x 1 um, 5 columns (4.5 * 1.1 um is below 5 um) and 5 rows on each
@@ -153,6 +169,7 @@ refuses 1 'longer than the map, 4.7e-05 m: .*: a number without a unit is in met
     "  without its unit, before its filter takes memory" "rc-detrend --memory 32M --lowpass 20 ball.rcg"
 refuses 2 '--lowpass 0 m: it must be above 0' "none at all" "rc-detrend --lowpass 0 ball.rcg"
 refuses 1 'a taper of 3e-05 m is wider than half the map, 1.815e-05 m' "a taper over half the map" "rc-detrend --taper 30um ball.rcg"
+refuses 2 '--spikes 0: it must be above 0' "no deviations of spikes" "rc-detrend --spikes 0 ball.rcg"
 refuses 2 '--outliers -1: it must be above 0' "no deviations" "rc-detrend --outliers -1 ball.rcg"
 printf '1 NaN\n2 3\n' | rc-import --quiet --dx 1um --z-unit nm - -o few.rcg
 refuses 1 'a sphere has 4 unknowns, and only 3 points are there: subtract a plane' "a sphere through three points" "rc-detrend --sphere few.rcg"

@@ -176,7 +176,7 @@ boundary=periodic hardness_map=yes section=y direction=y frames=7 material=2 sla
 approach=1e-6 hardness=1e6 yield=1e8 hardening=1e9 depth=1e-6 depths=0,1e-6 thickness=1e-6 at=1e-6 mu=0.2 friction=0.2 tau_max=1e6
 tangential_x=1 tangential_y=1 displacement_x=1e-6 displacement_y=1e-6 creep_x=1e-3 creep_y=1e-3 spin=1 position=1e-6 height=1e-6
 window_x=1e-6 time=1 speed=1 distance=1 cycles=10 wear_1=1e-15 wear_2=1e-15 coat_left=1e-7 bending_limit=1e9 torsion_limit=1e9 max_temperature=10
-flow_conductance=1 flow_rate=1 pressure_drop=1 viscosity=1 throat_x=1e-6 throat_y=1e-6 filled=3 outliers=3 taper=1e-6 form.radius=1
+flow_conductance=1 flow_rate=1 pressure_drop=1 viscosity=1 throat_x=1e-6 throat_y=1e-6 filled=3 outliers=3 spikes=3 taper=1e-6 form.radius=1
 height.error=1e-9 datum=1e-3'
 in_messages='source history case converged' # they name the frame, or cause a warning
 claim "each key of the table has a value here" bash -c 'comm -23 rules.txt <(printf "%s\n" $0 | sed "s/=.*//" | sort) >&2

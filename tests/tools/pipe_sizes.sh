@@ -36,7 +36,7 @@ for size in "1 1" "1 9" "9 1" "2 1" "2 2"; do
     answers "$1 x $2: leakage" "rc-leak contact.rcg"
     answers "$1 x $2: figures" "rc-info --areal --psd map.rcg"
     answers "$1 x $2: patches" "rc-info --patches contact.rcg"
-    for step in "--plane" "--poly 2" "--sphere" "--cylinder" "--lowpass 2um" "--highpass 2um --robust" "--outliers 3" "--taper 0.5um" "--fill"; do
+    for step in "--plane" "--poly 2" "--sphere" "--cylinder" "--lowpass 2um" "--highpass 2um --robust" "--outliers 3" "--spikes 3" "--taper 0.5um" "--fill"; do
         answers "$1 x $2: rc-detrend $step" "rc-detrend $step map.rcg"
     done
     for step in "--resample 0.5um" "--resample 2um" "--crop 0,0,1,1" "--mirror x" "--rotate 90"; do

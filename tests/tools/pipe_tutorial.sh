@@ -148,7 +148,7 @@ sed -n '/^## The pipeline/,/^| tool/s/^    //p' "$RC_SOURCE/README.md" | grep -v
 claim "the README's pipeline runs" bash -c 'cd run && rm -f mises.png && bash -e -u -o pipefail ../pipeline && says PNG head -c 4 mises.png'
 claim "  it equals that of the tutorial" bash -c \
     'for words in "$@"; do sed "s/ *#.*//" pipeline | tr -s "\\\\ \n" " " | grep -qF -- "$words" || { echo "$words" >&2; exit 1; }; done' - \
-    "rc-detrend --poly 2 --outliers 5 --fill" "rc-solve --radius 3.75mm --load 60N --estar 114GPa --hardness 6GPa" "rc-stress --nu 0.28"
+    "rc-detrend --poly 2 --spikes 5 --fill" "rc-solve --radius 3.75mm --load 60N --estar 114GPa --hardness 6GPa" "rc-stress --nu 0.28"
 # The whole page takes minutes.
 before_release || exit 0
 
@@ -272,7 +272,7 @@ row() {
 }
 if [ -d "$RC_CORPUS/corpus" ]; then
     rc-import --quiet "$RC_CORPUS/corpus/nanoscope/SurfaceTopography__di-4.di" -o scan.rcg
-    fit="--poly 2 --outliers 5 --fill"
+    fit="--poly 2 --spikes 5 --fill"
     awk '/^step  / { on = 1 } /^\.Ed/ { on = 0 } on' "$page" >table.txt
     while read -r line; do
         steps=$(sed -E 's/ +([0-9.]+ *){5}$//' <<<"$line")

@@ -14,7 +14,7 @@ import zlib
 ADDRESS = urllib.parse.urlsplit(sys.argv[1])
 TOKEN = ADDRESS.path.strip('/')
 SOLVE = [['load', '20N,60N'], ['radius', '3.75mm'], ['estar', '114GPa'], ['hardness', '6GPa']]
-LEVEL = [['poly', '2'], ['outliers', '5'], ['fill', True]]
+LEVEL = [['poly', '2'], ['spikes', '5'], ['fill', True]]
 LONG = [['load', '1N:60N:4000'], ['radius', '3.75mm'], ['estar', '114GPa'], ['tol', '1e-8']]
 SAMPLE = 0  # the number of the sample among the files
 

@@ -244,7 +244,7 @@ TOGETHER = {('rc-slip', o): '--E1 200GPa --nu1 .3 --E2 200GPa --nu2 .3'.split() 
 FIXED = {('rc-slip', o) for o in 'history E1 nu1 E2 nu2 periodic'.split()}
 # keys of rcg(5): other values
 KEYS = {
-    'case': [], 'source': ['other'], 'file.*': [], 'history': ['rc-synth 0 sphere'], 'periodic': ['yes', 'x'], 'filled': ['3'], 'outliers': ['3'],
+    'case': [], 'source': ['other'], 'file.*': [], 'history': ['rc-synth 0 sphere'], 'periodic': ['yes', 'x'], 'filled': ['3'], 'outliers': ['3'], 'spikes': ['3'],
     'dunit': [], 'taper': ['2e-6'], 'form.radius': ['1'], 'form': ['sphere 1e-3'], 'boundary': ['periodic', 'free', 'periodic-y'], 'datum': ['1e-3'], 'estar': ['1e11'],
     'e1': ['1.5e11'], 'nu': ['.25'], 'e2': ['1.5e11'], 'nu2': ['.25'], 'load': ['.02'], 'hardness': ['3e9'], 'hardness_map': ['yes'],
     'cycles': ['3'], 'wear_1': ['1e-15'], 'wear_2': ['1e-15'], 'coat_left': ['1e-3'], 'bending_limit': ['1e8'], 'torsion_limit': ['1e8'], 'yield': ['1e9'],

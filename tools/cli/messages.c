@@ -67,6 +67,17 @@ tool_note(struct tool *t, const char *format, ...)
     say(t, text);
 }
 
+void
+tool_tell(struct tool *t, const char *format, ...)
+{
+    char text[1024];
+
+    if (t->quiet || !(t->verbose || isatty(STDERR_FILENO)))
+        return;
+    WRITE(text, format);
+    say(t, text);
+}
+
 /* Prints progress for programs, which recognise the line by its first key. */
 static void
 put_progress(const struct tool *t, double done, const char *text)

@@ -352,6 +352,8 @@ void tool_fail(struct tool *tool, const char *format, ...) __attribute__((format
 void tool_warn(struct tool *tool, const char *format, ...) __attribute__((format(printf, 2, 3)));
 /* Prints a note, only with --verbose. */
 void tool_note(struct tool *tool, const char *format, ...) __attribute__((format(printf, 2, 3)));
+/* A result in one line, for a person: at a terminal, or with --verbose. */
+void tool_tell(struct tool *tool, const char *format, ...) __attribute__((format(printf, 2, 3)));
 /* Prints a line that replaces the last one, at most ten times a second, if progress is shown. `done`: the
  * finished fraction of the case, NAN: unknown. tool_progress_end ends it. */
 void tool_progress(struct tool *tool, double done, const char *format, ...)

@@ -7,7 +7,7 @@ const $ = id => document.getElementById(id);
 const STEPS = {
   import: ['Read the file'],
   pick: ['Crop, resample, turn'],
-  detrend: ['Level and filter', {poly: '2', outliers: '5', fill: true}],
+  detrend: ['Level and filter', {poly: '2', spikes: '5', fill: true}],
   solve: ['Press', {load: '60N', radius: '3.75mm', estar: '114GPa', hardness: '6GPa'}],
   stress: ['Stresses below', {nu: '0.28', section: 'y=0', depths: '0:40um:41'}],
   slip: ['Friction', {mu: '0.3', nu: '0.28', tangential: ''}],
