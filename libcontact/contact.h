@@ -901,9 +901,13 @@ struct rc_rolling_figures {
      * path. */
     double extrapolated_creep[2];
     double extrapolated_force[2], extrapolated_moment;
-    /* N: Kalker's linear theory for the ellipse of the same area and second moments; NAN: its
-     * semi-axes have a ratio beyond 0.1 to 10. */
-    double kalker_force[2];
+    /* m: semi-axes, along x and y, of the ellipse of the same area and ratio of second moments */
+    double ellipse[2];
+    /* C11, C22, C23 of this ellipse in Kalker's linear theory, and its force, N; NAN: its semi-axes
+     * have a ratio beyond 0.1 to 10 */
+    double kalker[3], kalker_force[2];
+    /* N: of Kalker's simplified theory (FASTSIM, 1982) for this ellipse; NAN as before */
+    double fastsim_force[2];
     /* Estimated relative errors. First: L1 error of the tractions on this grid. Second: error of
      * the force due to the spacing, or of the creepage if the force is given (NAN: unknown). */
     double traction_error, discretization_error;

@@ -606,6 +606,10 @@ fill(struct rc_model *m, size_t frame, double *to, struct rc_err *err)
         return rc_err_set(err, "the map of the dissipated energy was not asked for");
     if (frame == RC_SLIP_STATE)
         rc_friction_solver_state(w->slip, to);
+    else if (frame == RC_SLIP_TRACTION)
+        for (size_t k = 0; k < f->n; k++)
+            to[k] = hypot(rc_friction_solver_traction(w->slip, 0)[k],
+                          rc_friction_solver_traction(w->slip, 1)[k]);
     else if (frame == RC_SLIP_SLIP_X || frame == RC_SLIP_SLIP_Y)
         rc_friction_solver_slip(w->slip, (int)frame - RC_SLIP_SLIP_X, to);
     else

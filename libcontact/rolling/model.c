@@ -128,9 +128,22 @@ const struct rc_figure rc_figures_rolling[] = {
     {AS("extrapolated_tangential_y", extrapolated_force[1]), "N", "Force along y, extrapolated",
      .says = "to a spacing of 0"},
     {FIGURE(extrapolated_moment), "N m", "Moment, extrapolated", .says = "to a spacing of 0"},
+    {AS("ellipse_x", ellipse[0]), "m", "Semi-axis along x",
+     .says = "of the ellipse with the same area and axes"},
+    {AS("ellipse_y", ellipse[1]), "m", "Semi-axis along y",
+     .says = "of the ellipse with the same area and axes"},
+    {AS("kalker_c11", kalker[0]), NULL, "Kalker's C11",
+     .says = "force along x per creepage along x"},
+    {AS("kalker_c22", kalker[1]), NULL, "Kalker's C22",
+     .says = "force along y per creepage along y"},
+    {AS("kalker_c23", kalker[2]), NULL, "Kalker's C23", .says = "force along y per spin"},
     {AS("kalker_tangential_x", kalker_force[0]), "N", "Force along x in linear theory",
      .says = "of the ellipse with the same area and axes"},
     {AS("kalker_tangential_y", kalker_force[1]), "N", "Force along y in linear theory",
+     .says = "of the ellipse with the same area and axes"},
+    {AS("fastsim_tangential_x", fastsim_force[0]), "N", "Force along x in simplified theory",
+     .says = "of the ellipse with the same area and axes"},
+    {AS("fastsim_tangential_y", fastsim_force[1]), "N", "Force along y in simplified theory",
      .says = "of the ellipse with the same area and axes"},
     {FIGURE(steps), NULL, "Steps", .role = RC_FIGURE_COST,
      .says = "of Newton's method, on all grids"},
@@ -592,6 +605,24 @@ size_of(const struct level *l)
     return l->d->found.size * l->d->shape.dx * l->d->shape.dy;
 }
 
+/* Linear and simplified theory, of the ellipse with this area and ratio of axes; `none`: 0, or NAN without
+ * an ellipse. */
+static void
+look_at_ellipse(const struct rolling *f, double area, double ratio, double none,
+                struct rc_rolling_figures *to)
+{
+    const double ab = area / RC_PI, g = f->shear.estar / (1 + f->shear.kap);
+
+    to->ellipse[0] = none + sqrt(ab * ratio);
+    to->ellipse[1] = none + sqrt(ab / ratio);
+    rc_kalker(none + ratio, f->shear.kap / (1 + f->shear.kap), to->kalker);
+    for (int c = 0; c < 2; c++)
+        to->kalker_force[c] =
+            ab * g *
+            (to->kalker[c] * to->creep[c] + (c == 1 ? to->kalker[2] * sqrt(ab) * to->spin : 0));
+    rc_fastsim(to->ellipse, g, to->kalker, to->limit, to->creep, to->spin, to->fastsim_force);
+}
+
 /* The figures of one grid. Second moments of the contact are about its middle. */
 static void
 look_at(const struct rolling *f, const struct level *l, struct rc_rolling_figures *to)
@@ -599,7 +630,7 @@ look_at(const struct rolling *f, const struct level *l, struct rc_rolling_figure
     const struct rc_steady *d = l->d;
     const struct rc_shape *s = &d->shape;
     const double cell = s->dx * s->dy, spin = spin_of(f), none = spans_period(l, 0) ? NAN : 0;
-    double n = 0, m[4] = {0}, kalker[3];
+    double n = 0, m[4] = {0};
 
     *to = (struct rc_rolling_figures){.load = f->f.load, .spin = spin};
     for (int c = 0; c < 2; c++)
@@ -624,12 +655,8 @@ look_at(const struct rolling *f, const struct level *l, struct rc_rolling_figure
     }
     to->power = to->force[0] * to->creep[0] + to->force[1] * to->creep[1] + to->moment * spin;
     to->moment += none;
-    rc_kalker(sqrt((m[2] - m[0] * m[0] / n) / (m[3] - m[1] * m[1] / n)),
-              f->shear.kap / (1 + f->shear.kap), kalker);
-    for (int c = 0; c < 2; c++)
-        to->kalker_force[c] = none + n * cell / RC_PI * f->shear.estar / (1 + f->shear.kap) *
-                                         (kalker[c] * to->creep[c] +
-                                          (c == 1 ? kalker[2] * sqrt(n * cell / RC_PI) * spin : 0));
+    look_at_ellipse(f, n * cell, sqrt((m[2] - m[0] * m[0] / n) / (m[3] - m[1] * m[1] / n)), none,
+                    to);
     to->stick_nodes = d->found.stick;
     to->slip_nodes = d->found.slipping;
     to->stick_fraction = (double)d->found.stick / (double)(d->found.stick + d->found.slipping);
@@ -892,6 +919,9 @@ fill(struct rc_model *m, size_t frame, double *to, struct rc_err *err)
         case RC_SLIP_TRACTION_X:
         case RC_SLIP_TRACTION_Y:
             to[k] = d == NULL ? 0 : d->q[frame - RC_SLIP_TRACTION_X][k];
+            break;
+        case RC_SLIP_TRACTION:
+            to[k] = d == NULL ? 0 : hypot(d->q[0][k], d->q[1][k]);
             break;
         case RC_SLIP_STATE:
             to[k] = d == NULL || d->g[k] == 0 ? 0 : d->face[k] == RC_FACE_STICK ? 1 : 2;

@@ -285,6 +285,55 @@ test_kalker_figures(void **state)
     free(p);
 }
 
+/* The force of one row of the simplified theory under a creepage along x: a traction that rises by `rise` from
+ * the leading edge at +half, and ends where it meets the bound most (half^2 - x^2). */
+static double
+row_of_simplified_theory(double half, double rise, double most)
+{
+    const double x = fmin(rise / most - half, half), stick = half - x; /* they meet at x */
+
+    return rise * stick * stick / 2 +
+           most * (half * half * (x + half) - (x * x * x + half * half * half) / 3);
+}
+
+/* Against the integral of its rows, the linear theory and full slip. */
+static void
+test_simplified_theory(void **state)
+{
+    const double axis[2] = {1.3, 0.9}, g = 2, c[3] = {4.5, 4, 1.7}, limit = 3;
+    const double ab = axis[0] * axis[1], most = 2 * limit / (RC_PI * pow(axis[0], 3) * axis[1]);
+    const double size = g * ab * c[0]; /* force over creepage in linear theory */
+    enum {
+        ROWS = 20000
+    };
+
+    (void)state;
+    for (double creep = 0.02 * limit / size; creep < 5 * limit / size; creep *= 1.4) {
+        double force[2], sum = 0;
+        rc_fastsim(axis, g, c, limit, (double[]){creep, 0}, 0, force);
+        for (int j = 0; j < ROWS; j++) {
+            const double y = (2 * (j + 0.5) / ROWS - 1), half = axis[0] * sqrt(1 - y * y);
+            sum += row_of_simplified_theory(half, creep * 3 * g * c[0] / (8 * axis[0]), most) * 2 *
+                   axis[1] / ROWS;
+        }
+        assert_true(fabs(force[0] - sum) < 5e-4 * sum && force[1] == 0);
+    }
+    for (int k = 0; k < 2; k++) { /* the two forces of small motions, which spin has too */
+        const double creep[2] = {k == 0 ? 1e-7 : 0, k == 1 ? 1e-7 : 0}, spin = k == 1 ? 2e-7 : 0;
+        const double linear = g * ab * (c[k] * 1e-7 + c[2] * sqrt(ab) * spin);
+        double force[2];
+        rc_fastsim(axis, g, c, limit, creep, spin, force);
+        assert_true(fabs(force[k] / linear - 1) < 1e-3);
+    }
+    { /* full slip has the direction of the elastic motion */
+        const double x = -3 * c[0], y = 4 * c[1];
+        double force[2];
+        rc_fastsim(axis, g, c, limit, (double[]){-3, 4}, 0, force);
+        assert_true(fabs(force[0] / (limit * x / hypot(x, y)) - 1) < 1e-3);
+        assert_true(fabs(force[1] / (limit * y / hypot(x, y)) - 1) < 1e-3);
+    }
+}
+
 /* bentall: a roller of aluminium (G 23 GPa, nu 0.31) on one of steel (82 GPa, 0.28), 200 nodes, mu 0.05. It
  * rolls freely, driven and braked. CONTACT rolls towards -x there, so that its forces have the other sign. */
 static void
@@ -392,6 +441,7 @@ main(void)
         cmocka_unit_test(test_creep_curve),
         cmocka_unit_test(test_linear_theory),
         cmocka_unit_test(test_kalker_figures),
+        cmocka_unit_test(test_simplified_theory),
         cmocka_unit_test(test_dissimilar_rollers),
     };
 

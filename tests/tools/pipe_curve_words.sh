@@ -159,3 +159,13 @@ printf 'sa/m\tsq/m\tlimit/N\tstick_fraction\n1\t2\t3\t4\n2\t3\t4\t5\n' >figures.
 claim "parameters of a surface have the names of their standard" eval 'rc-render --curve sa:sq -o t.svg figures.tsv && shows t.svg ">Sq against Sa<"'
 claim "  figures of friction have their titles" eval 'rc-render --curve limit:stick_fraction -o t.svg figures.tsv &&
     shows t.svg ">Part of the contact that sticks against largest tangential force<"'
+
+# ---- titles of several columns ----
+
+printf 'creep_x\ttangential_x/N\tkalker_tangential_x/N\n0\t0\t0\n1e-3\t10\t12\n' >theory.tsv
+$draw --curve creep_x:tangential_x,kalker_tangential_x theory.tsv
+claim "columns whose titles begin alike share the title of the axis" shows out.svg '>Force along x \(N\)<'
+claim "  and of the figure" shows out.svg '>Force along x against creepage along x<'
+claim "  and the legend has both" eval "shows out.svg '>Force along x<' && shows out.svg '>Force along x in linear theory<'"
+$draw --curve creep_x:tangential_x,tangential_y <(sed '1s/kalker_tangential_x/tangential_y/' theory.tsv)
+claim "  others are all named" shows out.svg '>Force along x, force along y \(N\)<'

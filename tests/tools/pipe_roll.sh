@@ -48,6 +48,28 @@ kalker() { awk "BEGIN { a = (3 * 240 * 7.5e-3 / (4 * 112e9)) ^ (1 / 3); print 84
 near "$(column extrapolated_tangential_x small.tsv)" "$(kalker '4.12 * 1e-5')" 2e-2 "small creepages give the force of Kalker's linear theory along x"
 near "$(column extrapolated_tangential_y small.tsv)" "$(kalker '3.67 * 2e-5 + 1.47 * a * 0.03')" 2e-2 "  and with spin along y"
 near "$(column kalker_tangential_y small.tsv)" "$(kalker '3.67 * 2e-5 + 1.47 * a * 0.03')" 2e-2 "  which the report has beside it"
+near "$(column kalker_c11 small.tsv)" 4.12 1e-3 "  with its coefficient C11"
+near "$(column kalker_c23 small.tsv)" 1.47 1e-3 "  and C23"
+near "$(column ellipse_x small.tsv)" "$(awk 'BEGIN { print (3 * 240 * 7.5e-3 / (4 * 112e9)) ^ (1 / 3) }')" 1e-2 "  and the radius of Hertz's contact"
+near "$(column fastsim_tangential_y small.tsv)" "$(kalker '3.67 * 2e-5 + 1.47 * a * 0.03')" 2e-2 "  and FASTSIM"
+
+# ranges: each value is a case
+rc-slip --mu 0.3 --creep 0.01%:0.5%:log:3,0,0:4rad/m:3 --steady --quiet --report range.tsv -o range.rcg ball.rcg
+for k in 1 2 3; do
+    rc-slip --mu 0.3 --creep "$(awk "BEGIN { print 1e-4 * sqrt(50) ^ ($k - 1) }"),0,$((2 * (k - 1)))/m" --steady --quiet --report "case$k.tsv" -o x.rcg ball.rcg
+    near "$(awk -v k=$k 'NR == k + 1' range.tsv | cut -f"$(head -1 range.tsv | tr '\t' '\n' | grep -n '^tangential_x' | cut -d: -f1)")" \
+        "$(column tangential_x "case$k.tsv")" 2e-3 "case $k of a range is that of its creepages"
+done
+claim "  its cases are numbered" test "$(rc-info --json range.rcg | grep -o '"case": [0-9][0-9]*' | sort -u | tr -d '\n')" = '"case": 1"case": 2"case": 3'
+refuses 2 'ranges have 3 and 2 values' "ranges of two lengths" 'rc-slip --mu 0.3 --creep 0:1:3,0:1:2 --steady -o x.rcg ball.rcg'
+refuses 2 'a range is for --steady' "a range on a path" 'rc-slip --mu 0.3 --creep 0:1e-3:3,0 -o x.rcg ball.rcg'
+refuses 2 "unknown unit 'permille': a plain number or a percentage" "a wrong unit" 'rc-slip --mu 0.3 --creep 1permille,0 --steady -o x.rcg ball.rcg'
+
+# the traction is the length of the two
+rc-slip --mu 0.3 --creep 1e-3,-5e-4,2 --steady --quiet --output traction-x,traction-y,traction -o length.rcg ball.rcg
+claim "the frame traction is the length of the vector" awk '
+    { bad += !(($3 - sqrt($1 ^ 2 + $2 ^ 2)) ^ 2 <= (1e-9 * $3) ^ 2); some += $3 > 0 } END { exit bad || !some }' \
+    <(paste -d ' ' <(values length.rcg traction-x | tr ',' '\n') <(values length.rcg traction-y | tr ',' '\n') <(values length.rcg traction | tr ',' '\n'))
 rc-slip --mu 0.3 --creep 1e-3,-5e-4,2 --steady --tol 1e-6 --report both.tsv -o both.rcg ball.rcg
 for c in x:traction-x:tangential_x y:traction-y:tangential_y; do
     field=${c#*:}

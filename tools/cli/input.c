@@ -332,8 +332,9 @@ tool_take_frames(void *ctx, struct tool *t, const struct rc_grid *kept, struct r
 void
 tool_demand_full_sliding(struct tool *t, const struct rc_grid *g, const char *instead)
 {
-    static const char *const partial[] = {"traction-x", "traction-y", "slip-x",      "slip-y",
-                                          "slip",       "state",      "dissipation", NULL};
+    static const char *const partial[] = {"traction-x", "traction-y",  "traction",
+                                          "slip-x",     "slip-y",      "slip",
+                                          "state",      "dissipation", NULL};
     char names[sizeof t->current.names], *at = NULL;
 
     memcpy(names, t->current.names, sizeof names);

@@ -23,6 +23,7 @@ computed(const char *channel)
                                          "channel",
                                          "slip-x",
                                          "slip-y",
+                                         "traction",
                                          "state",
                                          "contact",
                                          "adhesion",

@@ -31,6 +31,7 @@ static const struct channel channels[] = {
      .axis = "0 no contact, 1 contact"},
     {"traction-x", "Traction along x", "bluered", .none = "no traction"},
     {"traction-y", "Traction along y", "bluered", .none = "no traction"},
+    {"traction", "Traction", "magma", .from_zero = true, .none = "no traction"},
     {"slip-x", "Slip along x", "bluered", .none = "no contact, or stick"},
     {"slip-y", "Slip along y", "bluered", .none = "no contact, or stick"},
     {"state", "Stick and slip", "viridis", .from_zero = true, .none = "no contact",

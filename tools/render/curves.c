@@ -830,12 +830,33 @@ add_law(struct curves *c)
 
 /* ---- the whole ---- */
 
+/* The title of a column with which those of all columns begin, as "Force along x" and "Force along x in linear
+ * theory" do; NULL: none. The legend has their differences. */
+static const char *
+common_title(const struct curves *c)
+{
+    for (size_t k = 1; k < c->choice.columns; k++) {
+        const char *title = title_of(&c->choice, c->history, k);
+        size_t n = strlen(title), begin = 0;
+        for (size_t m = 1; m < c->choice.columns; m++) {
+            const char *other = title_of(&c->choice, c->history, m);
+            begin += strncmp(title, other, n) == 0 && strchr(" ,", other[n]) != NULL;
+        }
+        if (begin == c->choice.columns - 1)
+            return title;
+    }
+    return NULL;
+}
+
 static void
 describe(struct curves *c)
 {
+    const char *common = common_title(c);
     char *x = c->title;
 
-    for (size_t k = 1; k < c->choice.columns; k++) {
+    if (common != NULL)
+        add_word(c->axis, common);
+    for (size_t k = 1; k < c->choice.columns && common == NULL; k++) {
         size_t n = strlen(c->axis);
 
         add_word(c->axis, title_of(&c->choice, c->history, k));

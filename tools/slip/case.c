@@ -8,12 +8,17 @@
 
 #include "formats/core/core.h"
 
-const char *const slip_frames[] = {
-    [SLIP_PRESSURE] = "pressure",       [SLIP_TRACTION_X] = "traction-x",
-    [SLIP_TRACTION_Y] = "traction-y",   [SLIP_SLIP_X] = "slip-x",
-    [SLIP_SLIP_Y] = "slip-y",           [SLIP_STATE] = "state",
-    [SLIP_HEIGHT] = "height",           [SLIP_LENGTH] = "slip",
-    [SLIP_DISSIPATION] = "dissipation", [SLIP_FRAMES] = NULL};
+const char *const slip_frames[] = {[SLIP_PRESSURE] = "pressure",
+                                   [SLIP_TRACTION_X] = "traction-x",
+                                   [SLIP_TRACTION_Y] = "traction-y",
+                                   [SLIP_SLIP_X] = "slip-x",
+                                   [SLIP_SLIP_Y] = "slip-y",
+                                   [SLIP_STATE] = "state",
+                                   [SLIP_HEIGHT] = "height",
+                                   [SLIP_LENGTH] = "slip",
+                                   [SLIP_TRACTION] = "traction",
+                                   [SLIP_DISSIPATION] = "dissipation",
+                                   [SLIP_FRAMES] = NULL};
 
 /* ---- the input ---- */
 

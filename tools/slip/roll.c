@@ -7,12 +7,19 @@
 
 #include "formats/core/core.h"
 
+enum {
+    COMPONENTS = 3 /* of --creep: along x, along y, spin */
+};
+
 static struct {
+    struct numbers creep[COMPONENTS]; /* of --creep: 1, 1, rad/m; n = 0: not given */
+    size_t cases;                     /* points of each case of the input          */
+    struct rc_point *point;
     struct rc_model *path; /* rolls from case to case; NULL: not yet */
     double first[9];       /* its grid, boundary and bodies */
     struct rc_rolling_contact known;
     double position; /* m, of the last case; NAN: unknown    */
-} own = {.position = NAN};
+} own = {.position = NAN, .cases = 1};
 
 static bool
 forced(const struct slip_run *run)
@@ -23,7 +30,7 @@ forced(const struct slip_run *run)
 static bool
 ask(const struct slip_args *a)
 {
-    return a->creep.n > 0 || a->creep_force.n > 0;
+    return a->creep != NULL || a->creep_force.n > 0;
 }
 
 static bool
@@ -32,34 +39,81 @@ ask_steady(const struct slip_args *a)
     return a->steady && ask(a);
 }
 
+/* Reads a component of --creep, text[0..n). */
+static void
+read_component(struct tool *t, int k, const char *text, size_t n)
+{
+    RC_OWNED char *one = tool_room(t, n + 1, 1, "a creepage");
+
+    memcpy(one, text, n);
+    one[n] = '\0';
+    if (unit_numbers(one, k == 2 ? UNIT_SPIN : UNIT_CREEP, &own.creep[k], &t->err) != RC_OK)
+        tool_usage(t, "--creep %s: %s", one, t->err.text);
+}
+
+/* Each component is a number or a range; ranges have one length, and a number holds for all cases. */
+static void
+read_creep(struct tool *t, const struct slip_args *a)
+{
+    const char *s = a->creep;
+    int components = 1;
+
+    for (const char *comma = s; (comma = strchr(comma, ',')) != NULL; comma++)
+        components++;
+    if (components < 2 || components > COMPONENTS)
+        tool_usage(t, "--creep: it must be two creepages (x and y), or these and a spin, as in "
+                      "1e-3,0,20");
+    for (int k = 0; k < components; k++) {
+        const size_t n = strcspn(s, ",");
+        read_component(t, k, s, n);
+        s += n + 1;
+        if (own.creep[k].n > 1 && own.cases > 1 && own.creep[k].n != own.cases)
+            tool_usage(t,
+                       "--creep %s: its ranges have %zu and %zu values: give them the same number",
+                       a->creep, own.cases, own.creep[k].n);
+        if (own.creep[k].n > 1)
+            own.cases = own.creep[k].n;
+    }
+    if (own.cases > 1 && !a->steady)
+        tool_usage(t,
+                   "--creep %s: a range is for --steady, where each value is a case of its own; "
+                   "a contact that rolls from case to case has one creepage",
+                   a->creep);
+}
+
 static void
 read(struct slip_run *run, struct slip_args *a)
 {
     struct tool *t = &run->d.t;
-    const char *which = forced(run) ? "creep-force" : "creep";
 
-    if (forced(run) ? a->creep_force.n > 2 : a->creep.n < 2 || a->creep.n > 3)
-        tool_usage(t, "--%s: it must be %s", which,
-                   forced(run) ? "one value (along x) or two (x and y), as in 36N,0"
-                               : "two creepages (x and y), or these and a spin, as in 1e-3,0,20");
+    if (forced(run) && a->creep_force.n > 2)
+        tool_usage(t,
+                   "--creep-force: it must be one value (along x) or two (x and y), as in 36N,0");
+    if (!forced(run))
+        read_creep(t, a);
+    own.point = tool_room(t, own.cases, sizeof *own.point, "the creepages");
     if (run->coupling == RC_COUPLING_FULL)
         run->coupling = RC_COUPLING_GOODMAN;
 }
 
 /* ---- a point ---- */
 
+/* Point k of this case. */
 static struct rc_point
-point_of(const struct slip_run *run)
+point_of(const struct slip_run *run, size_t k)
 {
-    const struct numbers *v = forced(run) ? &run->args->creep_force : &run->args->creep;
-    const enum rc_axis x = forced(run) ? RC_TANGENTIAL_X : RC_CREEP_X;
+    static const enum rc_axis axis[COMPONENTS] = {RC_CREEP_X, RC_CREEP_Y, RC_SPIN};
+    const struct numbers *f = &run->args->creep_force;
     struct rc_point to = {0};
 
     rc_point_set(&to, RC_LOAD, run->load);
-    rc_point_set(&to, x, v->v[0]);
-    rc_point_set(&to, x + 1, v->n > 1 ? v->v[1] : 0);
-    if (v->n > 2)
-        rc_point_set(&to, RC_SPIN, v->v[2]);
+    if (forced(run)) {
+        rc_point_set(&to, RC_TANGENTIAL_X, f->v[0]);
+        rc_point_set(&to, RC_TANGENTIAL_Y, f->n > 1 ? f->v[1] : 0);
+    }
+    for (int c = 0; c < COMPONENTS; c++)
+        if (own.creep[c].n > 0)
+            rc_point_set(&to, axis[c], own.creep[c].v[own.creep[c].n > 1 ? k : 0]);
     if (!isnan(own.position))
         rc_point_set(&to, RC_POSITION, own.position);
     return to;
@@ -160,12 +214,12 @@ static void
 move(struct slip_run *run)
 {
     struct drive *d = &run->d;
-    struct rc_point to;
     struct rc_expected expected;
     struct rc_model *m;
 
     find_position(run);
-    to = point_of(run);
+    for (size_t k = 0; k < own.cases; k++)
+        own.point[k] = point_of(run, k);
     run->coupled = run->bodies.beta != 0 && run->coupling == RC_COUPLING_GOODMAN;
     run->law = slip_law(run);
     run->law.law.uncoupled = !run->coupled;
@@ -173,8 +227,10 @@ move(struct slip_run *run)
     if (own.path == NULL)
         slip_judge_plan(run);
     m = model_of(run);
-    tool_must(&d->t, run->p, rc_model_plan(m, &to, &expected, &d->t.err));
+    tool_must(&d->t, run->p, rc_model_plan(m, own.point, &expected, &d->t.err));
     if (d->args->dry_run) {
+        expected.convolutions *= (double)own.cases;
+        expected.seconds *= (double)own.cases;
         slip_say_plan(run, &expected);
         if (m != own.path)
             rc_model_free(m);
@@ -188,8 +244,8 @@ move(struct slip_run *run)
     d->calls.begin = begin;
     d->calls.all_keys = set_keys;
     d->calls.row = slip_report;
-    d->points = 1;
-    d->point = &to;
+    d->points = own.cases;
+    d->point = own.point;
     d->course.number = rc_grid_case(run->p) > run->number ? rc_grid_case(run->p) - 1 : run->number;
     drive_points(d, run->p, m);
     d->point = NULL;
@@ -207,12 +263,15 @@ report(struct report *r, const struct slip_run *run, const struct rc_model *m)
     const struct figures from[] = {{rc_figures("rolling"), rc_rolling_result(m)}, {NULL, NULL}};
 
     report_number(r, "position", own.position, "m");
-    report_named(r, from,
-                 "load limit creep_x creep_y spin tangential_x tangential_y moment stick_nodes "
-                 "slip_nodes stick_fraction power power_slip extrapolated_creep_x "
-                 "extrapolated_creep_y extrapolated_tangential_x extrapolated_tangential_y "
-                 "extrapolated_moment kalker_tangential_x kalker_tangential_y steps convolutions "
-                 "traction_error_estimate discretization_error_estimate");
+    report_named(
+        r, from,
+        "load limit creep_x creep_y spin tangential_x tangential_y moment stick_nodes "
+        "slip_nodes stick_fraction power power_slip extrapolated_creep_x "
+        "extrapolated_creep_y extrapolated_tangential_x extrapolated_tangential_y "
+        "extrapolated_moment ellipse_x ellipse_y kalker_c11 kalker_c22 kalker_c23 "
+        "kalker_tangential_x kalker_tangential_y fastsim_tangential_x fastsim_tangential_y "
+        "steps convolutions "
+        "traction_error_estimate discretization_error_estimate");
     return run->d.status == RC_OK;
 }
 

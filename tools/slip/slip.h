@@ -17,7 +17,8 @@ enum slip_frame { /* in the order of the words of --output */
     SLIP_SLIP_Y,
     SLIP_STATE,
     SLIP_HEIGHT,
-    SLIP_LENGTH,      /* of the path of slip since the last case */
+    SLIP_LENGTH, /* of the path of slip since the last case */
+    SLIP_TRACTION,
     SLIP_DISSIPATION, /* J/m2, since the last case               */
     SLIP_FRAMES
 };
@@ -25,8 +26,8 @@ enum slip_frame { /* in the order of the words of --output */
 struct slip_args {
     double mu, tau_max, nu, e1, nu1, e2, nu2, tol;
     struct numbers tangential, displacement; /* N, m */
-    struct numbers creep, creep_force;       /* 1, 1, rad/m; N */
-    const char *path, *history, *increments, *coupling;
+    struct numbers creep_force;              /* N */
+    const char *creep, *path, *history, *increments, *coupling;
     size_t output; /* bits of enum slip_frame */
     struct boundary_args repeats;
     bool steady;

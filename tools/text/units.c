@@ -33,6 +33,7 @@ static const struct { /* units without prefixes */
     {UNIT_S, "h", 3600},
     {UNIT_N, "gf", 9.80665e-3},
     {UNIT_N, "kgf", 9.80665},
+    {UNIT_SPIN, "/m", 1},
 };
 static const struct { /* units that are a power of ten of the SI unit but have another name */
     enum unit unit;
@@ -46,6 +47,7 @@ static const struct { /* units that are a power of ten of the SI unit but have a
     {UNIT_PAS, "Pa s", 0},
     {UNIT_WORK, "J/m^2", 0},
     {UNIT_WORK, "N/m", 0},
+    {UNIT_CREEP, "%", -2},
 };
 /* clang-format on */
 
@@ -71,6 +73,8 @@ static const struct {
     [UNIT_RAD_S] = {"rad/s", "rad/s", NULL},
     [UNIT_W_MK] = {"W/mK or S/m", "W/mK", NULL},
     [UNIT_S_M] = {"W/mK or S/m", "S/m", NULL},
+    [UNIT_CREEP] = {"", "%", NULL},
+    [UNIT_SPIN] = {"rad/m", "rad/m", "1/m"},
     [UNIT_WEAR] = {"m2/N", "mm3/Nm", "mm3/Nm or 1/GPa", true},
     [UNIT_WEAR_ENERGY] = {"m3/J", "mm3/J", NULL, true},
 };
@@ -127,7 +131,7 @@ power_of(const char *text, size_t n, const char *base, int *power)
 static bool
 unit_power(const char *text, size_t n, enum unit unit, int *power)
 {
-    return power_of(text, n, unit_name(unit), power);
+    return *unit_name(unit) != '\0' && power_of(text, n, unit_name(unit), power);
 }
 
 /* "HV", "HV10", "HV0.3": the test force in kilograms-force may follow. */
@@ -197,6 +201,7 @@ static const struct quotient {
     {UNIT_WEAR, "m", "Nm", 3, 0, 1, false},    {UNIT_WEAR, "m", "N", 2, 0, 1, false},
     {UNIT_WEAR, "1", "Pa", 1, 0, 1, false},    {UNIT_WEAR, "1", "MPa", 1, -6, 1, false},
     {UNIT_WEAR, "1", "GPa", 1, -9, 1, false},  {UNIT_WEAR_ENERGY, "m", "J", 3, 0, 1, false},
+    {UNIT_SPIN, "rad", "", 1, 0, 1, true},     {UNIT_SPIN, "1", "", 1, 0, 1, true},
 };
 
 /* The letters and digits of text[0..n). */
@@ -348,6 +353,11 @@ unknown_unit(const char *suffix, size_t n, enum unit unit, bool per_metre, struc
     if (unit == UNIT_BYTES)
         return rc_err_set(err,
                           "unknown unit '%.*s': a size in bytes is expected, as in 512M or 4GiB",
+                          (int)n, suffix);
+    if (unit == UNIT_CREEP)
+        return rc_err_set(err,
+                          "unknown unit '%.*s': a plain number or a percentage is expected, as in "
+                          "0.5%%",
                           (int)n, suffix);
     return rc_err_set(err,
                       "unknown unit '%.*s': %s%s is expected, with or without one of the prefixes "

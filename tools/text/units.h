@@ -28,6 +28,8 @@ enum unit {
     UNIT_W_MK,        /* watts per metre and kelvin        */
     UNIT_S_M,         /* siemens per metre                 */
     UNIT_WEAR,        /* volume per force and distance     */
+    UNIT_CREEP,       /* a plain number or a percentage    */
+    UNIT_SPIN,        /* radians per metre; also 1/m       */
     UNIT_WEAR_ENERGY, /* volume per energy of friction     */
 };
 
