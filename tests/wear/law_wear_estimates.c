@@ -2,8 +2,9 @@
 /* Random maps and balls that wear, with the tolerances 0.1, 0.01 and 0.001 in turn: one body, both, on a
  * track that wears, with a coefficient of each node, on maps that repeat along one axis, and pairs that slide
  * over each other. The estimated errors of the worn depth and of the pressure are not below the differences
- * to a tight run, and half of them are at most five times (at the tolerance 0.1: eight times) as large. A second
- * run, twice as tight, differs from the tight one by at most a tenth of the error.
+ * to a tight run, and half of them are at most five times (at the tolerance 0.1: eight times) as large. At most
+ * one of fifty is above its tolerance. A second run, twice as tight, differs from the tight one by at most a
+ * tenth of the error.
  *
  *     law_wear_estimates [KIND FIRST LAST]        runs of a kind, 0 to 5 (default: some of all) */
 #include <setjmp.h>
@@ -382,7 +383,7 @@ compare(enum kind kind, uint64_t number, struct tally *tally)
 static void
 estimates_are_not_below(void **state)
 {
-    size_t below = 0, wide = 0;
+    size_t below = 0, wide = 0, missed = 0;
 
     (void)state;
     for (int kind = 0; kind < KINDS; kind++) {
@@ -397,6 +398,7 @@ estimates_are_not_below(void **state)
                           "steps, %zu contacts, %.0f convolutions\n",
                           name_of[kind], pow(10, -1 - t * (kind == SLIDING ? 0.5 : 1)), is->outputs,
                           is->short_of, is->open, is->steps, is->contacts, is->convolutions);
+            missed += is->short_of > is->outputs / ENOUGH;
             for (int k = 0; k < 2; k++) {
                 struct ratios *of = &is->of[k];
                 below += of->below;
@@ -415,6 +417,7 @@ estimates_are_not_below(void **state)
     }
     assert_int_equal(below, 0);
     assert_int_equal(wide, 0);
+    assert_int_equal(missed, 0);
 }
 
 int
