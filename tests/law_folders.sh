@@ -99,6 +99,8 @@ tools/plot          | libcontact/grid.h formats/core/core.h    | libcontact form
 tools/plot          | tools/canvas/canvas.h                    | tools/canvas
 tools/cost          | %public tools/cli/cli.h tools/plot/plot.h | %physics %cli %plot
 tools/cost          | formats/rcg/rcg.h                        | formats/rcg
+tools/scan          | %public tools/cli/cli.h tools/cost/cost.h | %physics %cli tools/cost
+tools/scan          | formats/rcg/rcg.h                        | formats/rcg
 tools/solve         | %public tools/cli/cli.h tools/plot/plot.h | %physics %cli %plot
 tools/solve         | tools/frames/frames.h tools/materials/materials.h | tools/frames tools/materials
 tools/solve         | formats/core/core.h                      | formats/core formats/rcg
@@ -127,6 +129,7 @@ tools               | tools/frames/frames.h                    | tools/frames
 tools               | tools/cost/cost.h tools/solve/solve.h    | tools/cost tools/solve
 tools               | tools/stress/stress.h tools/render/render.h | tools/stress tools/render
 tools               | tools/scene/scene.h                      | tools/scene libcontact/scene
+tools               | tools/scan/scan.h                        | tools/scan
 tools               | tools/leak/leak.h tools/fatigue/fatigue.h | tools/leak tools/fatigue
 tools               | tools/info/info.h tools/slip/slip.h      | tools/info tools/slip
 tools               | tools/problem/problem.h tools/model/model.h | tools/problem tools/model

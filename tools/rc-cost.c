@@ -8,7 +8,7 @@
 #include <string.h>
 #include <unistd.h>
 
-#include "tools/cost/cost.h"
+#include "tools/scan/scan.h"
 
 static struct args {
     const char *tol, *grid, *of;
@@ -17,10 +17,15 @@ static struct args {
     const char *error;
     const char *plot, *report;
     bool dry_run;
-} args = {.limit = 60, .budget = NAN};
+    struct scan_options scan;
+} args = {.limit = 60, .budget = NAN, .scan = {.repeats = 4, .seed = 1}};
 
 #define AT(field) .at = offsetof(struct args, field)
 #define ABOVE_0 .min = 0, .max = INFINITY, .above = true
+#define ONE_THING                                                                                  \
+    .against = RULES({.with = "tol|grid|vary|reference|of|budget|error|plot",                      \
+                      .because = "one varies the map, the other the command",                      \
+                      .remedy = "run rc-cost twice"})
 /* clang-format off */
 static const struct opt opts[] = {
     {.name = "tol", .type = OPT_TEXT, AT(tol), .result = true, .arg = "LIST",
@@ -33,6 +38,28 @@ static const struct opt opts[] = {
      .help = "the value of the reference (default: one step beyond the list)"},
     {.name = "of", .type = OPT_TEXT, AT(of), .result = true, .arg = "NAME",
      .help = "the frame or figure whose error is ranked (default: the first frame that differs)"},
+    {.name = "noise", .type = OPT_NUMBERS, .unit = UNIT_M, AT(scan.noise), ABOVE_0, .result = true, ONE_THING,
+     .arg = "SIGMA[,LENGTH]",
+     .help = "bars: the standard deviation of the noise, and its correlation length"},
+    {.name = "repeat", .type = OPT_TEXT, AT(scan.again), .result = true, .arg = "FILE",
+     .against = RULES({.with = "noise", .because = "either gives the noise"},
+                      {.with = "tol|grid|vary|reference|of|budget|error|plot",
+                       .because = "one varies the map, the other the command", .remedy = "run rc-cost twice"}),
+     .help = "the noise from a second scan of the same place"},
+    {.name = "resolution", .type = OPT_FLAG, AT(scan.resolution), .result = true, ONE_THING,
+     .help = "bars: means over 2 x 2 and 4 x 4 nodes"},
+    {.name = "patch", .type = OPT_FLAG, AT(scan.patch), .result = true, ONE_THING,
+     .help = "bars: the quarters of the map"},
+    {.name = "holes", .type = OPT_FLAG, AT(scan.holes), .result = true, ONE_THING,
+     .help = "bars: the pattern of missing nodes at other places"},
+    {.name = "filter", .type = OPT_TEXT, AT(scan.filter), .result = true, ONE_THING, .arg = "'A;B'",
+     .help = "choices of rc-detrend, as in '--lowpass 3um;--lowpass 5um': the largest change"},
+    {.name = "filter-bar", .type = OPT_FLAG, AT(scan.filter_bar), .result = true,
+     .needs = RULES({.with = "filter"}), .help = "the filters count in the bar"},
+    {.name = "repeats", .type = OPT_COUNT, AT(scan.repeats), .result = true, .min = 2, .max = 64, .arg = "N",
+     .needs = RULES({.with = "noise|repeat"}), .help = "maps with noise (default 4)"},
+    {.name = "seed", .type = OPT_COUNT, AT(scan.seed), .result = true, .arg = "S",
+     .help = "of the noise and of the places of the holes (default 1)"},
     {.name = "budget", .type = OPT_NUMBER, .unit = UNIT_S, AT(budget), ABOVE_0, .arg = "TIME",
      .help = "print the most accurate command within this time instead of the table"},
     {.name = "error", .type = OPT_TEXT, AT(error), .arg = "ERROR",
@@ -72,6 +99,7 @@ static struct costs {
     struct tool t;
     struct report report;
     struct cost_case c;
+    struct scan scan;
 } run;
 
 /* ---- the command line ---- */
@@ -201,6 +229,34 @@ plan(struct tool *t, struct cost_case *c)
     }
 }
 
+/* ---- the measurement ---- */
+
+static bool
+varies_map(void)
+{
+    return args.scan.noise.n > 0 || args.scan.again != NULL || args.scan.resolution ||
+           args.scan.patch || args.scan.holes || args.scan.filter != NULL;
+}
+
+static void
+study_map(struct tool *t, struct cost_case *c)
+{
+    struct scan *s = &run.scan;
+
+    *s = (struct scan){.c = c, .options = &args.scan};
+    copy_input(t, c);
+    if (tool_interrupted() != 0)
+        return;
+    scan_study(s, args.dry_run);
+    if (args.dry_run) {
+        scan_show_plan(s, t->output.file);
+        return;
+    }
+    scan_report(s, &run.report);
+    if (!t->output.report_alone)
+        scan_show_table(s, t->output.file);
+}
+
 /* ---- results ---- */
 
 static void
@@ -292,9 +348,13 @@ main(int argc, char **argv)
         tool_die(t, "/dev/null: %s", strerror(errno));
     c->command.nowhere = c->nowhere;
     cost_command_read(&c->command, argv + end + 1, (size_t)(argc - end - 1));
-    read_lists(t, c);
+    if (!varies_map())
+        read_lists(t, c);
     report_open(&run.report, t, args.report);
-    study(t, c);
+    if (varies_map())
+        study_map(t, c);
+    else
+        study(t, c);
     report_close(&run.report);
     return tool_finish(t);
 }

@@ -119,6 +119,18 @@ option_at(const struct cost_program *p, const char *const word[], size_t words, 
     return o;
 }
 
+bool
+cost_option_given(const struct cost_program *p, const char *name)
+{
+    const char *option = cost_option(p, name);
+    size_t takes;
+
+    for (size_t k = 0; k < p->words; k += takes)
+        if (option_at(p, p->word, p->words, k, &takes) == option && option != NULL)
+            return true;
+    return false;
+}
+
 size_t
 cost_option_put(struct tool *t, const struct cost_program *p, const char *word[], size_t words,
                 const char *name, const char *value, char text[320])

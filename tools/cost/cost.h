@@ -52,6 +52,8 @@ struct cost_command {
 void cost_command_read(struct cost_command *command, char **word, size_t words);
 /* The object of an option in the program's list; NULL: it has none of this name or alias. */
 const char *cost_option(const struct cost_program *program, const char *name);
+/* True if the words of the program have the option. */
+bool cost_option_given(const struct cost_program *program, const char *name);
 /* Ends the tool if the option may not be varied. */
 void cost_option_check(struct tool *tool, const char *option, const char *from);
 /* Gives an option the value in place of the one that the words have; returns their new number. "no" takes
@@ -105,6 +107,7 @@ struct cost_trial {
     size_t grid; /* the run of rc-pick; SIZE_MAX: the input */
     unsigned coarse;
     bool reference, converged, front, optimistic, unjudged;
+    const char *name; /* NULL: that of its values */
     enum cost_state state;
     char why[256];
     double expected, seconds, processor, memory, convolutions; /* NAN: unknown */
@@ -179,6 +182,8 @@ size_t cost_list_rank(const struct cost_list *list, size_t value);
 void cost_trials(struct cost_case *c);
 /* The place of the trial of these values; SIZE_MAX: none, unless it `adds` one. */
 size_t cost_trial_find(struct cost_case *c, const size_t pick[COST_LISTS], bool adds);
+/* A trial on 1/coarse of the nodes a side. */
+size_t cost_trial_add(struct cost_case *c, unsigned coarse);
 /* "grid 1/2, tol 1e-4"; with `series` without the grid and the list of the points. */
 const char *cost_name(const struct cost_case *c, const struct cost_trial *t, bool series,
                       char text[160]);
@@ -205,6 +210,8 @@ const char *cost_line(const char **at);
 
 /* ---- measure.c: runs and errors ---- */
 
+/* A run that has ended: its output, `file`, is the input of this trial. */
+size_t cost_input_add(struct cost_case *c, size_t trial, int file);
 /* Finds or adds the runs of a trial, and its expected cost; leaves out a trial that is not possible. */
 void cost_plan(struct cost_case *c, struct cost_trial *t);
 /* Runs the programs of a trial that have not run, and compares the results with the reference, if it is

@@ -233,20 +233,13 @@ cost_list_shorten(struct cost_list *l)
 /* ---- trials ---- */
 
 size_t
-cost_trial_find(struct cost_case *c, const size_t pick[COST_LISTS], bool adds)
+cost_trial_add(struct cost_case *c, unsigned coarse)
 {
     struct cost_trial *t;
 
-    for (size_t k = 0; k < c->trials; k++)
-        if (memcmp(c->trial[k].pick, pick, c->lists * sizeof *pick) == 0)
-            return k;
-    if (!adds)
-        return SIZE_MAX;
-    if (c->trials == COST_TRIALS)
-        tool_usage(c->tool, "the lists give more than %d trials: shorten them", COST_TRIALS);
     c->trial = tool_grown(c->tool, c->trial, c->trials, &c->room, sizeof *t, "a list of trials");
     t = &c->trial[c->trials];
-    *t = (struct cost_trial){.coarse = 1,
+    *t = (struct cost_trial){.coarse = coarse,
                              .grid = SIZE_MAX,
                              .expected = NAN,
                              .seconds = NAN,
@@ -256,15 +249,31 @@ cost_trial_find(struct cost_case *c, const size_t pick[COST_LISTS], bool adds)
                              .estimate = NAN,
                              .error = NAN,
                              .bound = NAN};
-    memcpy(t->pick, pick, c->lists * sizeof *pick);
-    for (size_t k = 0; k < c->lists; k++)
-        if (c->list[k].grid)
-            t->coarse = (unsigned)c->list[k].number[pick[k]];
     for (size_t k = 0; k < COST_FIGURES; k++)
         t->figure[k] = NAN;
     for (size_t k = 0; k < COST_ESTIMATES; k++)
         t->judged[k] = NAN;
     return c->trials++;
+}
+
+size_t
+cost_trial_find(struct cost_case *c, const size_t pick[COST_LISTS], bool adds)
+{
+    size_t at;
+
+    for (size_t k = 0; k < c->trials; k++)
+        if (memcmp(c->trial[k].pick, pick, c->lists * sizeof *pick) == 0)
+            return k;
+    if (!adds)
+        return SIZE_MAX;
+    if (c->trials == COST_TRIALS)
+        tool_usage(c->tool, "the lists give more than %d trials: shorten them", COST_TRIALS);
+    at = cost_trial_add(c, 1);
+    memcpy(c->trial[at].pick, pick, c->lists * sizeof *pick);
+    for (size_t k = 0; k < c->lists; k++)
+        if (c->list[k].grid)
+            c->trial[at].coarse = (unsigned)c->list[k].number[pick[k]];
+    return at;
 }
 
 void
@@ -319,7 +328,7 @@ cost_name(const struct cost_case *c, const struct cost_trial *t, bool series, ch
     char value[COST_NAME];
     size_t n = 0;
 
-    text[0] = '\0';
+    snprintf(text, 160, "%s", t->name != NULL ? t->name : "");
     for (size_t k = 0; k < c->lists && n < 160; k++) {
         const struct cost_list *l = &c->list[k];
 
