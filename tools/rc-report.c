@@ -20,6 +20,7 @@ static struct args {
     struct physics physics;
     struct scene_args effects;
     double outliers, nu;
+    struct numbers noise;
     bool mirror;
     const char *title;
 } args = {.physics = PHYSICS_NONE, .effects = SCENE_NOTHING, .outliers = NAN, .nu = NAN};
@@ -38,6 +39,9 @@ static const struct opt opts[] = {
      .against = RULES({.with = "nu1", .because = "--nu1 is the ratio for the stresses too",
                        .remedy = "leave out --nu"}),
      .help = "Poisson's ratio for the stresses (default: --nu1, else 0.28)"},
+    {.name = "noise", .type = OPT_NUMBERS, .unit = UNIT_M, AT(noise), .min = 0, .max = INFINITY, .above = true,
+     .arg = "SIGMA[,LENGTH]",
+     .help = "noise of the measurement: the figures of the contact get bars, as by rc-cost"},
     {.title = "data of the effects"},
     {.group = scene_options, AT(effects)},
     {.title = "output"},
@@ -73,6 +77,7 @@ struct run {
     bool assumed;            /* the bodies are the default ones      */
     size_t loads;
     char load[RC_NUMBER_SIZE + 4]; /* the last one */
+    char noise[2 * RC_NUMBER_SIZE];
     char last[RC_NUMBER_SIZE], outliers[RC_NUMBER_SIZE], nu[RC_NUMBER_SIZE], memory[RC_NUMBER_SIZE];
     const char *contact[WORDS]; /* options of rc-solve */
     size_t contacts;
@@ -265,6 +270,70 @@ show_table(struct run *run, FILE *in, const char *columns, const char *unused)
     free(line);
 }
 
+/* Shows the figures of the last case that have a bar, or a note why they have none. */
+static void
+show_bars(struct run *run, FILE *in, const char *a, const char *b)
+{
+    enum {
+        WHAT,
+        CASE,
+        NAME,
+        UNIT,
+        VALUE,
+        SHARE,
+        DOMINANT,
+        WHY,
+        CELLS
+    };
+    static const char *const names[CELLS] = {"what",  "case",         "name",     "unit",
+                                             "value", "bar_relative", "dominant", "why"};
+    FILE *out = run->page.file;
+    char *line = NULL;
+    size_t room = 0, at[CELLS] = {0};
+
+    (void)a, (void)b;
+    fprintf(out,
+            "<p>Noise of %s in the heights, and the grid, change the figures of the last load. In "
+            "90 %% of "
+            "the cases the value of the true surface is within this bar:</p>\n<table>\n"
+            "<tr><th>figure</th><th>value</th><th>bar</th><th>mostly by</th><th></th></tr>\n",
+            shown_in_unit(args.noise.v[0], "m"));
+    for (size_t row = 0; getline(&line, &room, in) > 0; row++) {
+        char *cell[WORDS] = {NULL}, *rest = line;
+        const char *own[CELLS];
+
+        for (size_t k = 0; k < WORDS && *rest != '\0'; k++) {
+            cell[k] = rest;
+            rest += strcspn(rest, "\t\n");
+            if (*rest != '\0')
+                *rest++ = '\0';
+            for (size_t i = 0; row == 0 && i < CELLS; i++)
+                at[i] = strcmp(cell[k], names[i]) == 0 ? k : at[i];
+        }
+        for (size_t i = 0; i < CELLS; i++)
+            own[i] = cell[at[i]] == NULL || strcmp(cell[at[i]], "NaN") == 0 ? "" : cell[at[i]];
+        if (row == 0 || strcmp(own[WHAT], "figure") != 0 || strcmp(own[CASE], run->last) != 0 ||
+            strcmp(own[SHARE], "0") == 0 || (*own[SHARE] == '\0' && *own[WHY] == '\0'))
+            continue;
+        for (char *c = cell[at[NAME]]; (c = strchr(c, '_')) != NULL;)
+            *c = ' ';
+        fputs("<tr><td>", out);
+        put_text(out, own[NAME]);
+        fprintf(out, "</td><td>%.4g ", strtod(own[VALUE], NULL));
+        put_text(out, own[UNIT]);
+        if (*own[SHARE] == '\0')
+            fputs("</td><td>-</td><td>", out);
+        else
+            fprintf(out, "</td><td>%.2g %%</td><td>", 100 * strtod(own[SHARE], NULL));
+        put_text(out, own[DOMINANT]);
+        fputs("</td><td>", out);
+        put_text(out, own[WHY]);
+        fputs("</td></tr>\n", out);
+    }
+    fputs("</table>\n", out);
+    free(line);
+}
+
 static void
 show_bodies(struct run *run, FILE *in, const char *a, const char *b)
 {
@@ -386,6 +455,13 @@ is_measured(const struct run *run)
 }
 
 static bool
+has_noise(const struct run *run)
+{
+    (void)run;
+    return args.noise.n > 0;
+}
+
+static bool
 has_several_loads(const struct run *run)
 {
     return run->loads > 1;
@@ -465,6 +541,12 @@ static const struct part {
      .show = show_table,
      .a = " mean_pressure load contact_fraction max_pressure converged pressure_error_estimate "
           "edge_load_fraction nodes_per_patch "},
+    {.command =
+         "rc-cost --quiet --noise NOISE --resolution --report bars.tsv -o bars.txt surface.rcg "
+         "-- rc-solve CONTACT",
+     .file = "bars.tsv",
+     .show = show_bars,
+     .wanted = has_noise},
     {.show = show_messages},
     {.heading = "Origin", .file = "parameters.txt", .show = show_lines, .a = "keys"},
     {.heading = "Commands", .show = show_commands},
@@ -510,6 +592,8 @@ expand(const struct run *run, struct command *c, const char *word)
         add_preparation(run, c);
     else if (strcmp(word, "LAST") == 0)
         add(c, run->last, NULL);
+    else if (strcmp(word, "NOISE") == 0)
+        add(c, run->noise, NULL);
     else if (strcmp(word, "CONTACT") == 0)
         for (size_t k = 0; k < run->contacts; k++)
             add(c, run->contact[k], NULL);
@@ -583,10 +667,15 @@ run_part(struct run *run, const struct part *part)
         tool_die(&run->t, "out of memory");
     for (const char *word; (word = strtok_r(rest, " ", &rest)) != NULL;)
         expand(run, &c, word);
-    add(&c, "-o", part->file);
+    if (strstr(part->command, " -o ") == NULL)
+        add(&c, "-o", part->file);
     write_command(run, &c);
-    if (*run->memory != '\0')
-        add(&c, "--memory", run->memory);
+    if (*run->memory != '\0') { /* behind the name of the tool: a command may follow its options */
+        memmove(c.word + 3, c.word + 1, (c.n - 1) * sizeof *c.word);
+        c.word[1] = "--memory";
+        c.word[2] = run->memory;
+        c.n += 2;
+    }
     p.doing = c.word[0];
     end = process_run(&run->t, c.word, &p);
     take_messages(run, c.word[0], end, &p, part->may_fail);
@@ -716,6 +805,12 @@ check_arguments(struct run *run)
     check_contact(run);
     if (!isnan(args.outliers))
         rc_number_text(run->outliers, args.outliers);
+    if (args.noise.n > 2)
+        tool_usage(&run->t, "--noise takes a standard deviation and a length, not %zu numbers",
+                   args.noise.n);
+    for (size_t k = 0; k < args.noise.n; k++)
+        snprintf(run->noise + strlen(run->noise), RC_NUMBER_SIZE, "%s%s", k > 0 ? "," : "",
+                 rc_number(args.noise.v[k]));
     if (run->t.memory > 0)
         rc_number_text(run->memory, (double)run->t.memory);
     setenv("RC_THREADS", rc_number((double)run->t.threads), 1);

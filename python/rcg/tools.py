@@ -748,6 +748,9 @@ def make(shape, **given):
 def costs(surface, command, dx=None, timeout=None, progress=None, **given):
     """The trials of a command as a table, a list of dicts: time, memory and error of each. The first one is the reference.
 
+    With noise='5nm', repeat=, resolution=True, patch=True, holes=True or filter= the table has the figures of the measured map with
+    their bars (what == 'figure') and then the maps that were run (what == 'run').
+
     command: 'rc-solve --load 60N --estar 114GPa | rc-leak', or a list of its words. vary: 'increments=8,16', or a list of such texts.
     """
     words = ['rc-cost'] + arguments('rc-cost', given) + ['--'] + ([command] if isinstance(command, str) else [os.fspath(w) for w in command])

@@ -39,6 +39,27 @@ claim "  one load gives no curve, and without a hardness the contact is elastic"
     [ "$(grep -c "<img" once.html)" = 5 ] && grep -q "E\* is 70 GPa, the bodies are elastic, and the map ends" once.html && ! grep -q steel once.html'
 claim "  a pipe and two threads give the same page" bash -c "rc-report --threads 2 $contact --quiet brass.txt | cmp - once.html"
 
+# ---- bars ----
+
+# The table on the page has the figures of rc-cost for the same surface and contact.
+bars_again() {
+    rc-report --quiet $contact --noise 3nm -o noisy.html brass.txt && rc-import --quiet brass.txt | rc-detrend --quiet --poly 2 --fill -o prepared.rcg &&
+        rc-cost --quiet --noise 3nm --resolution --report bars.json -o bars.txt prepared.rcg -- rc-solve $contact &&
+        perl -MJSON::PP -e '
+            my ($page) = do { local (@ARGV, $/) = "noisy.html"; <> } =~ /<p>Noise of 3 nm(.*?)<\/table>/s or die "no table\n";
+            my ($n, @row) = (0, grep { $_->{what} eq "figure" && $_->{bar} } map { decode_json($_) } do { local @ARGV = "bars.json"; <> });
+            for my $r (@row) {
+                my $line = sprintf "<td>%s</td><td>%.4g %s</td><td>%.2g %%</td><td>%s</td>", $r->{name} =~ tr/_/ /r, $r->{value}, $r->{unit} // "",
+                    100 * $r->{bar_relative}, $r->{dominant};
+                index($page, $line) >= 0 or die "missing: $line\n";
+                $n++;
+            }
+            exit($n < 4)'
+}
+claim "--noise puts the bars of rc-cost on the page" bars_again
+claim "  which has none without it" lacks 'Noise of' once.html
+refuses 2 'noise takes a standard deviation and a length' "three numbers of --noise" "rc-report --noise 1nm,1um,1um brass.txt"
+
 # ---- options ----
 
 claim "options of the contact are passed to rc-solve" bash -c '

@@ -748,6 +748,17 @@ def costs(name):
     assert 'no shell' in str(raised(rcg.Error, rcg.cost, name, 'sh -c true'))
 
 
+def bars(name):
+    """The table of rcg.cost(noise=...) has the figures of rcg.solve() with their bars, and then the maps."""
+    report = rcg.solve(name, load='0.5N', estar='114GPa', quiet=True).report
+    rows = rcg.cost(name, 'rc-solve --load 0.5N --estar 114GPa', noise='5nm', resolution=True, quiet=True)
+    figures = {row['name']: row for row in rows if row['what'] == 'figure'}
+    for figure in ('contact_area', 'elastic_energy', 'approach'):
+        row = figures[figure]
+        assert abs(row['value'] / report[figure] - 1) < 1e-9 and (row['bar'] is None or row['bar'] > 0), row
+    assert [row['name'] for row in rows if row['what'] == 'run'] == ['noise 1', 'noise 2', 'noise 3', 'noise 4', 'grid 1/2', 'grid 1/4'], rows
+
+
 # ---- several processes ----
 
 def same(a, b):
