@@ -228,6 +228,19 @@ derived "that of Bush, Gibson and Thomas" 'sqrt\(2 pi\) = (N) by' "$(compute 'sq
 derived "what the film takes of the contact" 'the contact (N) % smaller' "$(compute '100 * (1 - 0.00142712 / 0.0015362)')" 0.02
 derived "the slope that rc-solve warns of" 'exceeds about (N), the' "$(mandoc -Tutf8 "$pages/rc-solve.1" | col -b |
     tr -s '\n ' ' ' | grep -o 'RMS slope where the bodies touch is above [0-9.]*' | grep -o '[0-9.]*$')" 0
+derived "the factor of safety" '1\/0\.78 = (N)\.' "$(compute '1 / 0.78')" 0.005
+derived "Hertz's line contact" 'a\^2 = (N) P' 4 0
+derived "the length of the raceway" 'along x, (N) mm, or' "$(compute '512 * 2e-3')" 0
+# deepest TABLE FROM TO: the depth of the largest index between two depths, um
+deepest() { awk -F '\t' -v from="$2" -v to="$3" 'NR == 1 { for (k = 1; k <= NF; k++) at[$k] = k }
+    NR > 1 { d = $at["depth/m"] * 1e6 } NR > 1 && d >= from && d <= to && $at["dangvan"] > most { most = $at["dangvan"]; where = d }
+    END { print where }' "$1"; }
+derived "the depth of the largest index under the raceway" 'maximum at (N) um depth' "$(deepest run/smooth-line-depth.tsv 20 300)" 0.02
+derived "  and that of the grooves" 'a second one, (N) um deep' "$(deepest run/raceway-depth.tsv 0 20)" 0.2
+derived "the instantaneous modulus, the sum of all" 'instantaneous modulus is (N) MPa' "$(sed -n 's/.*--relaxation \(1MPa,[^ ]*\).*/\1/p' "$page" | head -n 1 |
+    tr ',' '\n' | awk -F 'MPa' '{ sum += $1 } END { print sum }')" 0
+derived "between which loads the flow stops" 'known to about (N) %' "$(compute '100 * (1100 - 1000) / 1000')" 0.05
+derived "the way of the wear that rc-cost studies" 'first (N) cm' "$(sed -n 's/.*--distance \([0-9]*\)cm$/\1/p' "$page" | tail -n 1)" 0
 claim "figures in sentences agree with the output" test -z "$(strangers known.txt sentences.txt | tee strangers.txt)"
 cat strangers.txt
 
