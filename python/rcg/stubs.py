@@ -38,7 +38,7 @@ def stub():
     for name in sorted(name for name, tool in FUNCTIONS.items() if tool in tools._tables):
         made = tools.function(name)
         text = made.__doc__.replace('\\', '\\\\').rstrip().replace('\n', '\n    ').replace('    \n', '\n')
-        parts.append('%s\ndef %s%s:\n    """%s"""\n' % (LINES if name == 'report' else '\n', name, made.__signature__, text))
+        parts.append('%s\ndef %s%s:\n    """%s"""\n' % (LINES if name == 'report' else '\n', name, made.__signature__.whole(), text))
     return ''.join(parts)
 
 

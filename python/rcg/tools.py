@@ -389,11 +389,26 @@ def _ready(surface):
     return None
 
 
+LENGTHS = {'m': '1', 'cm': '1e-2', 'mm': '1e-3', 'um': '1e-6', '\u00b5m': '1e-6', '\u03bcm': '1e-6', 'nm': '1e-9', 'pm': '1e-12'}
+
+
+def _length(text):
+    """A length with its unit, '1.1um', in metres; None for another text."""
+    import decimal
+    number = text.rstrip(''.join(LENGTHS) + ' ')
+    try:
+        return float(decimal.Decimal(number) * decimal.Decimal(LENGTHS[text[len(number):].strip() or 'm']))
+    except (KeyError, decimal.InvalidOperation):
+        return None
+
+
 def _steps(dx):
-    """dx and dy of the argument dx=."""
-    steps = tuple(dx) if isinstance(dx, (tuple, list)) else (dx, dx)
-    if len(steps) != 2:
-        raise TypeError('dx=%r: give dx in metres, or (dx, dy)' % (dx,))
+    """dx and dy of the argument dx=, which is a number of metres, a text or (number, unit), or two of them."""
+    two = isinstance(dx, (tuple, list)) and len(dx) == 2 and not (isinstance(dx[1], str) and dx[1] in LENGTHS)
+    one = [''.join(map(str, v)) if isinstance(v, (tuple, list)) else v for v in (dx if two else (dx, dx))]
+    steps = tuple(_length(v) if isinstance(v, str) else v for v in one)
+    if None in steps or (isinstance(dx, (tuple, list)) and len(dx) != 2):
+        raise TypeError("dx=%r: give dx in metres or as '1.1um', or (dx, dy)" % (dx,))
     return steps
 
 
@@ -551,7 +566,11 @@ class Result:
         return '<p><b>%s</b></p>%s<table>%s</table>' % (html.escape(head), picture, cells)
 
     def to_xarray(self):
-        """A Dataset with a variable a channel; dimensions case and depth where there are several."""
+        """A Dataset with a variable a channel; dimensions case and depth where there are several.
+
+        x and y begin in the middle of the map, as on pictures. Several cases have their load, time or another figure
+        that the command gave as a coordinate too: result.to_xarray().swap_dims(case='load').
+        """
         import xarray
         parts = {}
         for f in self.frames:
@@ -566,20 +585,48 @@ class Result:
             for (case, depth), one in found.items():
                 cube[cases.index(case), depths.index(depth) if depth == depth else 0] = one.values
             coords = {'case': cases, 'depth': ('depth', depths, {'units': f.dunit}),
-                      'y': ('y', numpy.arange(ny) * f.dy, {'units': f.dunit}),
-                      'x': ('x', numpy.arange(nx) * f.dx, {'units': f.dunit})}
+                      'y': ('y', (numpy.arange(ny) - (ny - 1) / 2) * f.dy, {'units': f.dunit}),
+                      'x': ('x', (numpy.arange(nx) - (nx - 1) / 2) * f.dx, {'units': f.dunit})}
             dims = [d for d in coords if d in 'yx' or (d == 'depth' and depths) or (d == 'case' and len(cases) > 1)]
             shape = [len(coords[d] if d == 'case' else coords[d][1]) for d in dims]
             data[channel] = xarray.DataArray(cube.reshape(shape), {d: coords[d] for d in dims}, dims,
                                              attrs={'units': f.unit})
         figures = self.lines[0] if len(self.lines) == 1 else {}
         attributes = {k: v for k, v in figures.items() if isinstance(v, (float, str)) or type(v) is int}
-        return xarray.Dataset(data, attrs=dict(attributes, command=' '.join(self.command)))
+        return xarray.Dataset(data, self._along_cases(data), attrs=dict(attributes, command=' '.join(self.command)))
+
+    def _along_cases(self, data):
+        """The axes of a history that differ between the cases, as coordinates."""
+        numbers = {line['case']: line for line in self.lines if 'case' in line}
+        cases = next((list(array.coords['case'].values) for array in data.values() if 'case' in array.dims), [])
+        units = self._units()
+        found = {}
+        for name in AXES:
+            values = [numbers.get(case, {}).get(name) for case in cases]
+            if None not in values and len(set(values)) > 1:
+                found[name] = ('case', values, {'units': units[name]} if units.get(name) else {})
+        return found
+
+    def _units(self):
+        """{figure: its unit in the report}."""
+        return {row['name']: row['unit'] for row in table(self.tool).get('figures', []) if row['unit']}
 
     def to_pandas(self):
-        """A DataFrame with a row a case (rc-info: a row a frame) and a column a figure."""
+        """A DataFrame with a row a case (rc-info: a row a frame) and a column a figure that some case has.
+
+        attrs['units'] has the units of the columns.
+        """
         import pandas
-        return pandas.json_normalize(self.lines)
+        made = pandas.json_normalize(self.lines)
+        made = made.drop(columns=[name for name in made if made[name].isna().all()])
+        units = self._units()
+        made.attrs['units'] = {name: units[name] for name in made if name in units}
+        return made
+
+
+# Figures that a list on the command line varies from case to case.
+AXES = ('load', 'mean_pressure', 'approach', 'time', 'distance', 'position', 'creep_x', 'creep_y', 'spin', 'tangential_x',
+        'tangential_y', 'speed')
 
 
 def _case(f):
@@ -796,17 +843,58 @@ def function(name):
              for python, row in rows.items()]
     named += [p.replace(kind=inspect.Parameter.KEYWORD_ONLY) for p in own if p not in positional]
     result = {'render': 'Picture', 'report': 'Page', 'export': 'None', 'cost': 'list[dict[str, Any]]', 'scene': 'list[dict[str, Any]]'}.get(name, 'Result')
-    made.__signature__ = inspect.Signature(positional + named, return_annotation=_Hint(result))
+    made.__signature__ = _signature()(positional + named, return_annotation=_Hint(result))
     made.__name__ = made.__qualname__ = name
     made.__module__ = 'rcg'
     made.__doc__ = documentation(name, rows)
     return made
 
 
+def _signature():
+    """A signature with all options for editors, which help() prints in short: the text below has the options."""
+    import inspect
+
+    class Short(inspect.Signature):
+        def __str__(self):
+            first = [name for name, p in self.parameters.items() if p.kind not in (p.KEYWORD_ONLY, p.VAR_KEYWORD)]
+            return '(%s, **options)' % ', '.join(first)
+
+        def format(self, **_):
+            return str(self)
+
+        def whole(self):
+            return inspect.Signature.__str__(self)
+
+    return Short
+
+
 class _Hint(str):
     """A type hint that help() and the stub show without quotation marks."""
     __repr__ = str.__str__
 
+
+# The first line of the documentation of each function.
+EXAMPLES = {
+    'add': "both = rcg.add(surface, roughness)",
+    'cost': "rows = rcg.cost(surface, 'rc-solve --load 60N --estar 114GPa', tol=[1e-2, 1e-4])",
+    'deflect': "bent = rcg.deflect(result, estar='114GPa')",
+    'detrend': "flat = rcg.detrend(surface, poly=2, spikes=5, fill=True)",
+    'export': "rcg.export(surface, 'surface.sdf')",
+    'fatigue': "index = rcg.fatigue(result, nu=0.3, depths='auto', bending_limit='600MPa', torsion_limit='400MPa', pass_='x')",
+    'heat': "hot = rcg.heat(result, mu=0.1, speed='1m/s', body1='steel', body2='copper')",
+    'info': "figures = rcg.info(surface, areal=True).report",
+    'leak': "flow = rcg.leak(result, viscosity='1mPas', pressure_drop='100kPa')",
+    'open': "surface = rcg.open('rough-steel.x3p')",
+    'pick': "part = rcg.pick(surface, crop='0,0,128,128')",
+    'render': "rcg.render(result, 'pressure.png', channel='pressure')",
+    'report': "rcg.report('rough-steel.x3p', 'page.html', load='10N', estar='114GPa')",
+    'scene': "rows = rcg.scene(surface, load='10N', body1='steel', body2='steel', hardness='6GPa')",
+    'slip': "stuck = rcg.slip(result, mu=0.3, nu=0.3, tangential='0.1N')",
+    'solve': "result = rcg.solve(surface, load='60N', estar='114GPa')",
+    'stress': "below = rcg.stress(result, nu=0.3, depths='auto', components='mises')",
+    'synth': "ball = rcg.synth('sphere', nx=128, dx='5um', radius='7.5mm')",
+    'wear': "worn = rcg.wear(result, coefficient='1e-6mm3/Nm', distance='0,1m,10m')",
+}
 
 # Type hints by the type of an option; those of other parameters. stubs.py explains the names.
 HINTS = {'flag': 'bool', 'number': 'Quantity', 'count': 'int', 'numbers': 'Quantity | list[Quantity]', 'words': 'str | list[str]',
@@ -825,7 +913,7 @@ def documentation(name, rows):
     import inspect
     tool = FUNCTIONS[name]
     row = table(tool)
-    text = [row['summary'] + '.', '']
+    text = ['Example: ' + EXAMPLES[name], '', row['summary'] + '.', '']
     if name in SPECIAL:
         text += [inspect.cleandoc(SPECIAL[name].__doc__), '']
     else:

@@ -87,6 +87,7 @@ printf '#!/bin/sh\n"%s/rc-solve" "$@"\nexit 3\n' "$RC_BIN" >short/rc-solve
 chmod +x short/rc-solve
 claim "  a page is made from a file and from arrays" check page ball.rcg
 claim "the documentation of functions has every option of --help" check documented
+claim "  it begins with an example, which works" check exemplified ball.rcg
 mkdir mutated
 printf '#!/bin/sh\n%s "$@" | sed "s/\"hardness\"/\"hardened\"/"\n' "$RC_BIN/rc-solve" >mutated/rc-solve
 chmod +x mutated/rc-solve

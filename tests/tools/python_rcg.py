@@ -12,6 +12,7 @@ import pickle
 import signal
 import subprocess
 import sys
+import tempfile
 import threading
 import time
 import warnings
@@ -476,6 +477,29 @@ def documented():
             assert row['rules'] in function.__doc__, (name, row['rules'])
 
 
+def exemplified(name):
+    """help() of a function is short and begins with an example, which works."""
+    import pydoc
+    surface = rcg.pick(rcg.sample('rough-steel.x3p'), crop='0,0,32,32')
+    surface = rcg.detrend(surface, plane=True, fill=True)
+    roughness = surface
+    result = rcg.solve(surface, radius='1mm', load='0.5N', estar='114GPa', hardness='6GPa', quiet=True)
+    here = os.getcwd()
+    with tempfile.TemporaryDirectory() as folder:
+        os.chdir(folder)
+        try:
+            for function in built():
+                page = pydoc.plain(pydoc.render_doc(getattr(rcg, function))).split('\n')
+                example = page[3].strip()
+                assert len(page[2]) < 100 and example.startswith('Example: '), page[:4]
+                example = example.replace('Example: ', '').replace("'rough-steel.x3p'", "rcg.sample('rough-steel.x3p')")
+                with warnings.catch_warnings():
+                    warnings.simplefilter('ignore')
+                    exec(example.replace('0,0,128,128', '0,0,16,16'), dict(rcg=rcg, surface=surface, roughness=roughness, result=result))
+        finally:
+            os.chdir(here)
+
+
 def mutated(folder):
     """A change in the option table of a tool changes the documentation."""
     os.environ['RC_BIN'] = folder
@@ -563,7 +587,16 @@ def data_sets(name):
                                      (ValueError, 'shape', cube.pressure.assign_attrs(units='Pa'), None), (TypeError, 'dx=', table_of(height), None)):
         assert words in str(raised(kind, rcg.solve, surface, dx=dx, load=1e-6, estar=1e9)), words
     assert (rcg.pick(table_of(height), dx=1e-6, crop='0,0,33,47').height == ball.height).all()
+    assert abs(float(cube.x.mean())) < 1e-12 and abs(float(cube.y[0]) + (ball.height.shape[0] - 1) / 2 * ball.dy) < 1e-12
+    assert numpy.allclose(cube['load'], [0.5, 1], rtol=1e-9) and cube['load'].attrs['units'] == 'N' and 'mean_pressure' in cube.coords
+    assert cube.swap_dims(case='load').pressure.sel(load=1, method='nearest').shape == ball.height.shape
+    assert 'load' not in one.coords
+    for dx in ('1.1um', (1.1, 'um'), 1.1e-6, ('1.1um', '0.0011mm'), '1.1e-6'):
+        assert rcg.tools._steps(dx) == (1.1e-6, 1.1e-6), dx
+    for dx in ('1.1', (1.1, 'um', 3), '1.1ium', 'um', ''):
+        assert dx == '1.1' or 'metres' in str(raised(TypeError, rcg.tools._steps, dx)), dx
     table = solved.to_pandas()
+    assert not table.isna().all().any() and table.attrs['units']['max_pressure'] == 'Pa' and 'converged' not in table.attrs['units']
     assert list(table.load) == list(solved.load) and len(table) == 2 and table.converged.all()
     assert list(table['contact_area']) == [case.contact_area for case in solved.cases]
 
