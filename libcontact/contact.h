@@ -533,6 +533,9 @@ struct rc_yield_load {
      * the images of a free map. */
     double error, increment_error, inherited_error;
     double iteration_error, contact_error, image_error;
+    /* that from the thickness of the slabs, which is no part of `error` (NAN for fewer than 8
+     * increments, or fewer than 6 slabs in the yielded depth) */
+    double slab_error;
     /* m^3: the integral of the equivalent strain over the volume */
     double strained;
 };

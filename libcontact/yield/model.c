@@ -138,6 +138,8 @@ const struct rc_figure rc_figures_yield[] = {
      .role = RC_FIGURE_ERROR, .by = "tol", .of = "pressure"},
     {AS("image_error_estimate", last.image_error), NULL, "Error of the edge of the map",
      .role = RC_FIGURE_ERROR, .by = "boundary", .of = "pressure"},
+    {AS("slab_error_estimate", last.slab_error), NULL, "Error of the slabs",
+     .role = RC_FIGURE_ERROR, .by = "slabs", .of = "pressure"},
     {0},
 };
 static const struct rc_figure_set sets[] = {

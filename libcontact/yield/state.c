@@ -123,6 +123,7 @@ exchange_figures(struct rc_yield_solver *p, struct rc_state *s)
     number_or(s, &p->run.resistance, 0, INFINITY);
     number_or(s, &f->increment_error, -1, NAN);
     number_or(s, &f->inherited_error, -1, NAN);
+    number_or(s, &f->slab_error, -1, NAN);
 }
 
 /* ---- the state ---- */

@@ -83,6 +83,7 @@ struct rc_yield_is {
     bool pressed; /* a load was solved: the next contact starts from its pressure */
     bool stopped; /* a contact stopped short                                                  */
     bool moved;   /* the heights have changed */
+    bool paired;  /* pairs of slabs have the mean of their strain */
 };
 
 struct rc_yield_solver {

@@ -529,6 +529,61 @@ shakedown(void **state)
 
 /* ---- the estimate ---- */
 
+/* The error of the slabs, against slabs a quarter as thick, is at most its estimate. It is unknown where few of
+ * them yield. */
+static void
+tells_slabs(void **state)
+{
+    enum {
+        SIDE = 48,
+        SLABS = 11,
+        FINE = 4 * SLABS
+    };
+    const struct rc_shape shape = {SIDE, SIDE, 1, 1};
+    double thickness[SLABS], fine[FINE], *h = malloc(SIDE * SIDE * sizeof *h);
+    const struct rc_yield_depths stack = {.slabs = SLABS, .thickness = thickness};
+
+    (void)state;
+    for (size_t k = 0; k < SLABS; k++)
+        thickness[k] = 0.5 * pow(1.25, (double)k);
+    rc_yield_solver_stack(&stack, FINE, fine);
+    for (uint64_t q = 0; q < thorough(30, 3); q++) {
+        uint64_t seed = 30 + q;
+        const struct rc_selfaffine rough = {.hurst = 0.5 + 0.4 * (random_number(&seed) + 0.5),
+                                            .rms_slope = 0.1 + 0.1 * (random_number(&seed) + 0.5),
+                                            .short_cut = 4 + 4 * (random_number(&seed) + 0.5),
+                                            .rolloff = 24,
+                                            .seed = 900 + q};
+        const double yield = 0.03 + 0.02 * (random_number(&seed) + 0.5),
+                     load = SIDE * SIDE * yield * (0.2 + 0.3 * (random_number(&seed) + 0.5));
+        struct rc_yield_problem problem = {
+            .contact = {.boundary = RC_PERIODIC, .pair.one.nu = 0.3, .tol = 1e-4},
+            .law = {.stress = yield, .modulus = 0.02 * (random_number(&seed) + 0.5)},
+            .slabs = SLABS,
+            .thickness = thickness,
+            .increments = 24};
+        struct rc_yield_solver *plastic, *exact;
+        double off, told, depth;
+
+        assert_int_equal(rc_synth_selfaffine(&shape, &rough, h, NULL), RC_OK);
+        plastic = plastic_new(shape, h, problem);
+        told = pressed(plastic, load)->slab_error;
+        depth = plastic->figures.depth;
+        problem.slabs = FINE;
+        problem.thickness = fine;
+        exact = plastic_new(shape, h, problem);
+        (void)pressed(exact, load);
+        off = distance(SIDE * SIDE, rc_solver_pressure(plastic->solver),
+                       rc_solver_pressure(exact->solver));
+        print_message("slabs: yield to %.1f nodes, error %.2e, estimate %.2f of it\n", depth, off,
+                      told / off);
+        assert_true(isnan(told) ? depth < 5 : told > off && told < 6 * off);
+        rc_yield_solver_free(plastic);
+        rc_yield_solver_free(exact);
+    }
+    free(h);
+}
+
 static void
 estimate(void **state)
 {
@@ -1069,7 +1124,7 @@ chooses(void **state)
     takes(0);
 }
 
-/* The same with a second run in half the increments. */
+/* The same as `chooses` with a second run in half the increments. */
 static void
 has_companion(void **state)
 {
@@ -1119,6 +1174,7 @@ main(void)
         cmocka_unit_test(free_maps_of_few_nodes),
         cmocka_unit_test(free_maps),
         cmocka_unit_test(shakedown),
+        cmocka_unit_test(tells_slabs),
         cmocka_unit_test(estimate),
         cmocka_unit_test(inherits),
         cmocka_unit_test(goes_on),

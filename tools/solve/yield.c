@@ -387,6 +387,13 @@ warn_of_slabs(struct run *run, const char *where, const struct rc_yield_load *f)
         bottom += own.found->thickness[k];
         within += above < f->depth;
     }
+    if (f->slab_error > goal(run))
+        course_warn(
+            &run->d.course, "slabs that are too thick",
+            "%s: the thickness of its slabs changes the pressure by about %.2g %%, above %.2g %%: "
+            "give --slabs %.0f",
+            where, 100 * f->slab_error, 100 * goal(run),
+            ceil((double)own.found->slabs * sqrt(f->slab_error / goal(run))));
     if (f->max_strain == 0 && run->solution.contact.load > 0)
         course_warn(
             &run->d.course, "the voxels do not resolve the first yield",
@@ -526,9 +533,10 @@ report(struct report *r, const struct run *run)
     report_number(r, "yield", wanted ? rc_yield_law_stress(&own.law, 0) : NAN, "Pa");
     report_number(r, "hardening", wanted && own.law.points == 0 ? own.law.modulus : NAN, "Pa");
     report_number(r, "increments", run->solution.increments, NULL);
-    report_named(r, of_volume,
-                 "applications slabs plastic_depth plastic_volume max_plastic_strain "
-                 "plastic_work max_pressure_mean4");
+    report_named(
+        r, of_volume,
+        "applications slabs slab_error_estimate plastic_depth plastic_volume max_plastic_strain "
+        "plastic_work max_pressure_mean4");
     report_named(r, of_stress, "max_mises_over_yield max_mises_depth");
 }
 
