@@ -46,6 +46,9 @@ static const double lag_least = 1e-3;
  * applications, double 0.9 times, with errors up to 5 times as large (23 lists of loads of
  * bench/constants.py). */
 static const double for_later = 0.7;
+/* The elastic Mises stress over the yield stress from which on the first load has no elastic trials: a ball
+ * yields from an eighth of such a load on, and rough bodies sooner. */
+static const double beyond = 2;
 /* The increments of the next try over those of the last one: the first factor times error over goal,
  * within bounds. The second line is for a third try, whose error is known better. Not sensitive: half
  * and double of each number change the applications by at most 5 % (23 lists of loads of
@@ -104,6 +107,7 @@ struct yield {
     struct tries tries;
     enum stage stage;
     enum rc_status reached; /* status of the elastic contact */
+    bool far;               /* the first load that yields is far above the first yield */
     bool travels, moved;    /* the heights may change; they have changed since the last load */
     struct rc_yield_figures figures;
 };
@@ -224,6 +228,7 @@ make(struct yield *y, struct rc_err *err)
     if ((y->plastic = rc_yield_solver_new(&y->base.shape, y->h, &problem, err)) == NULL)
         return RC_FAIL;
     y->plastic->asked.travels = y->travels;
+    y->plastic->asked.yields = y->far;
     y->stage = VOLUME;
     return RC_OK;
 }
@@ -512,6 +517,7 @@ look_inside(struct yield *y, struct rc_err *err)
         return status;
     if (y->depths.slabs == 0)
         return y->reached;
+    y->far = y->depths.most > beyond;
     y->stage = y->plan.largest > y->plan.load ? LARGEST : MAKE;
     return y->stage == LARGEST && set_elastic(y, y->plan.largest, err) != RC_OK ? RC_FAIL : RC_MORE;
 }

@@ -115,7 +115,8 @@ exchange_figures(struct rc_yield_solver *p, struct rc_state *s)
     rc_state_count(s, &p->run.increment, p->asked.increments + 1);
     RC_STATE_COUNTS(s, &p->run.trial, &p->run.taken, &f->applications);
     RC_STATE_FLAGS(s, &p->is.elastic, &p->errors.few, &p->asked.once, &p->asked.thorough,
-                   &p->asked.follows, &p->is.alone, &p->is.stopped, &p->is.pressed);
+                   &p->asked.follows, &p->is.alone, &p->is.stopped, &p->is.pressed,
+                   &p->asked.yields);
     RC_STATE_SIZES(s, &p->way.start, &p->way.low, &p->errors.kept, &p->way.from, &p->way.to,
                    &p->way.set, &p->errors.worst, &f->lag, &f->iteration_error);
     rc_state_number(s, &p->way.high, p->way.low);

@@ -1076,6 +1076,11 @@ rc_yield_solver_set_load(struct rc_yield_solver *p, double load, struct rc_err *
     p->is.stopped = p->is.elastic = p->asked.once = false;
     p->figures = (struct rc_yield_load){0};
     p->stage = RC_YIELD_PROBE;
+    if (p->asked.yields && p->way.from == 0 && rc_voxels_count(&p->voxels) == 0 &&
+        !in_one(&p->asked)) {
+        begin_increments(p, p->asked.increments, 0);
+        p->errors.few |= p->asked.increments < FEW;
+    }
     rc_yield_solver_solve_to(
         p, fmin(p->asked.tol, kept_goal / (double)(p->run.taken + p->asked.increments)));
     if (!p->asked.follows)

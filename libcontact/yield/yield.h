@@ -46,6 +46,7 @@ struct rc_yield_asked {
     bool thorough;     /* increments also for little flow */
     bool follows;      /* the load is one more increment of the last one, on other heights */
     bool travels;      /* such loads may come */
+    bool yields;       /* the first load is far above the first yield: it needs no elastic trials */
     size_t increments; /* of a load with flow */
     double tol;        /* of the contacts */
     double lag;        /* allowed */

@@ -1124,6 +1124,50 @@ chooses(void **state)
     takes(0);
 }
 
+/* A first load far above the first yield has no elastic trials, which would begin at the same load: the same
+ * pressure in three applications less. */
+static void
+begins_at_once(void **state)
+{
+    const struct rc_shape shape = {KEPT, KEPT, 1, 1};
+    const struct rc_selfaffine rough = {
+        .hurst = 0.8, .rms_slope = 0.2, .short_cut = 5, .rolloff = 12, .seed = 9};
+    const double n = KEPT * KEPT, load = 0.02 * n;
+    struct rc_yield_problem problem = {
+        .contact = {.boundary = RC_PERIODIC, .pair.one.nu = 0.3, .tol = 1e-4},
+        .law = {.stress = 0.02, .modulus = 0.05},
+        .increments = 16,
+        .lag = 0.01};
+    double h[KEPT * KEPT];
+    const struct rc_yield_figures *f;
+    struct rc_yield_solver *plastic;
+    struct rc_model *m;
+    struct rc_err err;
+
+    (void)state;
+    assert_int_equal(rc_synth_selfaffine(&shape, &rough, h, NULL), RC_OK);
+    m = model_new(shape, h, problem);
+    assert_int_equal(set_load(m, load), RC_MORE);
+    while (rc_model_step(m, &err) == RC_MORE)
+        ;
+    assert_int_equal(rc_model_look(m, NULL, &err), RC_OK);
+    f = rc_yield_result(m);
+    problem.slabs = f->slabs;
+    problem.thickness = f->thickness;
+    problem.contact.tol = 1e-5; /* of each contact in the model */
+    plastic = plastic_new(shape, h, problem);
+    (void)pressed(plastic, load);
+    print_message("at once: %zu applications, with elastic trials %zu, pressure %.1e off\n",
+                  f->last.applications, plastic->figures.applications,
+                  distance(KEPT * KEPT, rc_solver_pressure(rc_model_solver(m)),
+                           rc_solver_pressure(plastic->solver)));
+    assert_true(f->last.applications + 3 <= plastic->figures.applications);
+    assert_true(distance(KEPT * KEPT, rc_solver_pressure(rc_model_solver(m)),
+                         rc_solver_pressure(plastic->solver)) < 1e-3);
+    rc_yield_solver_free(plastic);
+    rc_model_free(m);
+}
+
 /* The same as `chooses` with a second run in half the increments. */
 static void
 has_companion(void **state)
@@ -1182,6 +1226,7 @@ main(void)
         cmocka_unit_test(is_lean),
         cmocka_unit_test(elastic_first),
         cmocka_unit_test(chooses),
+        cmocka_unit_test(begins_at_once),
         cmocka_unit_test(has_companion),
     };
 
