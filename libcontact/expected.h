@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
  * The measured numbers of forecasts (rc_solver_expect, rc_model_plan and others): work, in convolutions or
- * applications, and seconds. bench/forecast.sh compares them with runs. Seconds are those of 2 cores of an
+ * applications, and seconds. tests/long/pipe_forecasts.sh compares them with runs, and bench/forecast.sh on larger
+ * maps. Seconds are those of 2 cores of an
  * Intel Xeon, 2026-11-28; a caller scales them to its machine. Internal: never installed.
  */
 #ifndef RC_EXPECTED_H
@@ -20,11 +21,22 @@
 /* ---- work of other models, in convolutions unless stated; seconds in those of a sum ---- */
 
 #define RC_STIFFNESS_WORK 6
-#define RC_LAYER_TABLES 6    /* the spectra of layers take as long as so many sums  */
-#define RC_ADHESION_WORK 40  /* a first state on 128 x 128 nodes; grows as n^(1/4)  */
-#define RC_ADHESION_PASSES 4 /* seconds of a step                                   */
-/* A body that yields: applications after the increments and of one increment, convolutions of a slab and
+#define RC_LAYER_TABLES 10 /* the spectra of layers take as long as so many sums */
+#define RC_LINE_TABLES 5   /* the same for the coefficients where one axis repeats */
+/* A first state on 128 x 128 periodic nodes, which grows as n^(1/4); where the cohesive length is below
+ * RC_ADHESION_STIFF nodes; times on a free map; seconds of a convolution, in those of a sum. */
+#define RC_ADHESION_WORK 25
+#define RC_ADHESION_STIFF_WORK 60
+#define RC_ADHESION_STIFF 1.5
+#define RC_ADHESION_FREE 1.3
+#define RC_ADHESION_PASSES 4
+/* A body with a yield stress: seconds of the search for the largest stress, in those of a sum: free,
+ * periodic. One that yields: applications after the increments and of one increment, convolutions of a slab and
  * application, and its seconds: free, periodic. */
+#define RC_YIELD_LOOK                                                                              \
+    {                                                                                              \
+        45, 16                                                                                     \
+    }
 #define RC_YIELD_LAST 10
 #define RC_YIELD_INCREMENT 2.2
 #define RC_YIELD_SLAB 3.3
@@ -32,10 +44,14 @@
     {                                                                                              \
         3.6, 5.1                                                                                   \
     }
-#define RC_CREEP_STEP 4.4     /* a step in time                                       */
-#define RC_SLIDE_CONTACT 5.5  /* a contact of a sliding body after the first one      */
+#define RC_CREEP_STEP 4.4    /* a step in time                                       */
+#define RC_CREEP_APPROACH 10 /* the same, at a given approach                        */
+#define RC_SLIDE_CONTACT 3   /* a contact of a sliding body                          */
+#define RC_SLIDE_FREE 12     /* in addition, on a free map, and where it repeats     */
+#define RC_SLIDE_PERIODIC 3
 #define RC_SLIDE_PASSES 1.6   /* seconds                                              */
-#define RC_WEAR_BY_NODE 3     /* times a contact of a uniform coefficient; 2 to 6     */
+#define RC_WEAR_CONTACT 0.7   /* of a first contact, from the pressure of the last    */
+#define RC_WEAR_BY_NODE 1.5   /* times a contact of a uniform coefficient; 1 to 6     */
 #define RC_RUBBING_PASSES 2   /* seconds of a contact of two rough bodies */
 #define RC_ROLLING_STEP 25    /* a step of a path                                     */
 #define RC_ROLLING_STEADY 29  /* a steady state to 1e-2; a third more for each decade */

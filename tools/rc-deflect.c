@@ -189,7 +189,7 @@ show_plan(struct tool *t, struct report *r, const struct rc_grid *p,
 
     plan_say(&plan, "kernel", "%s", rc_conv_choice(rc_shape_of(p), options, &reason));
     plan_effects(&plan, effects(options, layers));
-    plan_end(&plan, 1, "", rc_conv_seconds(rc_shape_of(p), options),
+    plan_end(&plan, 1, rc_conv_seconds(rc_shape_of(p), options),
              tool_memory_with(memory_by(&d, options->engine)));
 }
 

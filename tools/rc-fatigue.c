@@ -583,12 +583,12 @@ do_depth(struct run *run, struct rc_fatigue *f, const struct rc_shape *result, s
     }
 }
 
-/* Seconds of all depths, from a trial of one; NAN: the memory does not suffice. */
+/* Processor seconds of a thread for all depths, from a trial of one; NAN: the memory does not suffice. */
 static double
 expect(struct run *run, const struct rc_shape *result)
 {
     const struct rc_grid *first = run->position[0].p;
-    double began = tool_now(), made;
+    double began = tool_worked(), made;
     struct rc_fatigue *f;
 
     if (run->needs > tool_memory_left(&run->t))
@@ -596,13 +596,13 @@ expect(struct run *run, const struct rc_shape *result)
     f = tool_made(&run->t, first, rc_fatigue_new(rc_shape_of(first), &run->problem, &run->t.err));
     for (int c = 0; c < RC_FATIGUES; c++)
         run->frame[c] = wanted(c) ? new_frame(run, result, c) : NULL;
-    made = tool_now();
+    made = tool_worked();
     do_depth(run, f, result, run->depths.n / 2);
     tool_progress_end(&run->t);
     for (int c = 0; c < RC_FATIGUES; c++)
         rc_grid_free(run->frame[c]);
     rc_fatigue_free(f);
-    return made - began + (double)run->depths.n * (tool_now() - made);
+    return (made - began + (double)run->depths.n * (tool_worked() - made)) / (double)run->t.threads;
 }
 
 static void
@@ -621,7 +621,7 @@ show_plan(struct run *run, const struct rc_shape *shape)
     plan_say(&plan, "depths", "%zu, %g to %g m", d->n, d->v[0], d->v[d->n - 1]);
     plan_say(&plan, "histories", "%zu at each depth", r.nx * r.ny);
     plan_effects(&plan, effects(run));
-    plan_end(&plan, NAN, "", seconds, memory);
+    plan_end(&plan, NAN, seconds, memory);
 }
 
 static void

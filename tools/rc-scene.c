@@ -615,8 +615,7 @@ show_plan(struct run *run, const struct rc_grid *g, size_t step)
     problem.pair.one.layers = 0;
     tool_must(&run->t, g, rc_solver_expect(rc_shape_of(g), &problem, &expected, &run->t.err));
     plan_say(&plan, "contacts", "%zu", contacts);
-    plan_end(&plan, expected.convolutions * (double)contacts, "",
-             expected.seconds * (double)contacts,
+    plan_end(&plan, expected.convolutions * (double)contacts, expected.seconds * (double)contacts,
              tool_memory_with(expected.memory +
                               12 * rc_grid_nodes(g) * sizeof *g->v)); /* maps of three contacts */
 }

@@ -1512,7 +1512,10 @@ rc_adhesion_expect(const struct rc_shape *shape, const struct rc_adhesion_proble
     if (rc_adhesion_check(shape, problem, &scales, err) != RC_OK)
         return RC_FAIL;
     *expected = (struct rc_expected){
-        .convolutions = RC_ADHESION_WORK * pow(nodes / 16384, 0.25),
+        .convolutions = (scales.cohesive_nodes < RC_ADHESION_STIFF ? RC_ADHESION_STIFF_WORK
+                                                                   : RC_ADHESION_WORK) *
+                        rc_by_padding(problem->contact.boundary, RC_ADHESION_FREE, 1) *
+                        pow(nodes / 16384, 0.25),
         .memory = (size_t)((rc_by_padding(problem->contact.boundary, bytes[0], bytes[1]) + mapped) *
                            nodes)};
     expected->seconds =

@@ -20,11 +20,11 @@
 
 enum {
     STEPS = 100, /* of the iteration, at most */
-    TIMES = 64,  /* time steps, at most, if the caller gives no number */
-    DOUBLED = 8  /* the usual number of time steps then, of 60 random problems */
+    TIMES = 64   /* time steps, at most, if the caller gives no number */
 };
 /* Part of the tolerance for the mismatch in each run, if the time steps are doubled until it is met. */
 static const double own_part = 0.25;
+static const double usual_tol = 1e-3;
 
 /* Heat is constant in each of `n` time steps; step `at` is being solved. Number k of a body: its temperature
  * k steps after one in which heat flows. */
@@ -319,6 +319,21 @@ rc_heat_free(struct rc_heat *h)
     free(h);
 }
 
+/* The usual number of time steps if the tolerance determines it, of 108 contacts. A contact that has become
+ * steady needs few. The others need 1.6 times as many for each decade of the tolerance. */
+static double
+usual_steps(const struct rc_shape *shape, const struct rc_heat_problem *p)
+{
+    const double patch = 0.05; /* area of the largest patch over that of the map */
+    const double few = 4, long_time = 3;
+    const double steady = patch * (double)(shape->nx * shape->ny) * shape->dx * shape->dy /
+                          fmin(p->body[0].diffusivity, p->body[1].diffusivity);
+    const double tol = p->tol > 0 ? p->tol : usual_tol;
+
+    return p->time > long_time * steady ? few
+                                        : fmin(few * pow(1.6, fmax(log10(1e-2 / tol), 0)), TIMES);
+}
+
 enum rc_status
 rc_heat_expect(const struct rc_shape *shape, const struct rc_heat_problem *p, size_t depths,
                struct rc_expected *expected, struct rc_err *err)
@@ -326,7 +341,7 @@ rc_heat_expect(const struct rc_shape *shape, const struct rc_heat_problem *p, si
     const struct rc_conv_options sum = {.boundary = p->boundary, .threads = p->threads};
     const bool matched = p->partition == RC_HEAT_MATCHED;
     const bool doubles = matched && p->time > 0 && p->time_steps == 0;
-    const double nodes = (double)(shape->nx * shape->ny), times = doubles ? DOUBLED
+    const double nodes = (double)(shape->nx * shape->ny), times = doubles ? usual_steps(shape, p)
                                                                   : matched && p->time > 0
                                                                       ? (double)p->time_steps
                                                                       : 1;
@@ -370,7 +385,7 @@ rc_heat_new(const struct rc_shape *shape, const struct rc_heat_problem *problem,
                            shape->ny);
     h->shape = *shape;
     h->problem = *problem;
-    h->asked = problem->tol > 0 ? problem->tol : 1e-3;
+    h->asked = problem->tol > 0 ? problem->tol : usual_tol;
     h->doubling.on =
         problem->time > 0 && problem->time_steps == 0 && problem->partition == RC_HEAT_MATCHED;
     h->problem.tol = h->doubling.on ? own_part * h->asked : h->asked;

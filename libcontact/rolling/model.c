@@ -1041,7 +1041,7 @@ plan(const struct rc_model *m, const struct rc_point *most, struct rc_expected *
     const struct rolling *f = (const struct rolling *)m;
     const struct rc_rolling_problem *o = &f->problem;
     const struct rc_point inner = rc_point_for(m->inner, most);
-    const double below = fmax(log10(1e-2 / o->law.tol), 0);
+    const double below = fmax(log10(1e-2 / o->law.tol), -1);
     const double work = o->path
                             ? RC_ROLLING_STEP * (1 + below / 2)
                             : (o->force ? RC_ROLLING_FORCE : RC_ROLLING_STEADY) * (1 + below / 3);

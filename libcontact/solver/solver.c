@@ -338,10 +338,12 @@ rc_solver_expect(const struct rc_shape *shape, const struct rc_problem *problem,
         some *= 1.4;
     if (problem->discretization)
         some += 5;
-    *expected = (struct rc_expected){.convolutions = some,
-                                     .seconds = (some + (layered ? RC_LAYER_TABLES : 0)) *
-                                                rc_operator_seconds(shape, &options),
-                                     .memory = memory(shape, problem, engine, method)};
+    *expected = (struct rc_expected){
+        .convolutions = some,
+        .seconds = (some + (layered ? RC_LAYER_TABLES : 0) +
+                    (rc_repeats(problem->boundary) == 1 ? RC_LINE_TABLES : 0)) *
+                   rc_operator_seconds(shape, &options),
+        .memory = memory(shape, problem, engine, method)};
     return RC_OK;
 }
 

@@ -799,11 +799,14 @@ progress(const struct rc_model *m, struct rc_loops *l)
     rc_loops_add(l, "step", NULL, (double)v->f.increments, NAN);
 }
 
-/* Steps of a point in both runs, of a part of the whole history. */
+/* Steps of a point in both runs, of a part of the whole history. The error of the usual number is `usual`; it
+ * decreases as the square of their number. */
 static double
 steps_of(const struct rc_viscoelastic_problem *a, double quickest, double part)
 {
-    const double n = (double)(a->increments > 0 ? a->increments : USUAL);
+    const double usual = 6e-4;
+    const double n =
+        a->increments > 0 ? (double)a->increments : (double)USUAL * fmax(sqrt(usual / a->tol), 1);
     double decades = 0;
 
     if (!(a->longest > 0))
@@ -827,7 +830,8 @@ plan(const struct rc_model *m, const struct rc_point *most, struct rc_expected *
         return RC_FAIL;
     one = expected->seconds / expected->convolutions;
     expected->convolutions = part * expected->convolutions +
-                             RC_CREEP_STEP * steps_of(&v->problem, v->material.quickest, part);
+                             (rc_point_has(most, RC_APPROACH) ? RC_CREEP_APPROACH : RC_CREEP_STEP) *
+                                 steps_of(&v->problem, v->material.quickest, part);
     expected->seconds = expected->convolutions * one;
     /* with the copy of the state at the last kept point */
     expected->memory += v->n * (2 * maps + MAPS + 2 * RUNS + 4) * sizeof(double);

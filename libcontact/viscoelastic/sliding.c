@@ -613,7 +613,7 @@ plan(const struct rc_model *m, const struct rc_point *most, struct rc_expected *
     const struct slide *s = (const struct slide *)m;
     const struct rc_point inner = rc_point_for(m->inner, most);
     const double start = 0.7; /* error of the pressure of the first contact, times tan d */
-    double steepest = 0, contacts;
+    double steepest = 0, contacts, more;
 
     if (rc_model_plan(m->inner, &inner, expected, err) != RC_OK)
         return RC_FAIL;
@@ -622,9 +622,10 @@ plan(const struct rc_model *m, const struct rc_point *most, struct rc_expected *
         steepest = fmax(steepest, cimag(j) / creal(j));
     }
     contacts = fmax(log(s->problem.tol / (start * steepest)) / log(tan(atan(steepest) / 2)), 0);
-    expected->seconds *=
-        RC_SLIDE_PASSES * (1 + contacts * RC_SLIDE_CONTACT / expected->convolutions);
-    expected->convolutions += contacts * RC_SLIDE_CONTACT;
+    more = contacts * RC_SLIDE_CONTACT +
+           rc_by_padding(s->problem.boundary, RC_SLIDE_FREE, RC_SLIDE_PERIODIC);
+    expected->seconds *= RC_SLIDE_PASSES * (1 + more / expected->convolutions);
+    expected->convolutions += more;
     /* measured; the plan of the inner model has some of the maps */
     expected->memory += (rc_has_mean(s->problem.boundary) ? 23 : 1) * s->n * sizeof(double);
     return RC_OK;

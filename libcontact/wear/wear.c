@@ -960,8 +960,8 @@ progress(const struct rc_model *m, struct rc_loops *l)
     rc_loops_add(l, "step", NULL, (double)v->f.steps, NAN);
 }
 
-/* Measured on rough maps and balls: 4 steps a decade from the first one on, two contacts a step, and the last
- * steps. */
+/* Measured on rough maps and balls: 4 steps a decade from the first one on, contacts of these, and the last
+ * steps; more of all for a smaller error. */
 static enum rc_status
 plan(const struct rc_model *m, const struct rc_point *most, struct rc_expected *expected,
      struct rc_err *err)
@@ -972,9 +972,9 @@ plan(const struct rc_model *m, const struct rc_point *most, struct rc_expected *
                          v->law.estar / m->shape.dx;
     const double steps = 4 * fmax(log10(nodes / first_step), 0) + 2;
     const double contacts = !(most->at[RC_DISTANCE] > 0) ? 1
-                            : v->law.energy != NULL
-                                ? 2
-                                : 1 + 2 * steps + fewest * fmax(1, sqrt(usual_tol / v->law.tol));
+                            : v->law.energy != NULL      ? 2
+                                                    : RC_WEAR_CONTACT * (1 + 2 * steps + fewest) *
+                                                          pow(fmax(1, usual_tol / v->law.tol), 0.3);
     const double work = contacts * (v->rates.part != NULL ? RC_WEAR_BY_NODE : 1);
 
     if (rc_model_plan(m->inner, &inner, expected, err) != RC_OK)

@@ -440,17 +440,23 @@ plan(const struct rc_model *m, const struct rc_point *most, struct rc_expected *
                               ? volume_bytes(&y->problem, &y->base.shape, &y->depths)
                               : 0;
     const double increments = (double)(y->problem.increments > 0 ? y->problem.increments : FIRST);
-    static const double sums[] = RC_YIELD_SUMS;
+    static const double sums[] = RC_YIELD_SUMS, look[] = RC_YIELD_LOOK;
+    const double looked = rc_by_padding(y->problem.contact.boundary, look[0], look[1]);
+    const double threads = (double)(y->problem.contact.threads > 0 ? y->problem.contact.threads
+                                                                   : rc_threads_available());
     const double applied = y->depths.slabs > 0
                                ? (RC_YIELD_LAST + RC_YIELD_INCREMENT * increments) *
                                      slabs_by_nodes(&y->problem, &y->base.shape, &y->depths)
                                : 0;
+    double one; /* seconds of a sum; the sums of the volume have no start of their own */
 
     if (expect_elastic(&y->base.shape, &y->problem, most->at[RC_LOAD], expected, err) != RC_OK)
         return RC_FAIL;
-    expected->seconds *=
-        1 + applied * rc_by_padding(y->problem.contact.boundary, sums[0], sums[1]) *
-                with_lines(&y->base.shape, y->problem.contact.boundary) / expected->convolutions;
+    one = expected->seconds / expected->convolutions;
+    expected->seconds += looked * one;
+    expected->seconds += applied * (one - 2 * RC_SUM_START / threads) *
+                         rc_by_padding(y->problem.contact.boundary, sums[0], sums[1]) *
+                         with_lines(&y->base.shape, y->problem.contact.boundary);
     expected->convolutions += RC_YIELD_SLAB * applied;
     expected->memory = volume > expected->memory ? volume : expected->memory;
     return RC_OK;

@@ -202,8 +202,10 @@ claim "  where k p is even in the end" bash -c '
         awk -F, "{ for (i = 1; i <= 32; i++) s[int((i - 1) / 8) % 2] += \$i } END { q = s[1] / s[0]; exit !(q > 3.98 && q < 4.02) }"'
 claim "  the plan says what it costs" says 'coefficients +by node: a contact takes about' rc-wear --dry-run --distance 1m phases.rcg
 forecast() { "$@" --dry-run | sed -n 's/.*about \([0-9.e+]*\) convolutions.*/\1/p'; }
-near "$(forecast rc-wear --distance 1000m phases.rcg)" "$(awk "BEGIN { print 3 * $(forecast $wear --distance 1000m pressed.rcg) }")" 0.01 \
-    "  and three times the convolutions of a uniform coefficient"
+near "$(forecast rc-wear --distance 1000m phases.rcg)" "$(awk "BEGIN { print 1.5 * $(forecast $wear --distance 1000m pressed.rcg) }")" 0.01 \
+    "  and one and a half times the convolutions of a uniform coefficient"
+between 0.5 "$(awk "BEGIN { print $(forecast rc-wear --distance 1000m phases.rcg) / $(column convolutions 1 phases.tsv) }")" 2 \
+    "  within a factor of 2 of the run"
 refuses 2 'leave out --coefficient' "a map and a number" "$wear --distance 1m -o x.rcg phases.rcg"
 refuses 1 "value -?nan at column 0, row 0" "a map without a number" "rc-wear --distance 1m -o x.rcg <(coefficient '\"nan\"')"
 refuses 1 'value -1' "a coefficient below 0" "rc-wear --distance 1m -o x.rcg <(coefficient '\$i ? 1e-15 : -1')"

@@ -70,7 +70,6 @@ const struct effect solve_effect_settling = {
     .axis = RC_TIME,
     .list = &args.time,
     .noun = "time",
-    .after = " for the first time",
     .outer = put_around,
     .keys = set_keys,
     .frames = (const char *const[]){"settlement", NULL},

@@ -44,14 +44,14 @@ plan_effects(const struct plan *p, const struct effect_state *effects)
 }
 
 void
-plan_end(const struct plan *p, double convolutions, const char *what, double seconds, size_t memory)
+plan_end(const struct plan *p, double convolutions, double seconds, size_t memory)
 {
     char work[128] = "", time[64] = "unknown time, because the memory does not suffice";
 
     report_forecast(p->report, convolutions, seconds, memory);
     report_finish_row(p->report);
     if (!isnan(convolutions))
-        snprintf(work, sizeof work, "%.0f convolutions%s, ", convolutions, what);
+        snprintf(work, sizeof work, "%.0f convolutions, ", convolutions);
     if (!isnan(seconds))
         snprintf(time, sizeof time, "%.2g s with %zu thread%s", seconds, p->tool->threads,
                  p->tool->threads == 1 ? "" : "s");

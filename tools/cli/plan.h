@@ -23,7 +23,6 @@ void plan_say(const struct plan *plan, const char *name, const char *format, ...
 void plan_effects(const struct plan *plan, const struct effect_state *effects);
 /* The cost: equivalents of a convolution (NAN: unknown, or there are none), s (NAN: unknown), bytes of the
  * process. what: more words about the convolutions (""). */
-void plan_end(const struct plan *plan, double convolutions, const char *what, double seconds,
-              size_t memory);
+void plan_end(const struct plan *plan, double convolutions, double seconds, size_t memory);
 
 #endif

@@ -158,6 +158,12 @@ tool_now(void)
     return (double)ts.tv_sec + 1e-9 * (double)ts.tv_nsec;
 }
 
+double
+tool_worked(void)
+{
+    return (double)clock() / CLOCKS_PER_SEC;
+}
+
 /* The other process has ended: later work of this process, such as a picture of results, does not add to its
  * memory. */
 void

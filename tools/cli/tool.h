@@ -414,6 +414,8 @@ size_t tool_counted_memory(struct tool *tool);
 
 /* Seconds of a monotonic clock. */
 double tool_now(void);
+/* Processor seconds of all threads of this process so far; other processes do not add to them. */
+double tool_worked(void);
 /* Reports the peak, in bytes, of a process that this one started and that has ended: the kernel's, and the
  * counted one (0: counted here). */
 void tool_memory_beside(struct tool *tool, size_t bytes, size_t counted);

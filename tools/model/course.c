@@ -103,19 +103,20 @@ course_peak(size_t bytes)
 }
 
 /* Seconds of a small contact on this machine over the expected ones, the least of 3 to 20 tries, which
- * together take about `work` seconds; 1: memory is short. */
+ * together take about `work` seconds; 1: memory is short. They are processor seconds of one thread, so that
+ * other processes do not change them: in wall clock, on a busy machine, the threads wait for each other. */
 static double
-slowness(const struct tool *t, double work)
+slowness(double work)
 {
     enum {
         SIDE = 256,
         FEWEST = 3,
         TRIES = 20
     };
-    const double end = tool_now() + work;
+    const double end = tool_worked() + work;
     const struct rc_shape shape = {SIDE, SIDE, 1, 1};
     struct rc_problem problem = {
-        .boundary = RC_PERIODIC, .pair.estar = 1, .load = 300, .tol = 1e-4, .threads = t->threads};
+        .boundary = RC_PERIODIC, .pair.estar = 1, .load = 300, .tol = 1e-4, .threads = 1};
     double *h = malloc((size_t)SIDE * SIDE * sizeof *h), least = INFINITY;
     struct rc_solver *s = NULL;
     struct rc_expected e;
@@ -124,13 +125,13 @@ slowness(const struct tool *t, double work)
         h[k] = cos(0.4 * (double)(k % SIDE)) * cos(0.1 * (double)(k / SIDE)) / 10;
     if (h != NULL && rc_solver_expect(&shape, &problem, &e, NULL) == RC_OK)
         s = rc_solver_new(&shape, h, &problem, NULL);
-    for (int k = 0; s != NULL && k < TRIES && (k < FEWEST || tool_now() < end) &&
+    for (int k = 0; s != NULL && k < TRIES && (k < FEWEST || tool_worked() < end) &&
                     rc_solver_set_load(s, 300 + k, 0, NULL) == RC_OK;
          k++) {
-        const double start = tool_now();
+        const double start = tool_worked();
         while (rc_solver_step(s) == RC_MORE)
             continue;
-        least = fmin(least, (tool_now() - start) / rc_solver_convolutions(s));
+        least = fmin(least, (tool_worked() - start) / rc_solver_convolutions(s));
     }
     rc_solver_free(s);
     free(h);
@@ -138,16 +139,16 @@ slowness(const struct tool *t, double work)
 }
 
 double
-course_seconds(const struct tool *t, const struct rc_grid *g, double seconds, size_t points)
+course_seconds(const struct rc_grid *g, double seconds, size_t points)
 {
-    const double start = 0.01, each = 0.003; /* s of a process, and of a point */
-    const double node = 45e-9; /* s to read and plan, and for the figures and frames of a point */
+    const double start = 0.006, each = 0.0005; /* s of a process with its plans, and of a point */
+    const double node = 90e-9; /* s to read and plan, and for the figures and frames of a point */
     const double work = seconds + node * (double)rc_grid_nodes(g) * (double)(points + 1);
     static double factor;
 
     /* The speed of the machine hardly matters for a shorter work than the start of the process. */
     if (factor == 0 && work > start / 4)
-        factor = slowness(t, work);
+        factor = slowness(work);
     return (factor > 0 ? factor : 1) * work + start + each * (double)points;
 }
 
@@ -155,8 +156,8 @@ void
 course_plan(const struct plan *plan, const struct rc_grid *g, struct rc_expected expected,
             size_t points)
 {
-    plan_end(plan, expected.convolutions, "",
-             course_seconds(plan->tool, g, expected.seconds, points), course_peak(expected.memory));
+    plan_end(plan, expected.convolutions, course_seconds(g, expected.seconds, points),
+             course_peak(expected.memory));
 }
 
 enum rc_status

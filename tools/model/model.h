@@ -99,7 +99,7 @@ size_t course_peak(size_t bytes);
 /* Seconds of a run on this machine, for --dry-run: its expected seconds in the units of rc_solver_expect,
  * times the measured over the expected seconds of a small contact; with files, figures and frames of the
  * points. */
-double course_seconds(const struct tool *t, const struct rc_grid *g, double seconds, size_t points);
+double course_seconds(const struct rc_grid *g, double seconds, size_t points);
 /* Ends the plan of a map that takes so much for so many points. */
 void course_plan(const struct plan *plan, const struct rc_grid *g, struct rc_expected expected,
                  size_t points);

@@ -295,7 +295,9 @@ follow(struct slip_run *run)
 static struct rc_expected
 forecast(struct slip_run *run)
 {
-    const double increment = 16, passes = 2; /* convolutions of one; seconds of each, in sums */
+    const double passes = 2; /* seconds of a convolution, in sums */
+    const double tol = isnan(run->args->tol) ? 1e-4 : run->args->tol;
+    const double increment = 16 * fmax(1 + log10(1e-4 / tol) / 7, 0.3); /* convolutions of one */
     const double runs = 2 - pow(0.5, (double)run->law.fewer); /* with half of them, and a quarter */
     double work = 0;
     enum {
@@ -316,7 +318,8 @@ forecast(struct slip_run *run)
               rc_solver_expect(rc_shape_of(run->p), &contact, &solver, &run->d.t.err));
     each = solver.seconds / solver.convolutions;
     for (size_t k = 0; k < run->corners; k++)
-        work += runs * (double)run->corner[k].leg.increments * slip_passes(run);
+        if (run->alternates || !run->corner[k].silent)
+            work += runs * (double)run->corner[k].leg.increments * slip_passes(run);
     all.convolutions = work * (increment + (run->alternates ? solver.convolutions : 0));
     all.seconds = work * each * (passes * increment + (run->alternates ? solver.convolutions : 0));
     if (!run->solves)

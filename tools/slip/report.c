@@ -217,7 +217,6 @@ slip_say_plan(struct slip_run *run, const struct rc_expected *expected)
     if (run->law.fewer > 0)
         plan_say(&plan, "increments", "solved also with half of them%s, for the error",
                  run->law.fewer < RC_FEWER ? "" : " and a quarter");
-    plan_end(&plan, expected->convolutions, "",
-             course_seconds(&run->d.t, run->p, expected->seconds, 1),
+    plan_end(&plan, expected->convolutions, course_seconds(run->p, expected->seconds, 1),
              course_peak(expected->memory));
 }

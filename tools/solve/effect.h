@@ -61,8 +61,7 @@ struct effect {
     enum rc_axis axis;
     const struct numbers *list;
     void (*points)(struct run *run);
-    const char *noun;  /* of a point in --dry-run, "load" otherwise */
-    const char *after; /* to which the convolutions belong there, if there are several points */
+    const char *noun; /* of a point in --dry-run, "load" otherwise */
 
     /* Changes the contact problem of a point. */
     void (*problem)(struct run *run, struct rc_problem *problem);

@@ -295,6 +295,18 @@ set_problem(struct run *run, struct rc_problem *problem)
         problem->tol = usual * part;
 }
 
+/* The times after the begin, which take steps. */
+static double
+later(const struct run *run)
+{
+    size_t n = 0;
+
+    (void)run;
+    for (size_t k = 0; k < own.times.n; k++)
+        n += own.times.v[k] > 0;
+    return fmax((double)n, 1);
+}
+
 static struct rc_model *
 put_around(struct run *run, struct rc_model *inner)
 {
@@ -305,7 +317,7 @@ put_around(struct run *run, struct rc_model *inner)
         .share = isinf(a->e1) ? 1 : fmin(1, (1 - a->nu1 * a->nu1) / a->e1 * a->surface_estar),
         .shortest = shortest,
         .longest = args.time.v[args.time.n - 1],
-        .points = own.times.n,
+        .points = (size_t)later(run),
         .increments = own.increments};
 
     return tool_made(&run->d.t, run->g,
@@ -410,11 +422,11 @@ const struct effect solve_effect_time = {
     .list = &own.times,
     .points = leave_start_out,
     .noun = "time",
-    .after = " for each time",
     .problem = set_problem,
     .outer = put_around,
     .at_once = true,
     .expect = expect,
+    .loads = later,
     .begin = begin,
     .look = look,
     .errors = set_errors,

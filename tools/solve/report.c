@@ -292,12 +292,13 @@ solve_plan(struct run *run, const struct rc_problem *problem)
     struct plan plan;
     char what[128];
     const size_t before = course_peak(0); /* the forecast takes memory of its own */
-    double each, memory, loads = loads_by != NULL ? loads_by->loads(run) : (double)run->cases;
+    double each, memory, loads;
 
     if (plan_by != NULL)
         plan_by->plan(run, problem, &e);
     else
         tool_must(&run->d.t, g, expect(run, problem, &e, &run->d.t.err));
+    loads = loads_by != NULL ? loads_by->loads(run) : (double)run->cases;
     each = e.convolutions;
     SOLVE_EACH (run, more, work)
         each += more->work(run);
@@ -307,10 +308,7 @@ solve_plan(struct run *run, const struct rc_problem *problem)
     plan = plan_begin(&run->d.t, &run->d.report, g, rc_grid_case(g),
                       rc_boundary_word(run->physics->boundary), what);
     plan_effects(&plan, effects_of(run, why));
-    plan_end(&plan, each,
-             run->cases == 1  ? ""
-             : points != NULL ? points->after
-                              : " for the first load, fewer for the next",
-             course_seconds(&run->d.t, g, e.seconds * each / e.convolutions * loads, run->cases),
+    plan_end(&plan, each * loads,
+             course_seconds(g, e.seconds * each / e.convolutions * loads, run->cases),
              (size_t)memory);
 }

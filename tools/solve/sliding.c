@@ -238,7 +238,6 @@ const struct effect solve_effect_sliding = {
     .axis = RC_SPEED,
     .list = &args.speed,
     .noun = "speed",
-    .after = " for the first speed",
     .base = make,
     .at_once = true,
     .by_gap = true,

@@ -373,7 +373,6 @@ const struct effect solve_effect_travel = {
     .axis = RC_POSITION,
     .list = &own.positions,
     .noun = "position",
-    .after = " for the first position, 5 for the next after a short step",
     .outer = put_around,
     .loads = loads_cost,
     .bytes = bytes,

@@ -267,16 +267,17 @@ stress_report_write(struct stress_report *r, struct report *out, const struct rc
 
 /* ---- the plan ---- */
 
-/* Expected seconds for all depths, from a trial of the first depth and the middle one; NAN: the memory does
- * not suffice. */
+/* Expected seconds of all depths, from a trial of the first one, which touches all memory, and of those at a
+ * quarter and three quarters of the list. They are processor seconds of a thread. NAN: the memory does not
+ * suffice. */
 static enum rc_status
 expect(const struct tool *t, const struct rc_grid *p, const struct rc_stress_options *o,
        const struct numbers *depths, size_t memory, double *expected, struct rc_err *err)
 {
-    const double value = 12e-9; /* s to derive, count and write one */
-    const size_t n = rc_grid_nodes(p), trials = depths->n > 1 ? 2 : 1;
+    const double value = 6e-9; /* s to derive, count and write one */
+    const size_t n = rc_grid_nodes(p);
     RC_OWNED double *v = NULL;
-    double *s[RC_STRESSES], start = tool_now(), setup;
+    double *s[RC_STRESSES], start = tool_worked(), first, worked;
     struct rc_stress *stress;
     enum rc_status status = RC_OK;
 
@@ -291,13 +292,16 @@ expect(const struct tool *t, const struct rc_grid *p, const struct rc_stress_opt
         s[c] = v + (size_t)c * n;
     if ((stress = rc_stress_new(rc_shape_of(p), p->v, o, err)) == NULL)
         status = RC_FAIL;
-    setup = tool_now() - start;
-    start = tool_now();
-    for (size_t k = 0; status == RC_OK && k < trials; k++)
-        status = rc_stress_slice(stress, depths->v[k * (depths->n / 2)], s, err);
-    *expected = setup + (double)depths->n * (tool_now() - start) / (double)trials;
-    for (int c = 0; c < RC_STRESSES; c++)
-        *expected += o->wanted >> c & 1 ? value * (double)depths->n * (double)n : 0;
+    if (status == RC_OK)
+        status = rc_stress_slice(stress, depths->v[0], s, err);
+    first = tool_worked();
+    for (size_t k = 1; status == RC_OK && k < 4; k += 2)
+        status = rc_stress_slice(stress, depths->v[k * (depths->n - 1) / 4], s, err);
+    worked = first - start + (double)(depths->n - 1) * (tool_worked() - first) / 2;
+    *expected = worked / (double)t->threads;
+    for (int c = 0; status == RC_OK && c < RC_STRESSES; c++)
+        *expected +=
+            o->wanted >> c & 1 ? value * (double)depths->n * (double)rc_stress_values(stress) : 0;
     rc_stress_free(stress);
     return status;
 }
@@ -338,6 +342,6 @@ stress_report_plan(struct tool *t, struct report *r, const struct rc_grid *p,
     say_materials(&plan, o, depths);
     plan_say(&plan, "kernel", "%s", engine_of(o));
     plan_effects(&plan, effects_of(o));
-    plan_end(&plan, NAN, "", seconds, memory);
+    plan_end(&plan, NAN, seconds, memory);
     return RC_OK;
 }
