@@ -146,7 +146,7 @@ def scenes(seed, count):
             ended[told] += 1
             false[told] += flagged
         if flagged:
-            print(f'case {case}: flagged, ratio {rows[0]["slope_ratio"]:.2f}: {scene.what}')
+            print(f'case {case}: flagged, ratio {rows[0]["slope_ratio"]}: {scene.what}')
             continue
         truth = figures(scene.fine, scene.command)
         hits = []

@@ -112,6 +112,9 @@ claim "a spectrum that goes on does not" grep -q '^# grid: .*: shorter waves tha
 claim "  its figures have no bar and say why" bash -c "grep -Eq '^contact_area .* m2 +- .*no limit with the grid' fractal.txt"
 claim "  in the report too" test "$(of contact_area bar fractal.json)/$(of contact_area limit fractal.json)/$(of contact_area waves_end fractal.json)" = null/false/false
 
+claim "a SIGMA that is too large for the map is named" bash -c "
+    rc-cost --quiet --noise 60nm --resolution true.rcg -- rc-solve $contact | grep -q '^# grid: the noise is as steep as the map'"
+
 # ---- quarters ----
 
 # 4 x 4 equal bumps: each quarter has 2 x 2 of them.

@@ -52,7 +52,7 @@ scan_judge_grid(struct scan *s)
     change = s->slope[0] - s->slope[1];
     s->ratio = change / (s->slope[1] - s->slope[2]);
     if (!(s->ratio >= 0)) /* also where both do not change */
-        s->ratio = change > smooth * s->slope[0] ? INFINITY : 0;
+        s->ratio = change > smooth * s->slope[0] ? INFINITY : NAN;
     s->unlimited =
         s->slope[0] == 0 ? s->sigma > 0 : s->ratio > ends && change > smooth * s->slope[0];
 }

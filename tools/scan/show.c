@@ -38,17 +38,16 @@ put_grid(const struct scan *s, FILE *out)
     if (s->slope[0] == 0)
         fputs("# grid: the noise is as steep as the map: whether its waves end cannot be judged\n",
               out);
-    else if (s->unlimited)
-        fprintf(out,
-                "# grid: the slope changes by %.2f of the change before: shorter waves than this "
-                "grid has "
-                "may follow\n",
-                s->ratio);
+    else if (isnan(s->ratio) && s->slope[0] < s->slope[1])
+        fputs("# grid: without the noise the map is less steep than its means over 2 x 2 nodes: "
+              "SIGMA may be too large\n",
+              out);
+    else if (isnan(s->ratio))
+        fputs("# grid: the slope does not change: the waves end on this map\n", out);
     else
-        fprintf(
-            out,
-            "# grid: the slope changes by %.2f of the change before: the waves end on this map\n",
-            s->ratio);
+        fprintf(out, "# grid: the slope changes by %.2f of the change before: %s\n", s->ratio,
+                s->unlimited ? "shorter waves than this grid has may follow"
+                             : "the waves end on this map");
 }
 
 static void
