@@ -1283,9 +1283,9 @@ struct rc_heat_problem {
     struct rc_heat_body body[2];
     /* s since heating began; 0: the steady state */
     double time;
-    /* In each of so many equal steps of the time the shares of the bodies are constant. Memory and
-     * work grow. 0: as many as `tol` needs: runs with 1, 2, 4 ... steps, at most 64, whose
-     * results are extrapolated. Only RC_HEAT_MATCHED takes steps. */
+    /* The heat into each body is constant in the first of so many equal steps of the time, and linear
+     * in later ones. Memory and work grow. 0: as many as `tol` needs: runs with 1, 2, 4 ... steps,
+     * at most 64, whose results are extrapolated. Only RC_HEAT_MATCHED takes steps. */
     size_t time_steps;
     enum rc_heat_partition partition;
     /* of body 1, for RC_HEAT_SHARE */

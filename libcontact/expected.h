@@ -65,8 +65,8 @@
         360, 49                                                                                    \
     }
 /* Temperatures: sums beside those of a step in time, seconds a node for the coefficients and for a further
- * depth; bytes a node, free and periodic, with the shares of nodes and with one number, and of a further
- * step. */
+ * depth; bytes a node, free and periodic, with the shares of nodes and with one number; sums of a further
+ * step, and its bytes. */
 #define RC_HEAT_WORK 2.5
 #define RC_HEAT_STEP 8
 #define RC_HEAT_NODE 100e-9
@@ -78,6 +78,10 @@
             93, 80                                                                                 \
         }                                                                                          \
     }
-#define RC_HEAT_TIME_BYTES 25
+#define RC_HEAT_TIME_STEP 4
+#define RC_HEAT_TIME_BYTES                                                                         \
+    {                                                                                              \
+        110, 28                                                                                    \
+    }
 
 #endif

@@ -280,6 +280,8 @@ rc_heat_cells_new(const struct rc_shape *s, struct rc_boundary boundary, const s
         for (size_t k = 0; k < c->n; k++) {
             const double z = b->depth / c->tau[k];
             c->w[k] *= exp(-z * z) / (b->k * sqrt(RC_PI));
+            if (b->slope > 0)
+                c->w[k] *= b->slope * (b->top - c->tau[k] * c->tau[k]);
         }
         if (factor_new(&c->x, c, boundary.x, s->nx, s->dx, b->px) &&
             factor_new(&c->y, c, boundary.y, s->ny, s->dy, b->py))

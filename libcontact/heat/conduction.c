@@ -103,17 +103,26 @@ transform(struct rc_warming *w, const struct rc_conduction *c, const struct rc_h
 }
 
 enum rc_status
-rc_warming_set(struct rc_warming *w, struct rc_store *own, struct rc_conduction *c,
+rc_warming_new(struct rc_warming *w, struct rc_store *own, const struct rc_conduction *c,
                const struct rc_heated *body, struct rc_err *err)
 {
     *w = (struct rc_warming){{NULL}};
     for (unsigned k = 0; k < RC_HEAT_PARTS; k++) {
         if ((k & RC_ODD_X && body->px == 0) || (k & RC_ODD_Y && body->py == 0))
             continue;
-        if ((w->part[k] = rc_store_take(own, c->columns * c->cy, sizeof(double))) == NULL)
+        if ((w->part[k] = rc_store_zeros(own, c->columns * c->cy, sizeof(double))) == NULL)
             return rc_err_set(err, "out of memory for the heat of %zu x %zu nodes", c->shape.nx,
                               c->shape.ny);
     }
+    return RC_OK;
+}
+
+enum rc_status
+rc_warming_set(struct rc_warming *w, struct rc_store *own, struct rc_conduction *c,
+               const struct rc_heated *body, struct rc_err *err)
+{
+    if (rc_warming_new(w, own, c, body, err) != RC_OK)
+        return RC_FAIL;
     if (rc_has_mean(c->boundary))
         return transform(w, c, body, err);
     sample(w, c, body);
@@ -129,6 +138,7 @@ struct pass {
     float *framed; /* the source and the result of an inverse */
     size_t n;
     const struct rc_warming *const *warming;
+    const struct rc_heating *heating;
 };
 
 static bool
@@ -222,6 +232,69 @@ rc_conduction_field(struct rc_conduction *c, size_t n, const struct rc_warming *
 
     rc_fft_back(c->fft, NULL, field_column, row_out, &pass);
     c->count += 0.5;
+}
+
+size_t
+rc_conduction_size(const struct rc_conduction *c)
+{
+    return 2 * c->columns * c->length;
+}
+
+void
+rc_conduction_keep(const struct rc_conduction *c, double *waves)
+{
+    memcpy(waves, c->waves, rc_conduction_size(c) * sizeof *waves);
+}
+
+/* Adds part k of a spectrum times x. */
+RC_CLONES static void
+add_product(const struct rc_conduction *c, unsigned k, double times, const double *part,
+            const double *x, double *to)
+{
+    const bool odd = k == RC_ODD_X || k == RC_ODD_Y;
+    const double sign = k == 0 ? times : -times;
+    const size_t n = c->length, re = odd ? n : 0, im = odd ? 0 : n;
+
+    for (size_t t = 0; t < n; t++) {
+        const double v = sign * (k & RC_ODD_Y ? (double)c->mirror[t] : 1) * part[c->wave[t]];
+        to[re + t] += v * x[t];
+        to[im + t] += odd ? -v * x[n + t] : v * x[n + t];
+    }
+}
+
+static void
+sum_column(void *ctx, size_t i, void *column)
+{
+    const struct pass *p = ctx;
+    const struct rc_conduction *c = p->c;
+    const size_t n = c->length;
+
+    memset(column, 0, 2 * n * sizeof(double));
+    for (size_t m = 0; m < p->n; m++)
+        for (unsigned k = 0; k < RC_HEAT_PARTS; k++) {
+            const struct rc_heating *h = &p->heating[m];
+            if (h->body->part[k] != NULL)
+                add_product(c, k, h->times, h->body->part[k] + i * c->cy, h->waves + 2 * i * n,
+                            column);
+        }
+}
+
+void
+rc_conduction_sum(struct rc_conduction *c, size_t n, const struct rc_heating *heating, double *out)
+{
+    struct pass pass = {.c = c, .to = out, .n = n, .heating = heating};
+
+    rc_fft_back(c->fft, NULL, sum_column, row_out, &pass);
+    c->count += 0.5;
+}
+
+void
+rc_warming_add(const struct rc_conduction *c, struct rc_warming *to, double times,
+               const struct rc_warming *w)
+{
+    for (unsigned k = 0; k < RC_HEAT_PARTS; k++)
+        for (size_t i = 0; i < c->columns * c->cy && w->part[k] != NULL; i++)
+            to->part[k][i] += times * w->part[k][i];
 }
 
 static bool

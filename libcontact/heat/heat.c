@@ -20,19 +20,43 @@
 
 enum {
     STEPS = 100, /* of the iteration, at most */
-    TIMES = 64   /* time steps, at most, if the caller gives no number */
+    TIMES = 64,  /* time steps, at most, if the caller gives no number */
+    GUESSES = 5  /* parts of a guess, at most */
 };
 /* Part of the tolerance for the mismatch in each run, if the time steps are doubled until it is met. */
 static const double own_part = 0.25;
 static const double usual_tol = 1e-3;
 
-/* Heat is constant in each of `n` time steps; step `at` is being solved. Number k of a body: its temperature
- * k steps after one in which heat flows. */
+/* The temperatures of a body k time steps after the end of a step whose heat is 1 at this end, for the first
+ * step, the second one and later ones. Heat is constant in the first step, linear in others. The constant one
+ * is that of linear heat at 2/3 of the step, by its temperature at the end of the step. Linear heat goes on
+ * from there, so that the second step begins with 3/4 of the first heat and 1/4 of its own. */
+struct lags {
+    struct rc_warming *first, *second, *later; /* NULL: there is one step */
+};
+
+/* Terms of a field, n of them, with room for those of any step. */
+struct sum {
+    size_t n;
+    struct rc_heating *of;
+};
+
+/* Time steps; step `at` is being solved. */
 struct times {
     size_t n, at;
-    struct rc_warming *lag[2];
-    double *share;   /* heat into body 1 at the nodes in contact, for each time step */
-    double *past[2]; /* K: rise due to earlier time steps, nx ny; NULL: there is one */
+    struct lags lags[2];
+    struct rc_warming
+        total;             /* body 2, for heat that has been constant until the end of this step */
+    double **share;        /* heat into body 1 at the nodes in contact, at the end of each step  */
+    double **waves, *heat; /* the transforms of these, and of the heat; NULL: one run, one step  */
+    double *guess;         /* of the heat at the end of this step */
+    struct sum sum;
+};
+
+/* A part of a guess: a heat of an earlier step, or of a run with half as many. */
+struct guess {
+    const double *share, *waves;
+    double times;
 };
 
 /* The iteration at the nodes in contact: C1 z = V h, with V orthonormal, z = M v */
@@ -43,16 +67,18 @@ struct space {
     size_t steps; /* of this time step */
 };
 
-/* Runs with 1, 2, 4 ... time steps. The errors of a run are nearly proportional to the length of its steps.
- * So the result is 2 T - T', T' with half as many steps. All laws are linear, and hold for it too: no heat is
+/* Runs with 1, 2, 4 ... time steps. The errors of runs with linear heat fall at least by half, and nearly 4
+ * times where the steps resolve the heat. So the result is (4 T - T')/3, T' with half as many steps; that of
+ * two steps is T, because heat of one step is constant. All laws are linear, and hold for it too: no heat is
  * lost, and the temperatures match. */
 struct doubling {
     bool on;
     struct rc_heat *finest, *half; /* NULL: this one, in one step */
     double *rise[2], *flux;        /* of the finest run */
-    double change;     /* of the result since the last doubling, over the largest rise */
-    double count;      /* convolutions of earlier runs */
-    size_t iterations; /* of earlier runs */
+    double change;                 /* between the last two runs, over the largest rise */
+    double front;                  /* error due to fronts of the last run; 0: unknown */
+    double count;                  /* convolutions of earlier runs */
+    size_t iterations;             /* of earlier runs */
 };
 
 struct rc_heat {
@@ -74,6 +100,7 @@ struct rc_heat {
     bool begun;
     double asked; /* tolerance of the caller */
     struct doubling doubling;
+    const struct rc_heat *coarse; /* a finished run with half as many time steps; NULL: none */
     struct rc_heat_figures figures;
 };
 
@@ -289,21 +316,69 @@ set_figures(struct rc_heat *h, const double *contact, struct rc_err *err)
     return status;
 }
 
-/* The temperatures of body b at a depth, for each lag, in memory of `own`; NULL: *err says why. They are left
- * 0 for a body that takes no heat and has no steady state. */
-static struct rc_warming *
-lags_new(const struct rc_heat *h, int b, double depth, struct rc_store *own, struct rc_err *err)
+/* The same for heat that grows from 0 to 1 in the step. */
+static struct rc_heated
+growing(const struct rc_heat *h, int b, double depth, size_t lag)
 {
-    struct rc_warming *lag = rc_store_zeros(own, h->times.n, sizeof *lag);
+    struct rc_heated body = heated(h, b, depth, lag);
 
-    if (lag == NULL)
-        return rc_err_null(err, "out of memory for %zu time steps", h->times.n);
-    for (size_t k = 0; k < h->times.n && has_rise(&h->problem, b); k++) {
-        const struct rc_heated body = heated(h, b, depth, k);
-        if (rc_warming_set(&lag[k], own, h->c, &body, err) != RC_OK)
-            return NULL;
+    body.top = body.diffusion * body.diffusion;
+    body.slope = 1 / (body.top - body.ended * body.ended);
+    return body;
+}
+
+/* Part of the heat of the second step in its beginning. */
+static const double second_own = 0.25;
+
+/* Adds the temperature of heat that decreases from 1 to 0 in the step before the last k ones. */
+static void
+add_start(const struct rc_heat *h, struct rc_warming *to, double times, const struct lags *lags,
+          size_t k)
+{
+    rc_warming_add(h->c, to, times, &lags->first[k]);
+    rc_warming_add(h->c, to, -times, &lags->later[k]);
+}
+
+/* Sets the temperatures of body b at a depth, for each lag, in memory of `own`. They are left 0 for a body
+ * that takes no heat and has no steady state. With heat constant in step k back, G, and growing, U, a heat at
+ * the end of a step has U of its own step and G - U of the next one. */
+static enum rc_status
+set_lags(const struct rc_heat *h, int b, double depth, struct lags *lags, struct rc_store *own,
+         struct rc_err *err)
+{
+    const size_t n = h->times.n;
+
+    lags->first = rc_store_zeros(own, n, sizeof *lags->first);
+    lags->second = n > 1 ? rc_store_zeros(own, n, sizeof *lags->second) : NULL;
+    lags->later = n > 1 ? rc_store_zeros(own, n, sizeof *lags->later) : NULL;
+    if (own->failed)
+        return rc_err_set(err, "out of memory for %zu time steps", n);
+    for (size_t k = 0; k < n && has_rise(&h->problem, b); k++) {
+        const struct rc_heated body = heated(h, b, depth, k), grows = growing(h, b, depth, k);
+        if (rc_warming_set(&lags->first[k], own, h->c, &body, err) != RC_OK ||
+            (n > 1 && (rc_warming_set(&lags->later[k], own, h->c, &grows, err) != RC_OK ||
+                       rc_warming_new(&lags->second[k], own, h->c, &body, err) != RC_OK)))
+            return RC_FAIL;
     }
-    return lag;
+    for (size_t k = n; n > 1 && k-- > 0 && has_rise(&h->problem, b);) {
+        rc_warming_add(h->c, &lags->second[k], second_own, &lags->first[k]);
+        rc_warming_add(h->c, &lags->second[k], 1 - second_own, &lags->later[k]);
+        if (k > 0) {
+            add_start(h, &lags->first[k], 1 - second_own, lags, k - 1);
+            add_start(h, &lags->second[k], 1, lags, k - 1);
+            add_start(h, &lags->later[k], 1, lags, k - 1);
+        }
+    }
+    return RC_OK;
+}
+
+/* Of heat at the end of step k, at the end of the present one. */
+static const struct rc_warming *
+warming_of(const struct rc_heat *h, const struct lags *lags, size_t k)
+{
+    return k == 0   ? &lags->first[h->times.at]
+           : k == 1 ? &lags->second[h->times.at - 1]
+                    : &lags->later[h->times.at - k];
 }
 
 void
@@ -319,19 +394,33 @@ rc_heat_free(struct rc_heat *h)
     free(h);
 }
 
-/* The usual number of time steps if the tolerance determines it, of 108 contacts. A contact that has become
- * steady needs few. The others need 1.6 times as many for each decade of the tolerance. */
+/* The usual number of time steps if the tolerance determines it, of 100 contacts. A contact that has become
+ * steady needs few. The others need 2.2 times as many for each decade of the tolerance. */
 static double
 usual_steps(const struct rc_shape *shape, const struct rc_heat_problem *p)
 {
     const double patch = 0.05; /* area of the largest patch over that of the map */
-    const double few = 4, long_time = 3;
+    const double few = 2, long_time = 3;
     const double steady = patch * (double)(shape->nx * shape->ny) * shape->dx * shape->dy /
                           fmin(p->body[0].diffusivity, p->body[1].diffusivity);
     const double tol = p->tol > 0 ? p->tol : usual_tol;
 
     return p->time > long_time * steady ? few
-                                        : fmin(few * pow(1.6, fmax(log10(1e-2 / tol), 0)), TIMES);
+                                        : fmin(few * pow(2.2, fmax(log10(1e-2 / tol), 0)), TIMES);
+}
+
+/* Adds the work and the memory of n time steps. */
+static void
+expect_run(const struct rc_heat_problem *p, size_t n, double nodes, struct rc_expected *expected)
+{
+    static const double bytes[2][2] = RC_HEAT_BYTES, of_step[2] = RC_HEAT_TIME_BYTES;
+    const bool matched = p->partition == RC_HEAT_MATCHED;
+
+    expected->convolutions +=
+        RC_HEAT_WORK + (matched ? RC_HEAT_STEP : 0) + 2 + RC_HEAT_TIME_STEP * ((double)n - 1);
+    expected->memory +=
+        (size_t)(nodes * (rc_by_padding(p->boundary, bytes[0][!matched], bytes[1][!matched]) +
+                          rc_by_padding(p->boundary, of_step[0], of_step[1]) * ((double)n - 1)));
 }
 
 enum rc_status
@@ -339,34 +428,51 @@ rc_heat_expect(const struct rc_shape *shape, const struct rc_heat_problem *p, si
                struct rc_expected *expected, struct rc_err *err)
 {
     const struct rc_conv_options sum = {.boundary = p->boundary, .threads = p->threads};
-    const bool matched = p->partition == RC_HEAT_MATCHED;
-    const bool doubles = matched && p->time > 0 && p->time_steps == 0;
-    const double nodes = (double)(shape->nx * shape->ny), times = doubles ? usual_steps(shape, p)
-                                                                  : matched && p->time > 0
-                                                                      ? (double)p->time_steps
-                                                                      : 1;
+    const bool matched = p->partition == RC_HEAT_MATCHED && p->time > 0;
+    const bool doubles = matched && p->time_steps == 0;
+    const size_t most = doubles ? (size_t)usual_steps(shape, p) : matched ? p->time_steps : 1;
+    const double nodes = (double)(shape->nx * shape->ny);
     const double one = rc_conv_seconds(shape, &sum),
                  cores = (double)(p->threads == 0 ? rc_threads_available() : p->threads);
-    static const double bytes[2][2] = RC_HEAT_BYTES;
 
     if (check(shape, p, err) != RC_OK)
         return RC_FAIL;
-    *expected = (struct rc_expected){
-        .convolutions = RC_HEAT_WORK + (matched ? RC_HEAT_STEP * times : 0) + times * (times + 1),
-        .memory =
-            (size_t)(nodes * (rc_by_padding(p->boundary, bytes[0][!matched], bytes[1][!matched]) +
-                              RC_HEAT_TIME_BYTES * (times - 1)))};
-    for (double n = times / 2; doubles && n >= 1; n /= 2) {
-        expected->convolutions += RC_HEAT_WORK + RC_HEAT_STEP * n + n * (n + 1);
-        expected->memory +=
-            n < times / 2 && n > 1
-                ? 0
-                : (size_t)(nodes * (rc_by_padding(p->boundary, bytes[0][0], bytes[1][0]) +
-                                    RC_HEAT_TIME_BYTES * (n - 1)));
-    }
+    *expected = (struct rc_expected){0};
+    for (size_t n = doubles ? 1 : most; n <= most; n *= 2)
+        expect_run(p, n, nodes, expected);
     expected->seconds = one * expected->convolutions +
                         (RC_HEAT_NODE + RC_HEAT_DEPTH * (double)depths) * nodes * 2 / cores;
     return RC_OK;
+}
+
+/* True if the heats of the steps are needed later. */
+static bool
+keeps_waves(const struct rc_heat *h)
+{
+    return h->times.n > 1 || h->doubling.on;
+}
+
+static enum rc_status
+set_times(struct rc_heat *h, struct rc_err *err)
+{
+    struct times *t = &h->times;
+    const size_t size = keeps_waves(h) ? rc_conduction_size(h->c) : 0;
+    struct rc_heated body = heated(h, 1, 0, 0);
+
+    for (int b = 0; b < 2; b++)
+        if (set_lags(h, b, 0, &t->lags[b], &h->own, err) != RC_OK)
+            return RC_FAIL;
+    for (size_t k = 0; k < t->n; k++) {
+        t->share[k] = rc_store_take(&h->own, h->n, sizeof(double));
+        t->waves[k] = size > 0 ? rc_store_take(&h->own, size, sizeof(double)) : NULL;
+    }
+    t->sum.of = rc_store_take(&h->own, 2 * t->n + 2 * GUESSES + 2, sizeof *t->sum.of);
+    t->heat = size > 0 ? rc_store_take(&h->own, size, sizeof(double)) : NULL;
+    if (h->own.failed)
+        return rc_err_set(err, "out of memory for %zu time steps", t->n);
+    return t->n > 1 && has_rise(&h->problem, 1)
+               ? rc_warming_set(&t->total, &h->own, h->c, &body, err)
+               : RC_OK;
 }
 
 struct rc_heat *
@@ -405,9 +511,9 @@ rc_heat_new(const struct rc_shape *shape, const struct rc_heat_problem *problem,
     if (set_contact(h, q, contact, err) != RC_OK)
         return NULL;
     h->space.right = rc_store_take(&h->own, h->n, sizeof *h->space.right);
-    h->times.share = rc_store_take(&h->own, h->times.n * h->n, sizeof *h->times.share);
-    for (int b = 0; b < 2 && h->times.n > 1; b++)
-        h->times.past[b] = rc_store_take(&h->own, nodes, sizeof **h->times.past);
+    h->times.share = rc_store_zeros(&h->own, h->times.n, sizeof *h->times.share);
+    h->times.waves = rc_store_zeros(&h->own, h->times.n, sizeof *h->times.waves);
+    h->times.guess = rc_store_take(&h->own, h->n, sizeof *h->times.guess);
     for (int b = 0; b < 2 && h->doubling.on; b++)
         h->doubling.rise[b] = rc_store_take(&h->own, nodes, sizeof **h->doubling.rise);
     if (h->doubling.on)
@@ -417,13 +523,11 @@ rc_heat_new(const struct rc_shape *shape, const struct rc_heat_problem *problem,
     for (size_t k = 0; k < h->n; k++)
         h->work[h->node[k]] = 1;
     if (set_figures(h, h->work, err) != RC_OK ||
-        (h->c = rc_conduction_new(shape, problem->boundary, problem->threads, err)) == NULL)
+        (h->c = rc_conduction_new(shape, problem->boundary, problem->threads, err)) == NULL ||
+        set_times(h, err) != RC_OK)
         return NULL;
-    for (int b = 0; b < 2; b++) {
+    for (int b = 0; b < 2; b++)
         body[b] = heated(h, b, 0, 0);
-        if ((h->times.lag[b] = lags_new(h, b, 0, &h->own, err)) == NULL)
-            return NULL;
-    }
     if (problem->partition == RC_HEAT_MATCHED &&
         (h->inverse = rc_heat_inverse_new(h->c, body, h->n, h->node, err)) == NULL)
         return NULL;
@@ -432,38 +536,37 @@ rc_heat_new(const struct rc_shape *shape, const struct rc_heat_problem *problem,
 
 /* ---- temperatures and figures ---- */
 
-/* out = the field of the loaded map, or with `add` out + this field; `out` is not h->work then. */
+/* out = the field of the loaded map. */
 static void
-field(struct rc_heat *h, const struct rc_warming *w, bool add, double *out)
+field(struct rc_heat *h, const struct rc_warming *w, double *out)
 {
-    double *to = add ? h->work : out;
-
-    rc_conduction_field(h->c, 1, &w, to);
-    for (size_t k = 0; k < h->shape.nx * h->shape.ny && add; k++)
-        out[k] += to[k];
+    rc_conduction_field(h->c, 1, &w, out);
 }
 
-/* Adds to `out` the rise of body b at the end of time step `last` due to the heat of the steps 0 .. n - 1. */
+/* Adds terms of the rise of body b at the end of the present step: those of its heats at the end of steps
+ * 0 .. n - 1. `total`: of body 2, see times; NULL: not known. */
 static void
-add_rise(struct rc_heat *h, int b, const struct rc_warming *lag, size_t n, size_t last, double *out)
+rise_of(const struct rc_heat *h, int b, const struct lags *lags, const struct rc_warming *total,
+        size_t n, struct sum *to)
 {
-    for (size_t j = 0; j < n; j++) {
-        const double *share = h->times.share + j * h->n;
-        memset(h->work, 0, h->shape.nx * h->shape.ny * sizeof *h->work);
-        for (size_t k = 0; k < h->n; k++)
-            h->work[h->node[k]] = b == 0 ? share[k] : h->q[h->node[k]] - share[k];
-        rc_conduction_load(h->c, h->work);
-        field(h, &lag[last - j], true, out);
+    for (size_t k = 0; k < n; k++) {
+        const struct rc_warming *w = warming_of(h, lags, k);
+        to->of[to->n++] = (struct rc_heating){w, h->times.waves[k], b == 0 ? 1 : -1};
+        if (b == 1 && total == NULL)
+            to->of[to->n++] = (struct rc_heating){w, h->times.heat, 1};
     }
+    if (b == 1 && total != NULL)
+        to->of[to->n++] = (struct rc_heating){total, h->times.heat, 1};
 }
 
+/* The largest value of a map at n nodes; NULL: of n numbers. */
 static double
 largest(const size_t *node, size_t n, const double *map)
 {
     double most = 0;
 
     for (size_t k = 0; k < n; k++)
-        most = fmax(most, fabs(map[node[k]]));
+        most = fmax(most, fabs(map[node != NULL ? node[k] : k]));
     return most;
 }
 
@@ -551,6 +654,19 @@ judge(struct rc_heat *h)
     f->converged = h->problem.partition != RC_HEAT_MATCHED || f->mismatch <= h->problem.tol;
 }
 
+/* Rises at the end of a later time step. */
+static void
+find_rises(struct rc_heat *h)
+{
+    struct times *t = &h->times;
+
+    for (int b = 0; b < 2; b++) {
+        t->sum.n = 0;
+        rise_of(h, b, &t->lags[b], &t->total, t->at + 1, &t->sum);
+        rc_conduction_sum(h->c, t->sum.n, t->sum.of, h->rise[b]);
+    }
+}
+
 /* Keeps the heat in flux[0] of this time step; finds temperatures and figures at its end. */
 static void
 finish(struct rc_heat *h)
@@ -560,12 +676,15 @@ finish(struct rc_heat *h)
     for (size_t k = 0; k < nodes; k++)
         h->flux[1][k] = h->q[k] - h->flux[0][k];
     for (size_t k = 0; k < h->n; k++)
-        h->times.share[h->times.at * h->n + k] = h->flux[0][h->node[k]];
+        h->times.share[h->times.at][k] = h->flux[0][h->node[k]];
     for (int b = 0; b < 2; b++) {
         rc_conduction_load(h->c, h->flux[b]);
-        if (h->times.at > 0)
-            memcpy(h->rise[b], h->times.past[b], nodes * sizeof *h->rise[b]);
-        field(h, h->times.lag[b], h->times.at > 0, h->rise[b]);
+        if (b == 0 && h->times.waves[0] != NULL)
+            rc_conduction_keep(h->c, h->times.waves[h->times.at]);
+        if (h->times.at == 0)
+            field(h, h->times.lags[b].first, h->rise[b]);
+        else if (b == 1)
+            find_rises(h);
     }
     judge(h);
 }
@@ -595,7 +714,9 @@ product(size_t n, const double *a, const double *b)
 static void
 apply(struct rc_heat *h, const double *v, double *z, double *to)
 {
-    const struct rc_warming *const both[] = {h->times.lag[0], h->times.lag[1]};
+    const size_t at = h->times.at;
+    const struct rc_warming *const both[] = {warming_of(h, &h->times.lags[0], at),
+                                             warming_of(h, &h->times.lags[1], at)};
 
     rc_heat_inverse_apply(h->inverse, both, v, z);
     memset(h->work, 0, h->shape.nx * h->shape.ny * sizeof *h->work);
@@ -607,6 +728,25 @@ apply(struct rc_heat *h, const double *v, double *z, double *to)
         to[k] = h->work[h->node[k]];
 }
 
+/* The largest rise of body b from all heat since the start, in contact. */
+static double
+largest_rise(struct rc_heat *h, int b)
+{
+    struct times *t = &h->times;
+
+    if (t->n == 1) {
+        field(h, t->lags[b].first, h->rise[b]);
+        return largest(h->node, h->n, h->rise[b]);
+    }
+    t->sum.n = 0;
+    t->at = t->n - 1;
+    for (size_t k = 0; k < t->n; k++)
+        t->sum.of[t->sum.n++] = (struct rc_heating){warming_of(h, &t->lags[b], k), t->heat, 1};
+    t->at = 0;
+    rc_conduction_sum(h->c, t->sum.n, t->sum.of, h->rise[b]);
+    return largest(h->node, h->n, h->rise[b]);
+}
+
 /* Blok's share for heat since the start, and with it a guess of the largest rise in this time step. */
 static void
 find_blok(struct rc_heat *h)
@@ -614,12 +754,13 @@ find_blok(struct rc_heat *h)
     double most[2], first[2];
 
     rc_conduction_load(h->c, h->q);
+    if (h->times.heat != NULL)
+        rc_conduction_keep(h->c, h->times.heat);
     for (int b = 0; b < 2; b++) {
-        field(h, h->times.lag[b], false, h->rise[b]);
-        first[b] = largest(h->node, h->n, h->rise[b]);
-        for (size_t k = 1; k < h->times.n; k++)
-            field(h, &h->times.lag[b][k], true, h->rise[b]);
-        most[b] = largest(h->node, h->n, h->rise[b]);
+        most[b] = largest_rise(h, b);
+        if (h->times.n > 1)
+            field(h, h->times.lags[b].first, h->rise[b]);
+        first[b] = h->times.n > 1 ? largest(h->node, h->n, h->rise[b]) : most[b];
     }
     h->figures.share_blok =
         has_rise(&h->problem, 0) && has_rise(&h->problem, 1) && most[0] + most[1] > 0
@@ -629,26 +770,101 @@ find_blok(struct rc_heat *h)
     h->scale = fmax(h->scale, fabs(h->drop) / 2);
 }
 
+/* Adds the heat of the coarse run at the end of this step, linear in its steps. */
+static size_t
+interpolate(const struct times *t, size_t at, double times, struct guess *to)
+{
+    const size_t before = at / 2 == 0 ? 0 : at / 2 - 1, after = at / 2;
+
+    if (at % 2 == 1 || after == before) {
+        to[0] = (struct guess){t->share[after], t->waves[after], times};
+        return 1;
+    }
+    to[0] = (struct guess){t->share[before], t->waves[before], times / 2};
+    to[1] = (struct guess){t->share[after], t->waves[after], times / 2};
+    return 2;
+}
+
+/* The heat at the end of this step by the coarse run and its error in the last step, or linear from the last
+ * two. */
+static size_t
+find_guess(const struct rc_heat *h, struct guess *to)
+{
+    const struct times *t = &h->times, *coarse = h->coarse != NULL ? &h->coarse->times : NULL;
+    const size_t at = t->at;
+    size_t n = 0;
+
+    if (coarse != NULL)
+        n += interpolate(coarse, at, 1, to);
+    if (at > 0)
+        to[n++] =
+            (struct guess){t->share[at - 1], t->waves[at - 1], at > 1 && coarse == NULL ? 2 : 1};
+    if (at > 0 && coarse != NULL)
+        n += interpolate(coarse, at - 1, -1, to + n);
+    else if (at > 1)
+        to[n++] = (struct guess){t->share[at - 2], t->waves[at - 2], -1};
+    return n;
+}
+
+/* The difference of the temperatures with the heat of earlier steps and the guess. */
+static void
+find_right(struct rc_heat *h)
+{
+    struct times *t = &h->times;
+    struct guess guess[GUESSES];
+    const size_t guesses = find_guess(h, guess);
+
+    memset(t->guess, 0, h->n * sizeof *t->guess);
+    for (size_t i = 0; i < guesses; i++)
+        for (size_t k = 0; k < h->n; k++)
+            t->guess[k] += guess[i].times * guess[i].share[k];
+    if (t->at == 0 && guesses == 0) {
+        rc_conduction_load(h->c, h->q);
+        field(h, t->lags[1].first, h->work);
+        return;
+    }
+    t->sum.n = 0;
+    for (int b = 0; b < 2; b++) {
+        const size_t first = t->sum.n;
+        rise_of(h, b, &t->lags[b], &t->total, t->at, &t->sum);
+        for (size_t k = first; k < t->sum.n && b == 0; k++)
+            t->sum.of[k].times = -1;
+        for (size_t i = 0; i < guesses; i++)
+            t->sum.of[t->sum.n++] = (struct rc_heating){warming_of(h, &t->lags[b], t->at),
+                                                        guess[i].waves, -guess[i].times};
+    }
+    rc_conduction_sum(h->c, t->sum.n, t->sum.of, h->work);
+}
+
+/* Moves the rise of body 2 from constant heat to the end of the next step. */
+static void
+next_total(struct rc_heat *h)
+{
+    struct times *t = &h->times;
+    const struct lags *l = &t->lags[1];
+
+    if (!has_rise(&h->problem, 1))
+        return;
+    rc_warming_add(h->c, &t->total, 1, &l->first[t->at + 1]);
+    rc_warming_add(h->c, &t->total, -1, &l->first[t->at]);
+    rc_warming_add(h->c, &t->total, 1, &l->second[t->at]);
+    if (t->at == 0)
+        return;
+    rc_warming_add(h->c, &t->total, -1, &l->second[t->at - 1]);
+    rc_warming_add(h->c, &t->total, 1, &l->later[t->at - 1]);
+}
+
 /* The right side of this time step. */
 static enum rc_status
 begin(struct rc_heat *h, struct rc_err *err)
 {
-    const size_t nodes = h->shape.nx * h->shape.ny;
     double size;
 
     if (h->times.at == 0)
         find_blok(h);
-    for (int b = 0; b < 2 && h->times.at > 0; b++) {
-        memset(h->times.past[b], 0, nodes * sizeof *h->times.past[b]);
-        add_rise(h, b, h->times.lag[b], h->times.at, h->times.at, h->times.past[b]);
-    }
-    rc_conduction_load(h->c, h->q);
-    field(h, h->times.lag[1], false, h->work);
-    for (size_t k = 0; k < h->n; k++) {
-        const size_t at = h->node[k];
-        h->space.right[k] = h->work[at] + h->drop +
-                            (h->times.at > 0 ? h->times.past[1][at] - h->times.past[0][at] : 0);
-    }
+    find_right(h);
+    for (size_t k = 0; k < h->n; k++)
+        h->space.right[k] = h->work[h->node[k]] + h->drop;
     if (need_vector(&h->own, h->n, &h->space.v[0], err) != RC_OK)
         return RC_FAIL;
     size = h->space.g[0] = sqrt(product(h->n, h->space.right, h->space.right));
@@ -715,9 +931,10 @@ largest_residual(const struct space *space, size_t n)
     return most;
 }
 
-/* f = Z y with the least residual. */
+/* f = guess + Z y with the least residual. */
 static void
-take_solution(const struct space *space, const size_t *node, size_t n, double *flux)
+take_solution(const struct space *space, const size_t *node, size_t n, const double *guess,
+              double *flux)
 {
     double y[STEPS];
 
@@ -731,7 +948,7 @@ take_solution(const struct space *space, const size_t *node, size_t n, double *f
         double f = 0;
         for (size_t i = 0; i < space->steps; i++)
             f += y[i] * space->z[i][k];
-        flux[node[k]] = f;
+        flux[node[k]] = guess[k] + f;
     }
 }
 
@@ -747,58 +964,90 @@ share_heat(struct rc_heat *h)
         h->flux[0][h->node[k]] = h->q[h->node[k]] != 0 ? share * h->q[h->node[k]] : 0;
 }
 
+/* Ends a time step before the last one, whose temperatures nobody needs. */
+static void
+end_step(struct rc_heat *h, double residual)
+{
+    struct times *t = &h->times;
+
+    for (size_t k = 0; k < h->n; k++)
+        t->share[t->at][k] = h->flux[0][h->node[k]];
+    rc_conduction_load(h->c, h->flux[0]);
+    rc_conduction_keep(h->c, t->waves[t->at]);
+    h->worst = fmax(h->worst, residual / h->scale);
+}
+
 /* A step of a run with given time steps. */
 static enum rc_status
 advance(struct rc_heat *h, struct rc_err *err)
 {
-    bool last;
+    struct times *t = &h->times;
+    const bool final = t->at + 1 == t->n;
+    double residual = INFINITY;
+    bool begins = !h->begun, last;
 
-    if (!h->begun && begin(h, err) != RC_OK)
+    if (begins && begin(h, err) != RC_OK)
         return RC_FAIL;
     if (h->problem.partition != RC_HEAT_MATCHED) {
         share_heat(h);
         finish(h);
         return RC_OK;
     }
-    if (extend(h, err) != RC_OK)
+    if (begins && t->n > 1 &&
+        (residual = largest(NULL, h->n, h->space.right)) <= h->problem.tol * h->scale)
+        last = false;
+    else if (extend(h, err) != RC_OK)
         return RC_FAIL;
     last = h->space.steps == STEPS ||
            fabs(h->space.g[h->space.steps]) <= 16 * DBL_EPSILON * fabs(h->space.g[0]);
-    if (!last && largest_residual(&h->space, h->n) > h->problem.tol * h->scale)
+    if (h->space.steps > 0)
+        residual = largest_residual(&h->space, h->n);
+    if (!last && residual > h->problem.tol * h->scale)
         return RC_MORE;
-    take_solution(&h->space, h->node, h->n, h->flux[0]);
-    finish(h); /* finds the scale too */
-    if (!h->figures.converged && !last)
+    take_solution(&h->space, h->node, h->n, t->guess, h->flux[0]);
+    if (final || t->at == 0)
+        finish(h); /* finds the scale too */
+    else
+        end_step(h, residual);
+    if ((final || t->at == 0) && !h->figures.converged && !last)
         return RC_MORE;
-    if (h->times.at + 1 == h->times.n)
+    if (final)
         return h->figures.converged ? RC_OK : RC_SHORT;
-    h->worst = h->figures.mismatch;
+    h->worst = fmax(h->worst, t->at == 0 ? h->figures.mismatch : 0);
     h->earlier += h->space.steps;
     h->space.steps = 0;
-    h->times.at++;
+    next_total(h);
+    t->at++;
     h->begun = false;
     return RC_MORE;
 }
 
-/* Takes the temperatures of the finest run into the result. `change`: of the contact, over the largest
- * rise. */
+/* Part of the change between two runs that the result takes on. */
+static double
+beyond(const struct rc_heat *finest)
+{
+    return finest->times.n > 2 ? 1.0 / 3 : 0;
+}
+
+/* Takes the temperatures of the finest run into the result, and returns their change since the run before it,
+ * in contact, over the largest rise. */
 static double
 extrapolate(struct rc_heat *h, const struct rc_heat *finest)
 {
     struct doubling *d = &h->doubling;
     const size_t nodes = h->shape.nx * h->shape.ny;
+    const double more = beyond(finest);
     double change = 0;
 
     for (int b = 0; b < 2; b++) {
-        memcpy(h->work, h->rise[b], nodes * sizeof *h->work);
-        for (size_t k = 0; k < nodes; k++)
-            h->rise[b][k] = 2 * finest->rise[b][k] - d->rise[b][k];
-        memcpy(d->rise[b], finest->rise[b], nodes * sizeof *h->work);
         for (size_t i = 0; i < h->n; i++)
-            change = fmax(change, fabs(h->rise[b][h->node[i]] - h->work[h->node[i]]));
+            change = fmax(change, fabs(finest->rise[b][h->node[i]] - d->rise[b][h->node[i]]));
+        for (size_t k = 0; k < nodes; k++)
+            h->rise[b][k] = finest->rise[b][k] + more * (finest->rise[b][k] - d->rise[b][k]);
+        memcpy(d->rise[b], finest->rise[b], nodes * sizeof *h->work);
     }
     for (size_t k = 0; k < nodes; k++) {
-        h->flux[0][k] = 2 * finest->flux[0][k] - d->flux[k];
+        h->flux[0][k] = finest->flux[0][k] + more * (finest->flux[0][k] - d->flux[k]);
         h->flux[1][k] = h->q[k] - h->flux[0][k];
     }
     memcpy(d->flux, finest->flux[0], nodes * sizeof *d->flux);
@@ -808,40 +1057,156 @@ extrapolate(struct rc_heat *h, const struct rc_heat *finest)
     return change / h->scale;
 }
 
-/* After a run: keeps its result, and begins one with twice the time steps while the error is too large. The
- * changes of the result fall at least by half with each doubling, so that its error is at most the last one;
- * half of the change before guards against a last change that is small by chance. */
+/* True if body b moves so far in one of n time steps that they do not resolve how the front of its first heat
+ * passes: by more than twice the width of the front, or by a quarter of a map that repeats. A front that is
+ * wider than this map has gone. */
+static bool
+passes_front(const struct rc_heat *h, int b, size_t n)
+{
+    const struct rc_heat_problem *p = &h->problem;
+    const struct rc_heated body = heated(h, b, 0, 0);
+    const size_t nodes[2] = {h->shape.nx, h->shape.ny};
+    const double side[2] = {h->shape.dx, h->shape.dy}, moves[2] = {body.px, body.py};
+    bool passes = false;
+
+    for (int k = 0; k < 2; k++) {
+        const bool repeats = k == 0 ? p->boundary.x : p->boundary.y;
+        const double way = fabs(moves[k]) * 2 * p->body[b].diffusivity * p->time / (double)n;
+        const double width = 2 * fmax(body.diffusion, side[k]);
+        const double length = repeats ? (double)nodes[k] * side[k] : INFINITY;
+        passes = passes || (body.diffusion < length && way > fmin(width, length / 4));
+    }
+    return passes;
+}
+
+/* The largest rise of body b from all heat within the last of n time steps, less the rise that is linear in
+ * it, over the largest rise. */
+static enum rc_status
+find_ripple(struct rc_heat *h, int b, size_t n, double *ripple, struct rc_err *err)
+{
+    static const double golden[2] = {0.381966011250105, 0.618033988749895};
+    const double step = h->problem.time / (double)n;
+
+    *ripple = 0;
+    rc_conduction_load(h->c, h->q);
+    for (int k = 0; k < 2; k++) {
+        RC_ENDS(rc_store_free) struct rc_store own = {0};
+        const double at[3] = {golden[k], 1, 0}, times[3] = {1, -golden[k], golden[k] - 1};
+        struct rc_warming sum, one;
+        for (int m = 0; m < 3; m++) {
+            struct rc_heated body = heated(h, b, 0, 0);
+            body.diffusion *= sqrt(fmax(0, 1 - at[m] * step / h->problem.time));
+            if (body.diffusion > 0 &&
+                rc_warming_set(m == 0 ? &sum : &one, &own, h->c, &body, err) != RC_OK)
+                return RC_FAIL;
+            if (m > 0 && body.diffusion > 0)
+                rc_warming_add(h->c, &sum, times[m], &one);
+        }
+        field(h, &sum, h->work);
+        *ripple = fmax(*ripple, largest(h->node, h->n, h->work) / h->scale);
+    }
+    return RC_OK;
+}
+
+/* The error due to fronts that n time steps do not resolve. All runs miss them alike, so that their
+ * difference does not tell. The rise that the heat of a contact causes in one body divides as e, its
+ * conductivity over the root of its diffusivity, of the other one. */
+static enum rc_status
+find_front(struct rc_heat *h, size_t n, double *error, struct rc_err *err)
+{
+    double e[2], ripple;
+
+    *error = 0;
+    for (int b = 0; b < 2; b++)
+        e[b] = h->problem.body[b].conductivity / sqrt(h->problem.body[b].diffusivity);
+    for (int b = 0; b < 2; b++)
+        if (passes_front(h, b, n)) {
+            if (find_ripple(h, b, n, &ripple, err) != RC_OK)
+                return RC_FAIL;
+            *error += e[b] / (e[0] + e[1]) * ripple;
+        }
+    return RC_OK;
+}
+
+/* True if no number of time steps resolves a front. */
+static bool
+never_resolved(const struct rc_heat *h)
+{
+    return passes_front(h, 0, TIMES) || passes_front(h, 1, TIMES);
+}
+
+/* Begins a run with twice the time steps. */
+static enum rc_status
+refine(struct rc_heat *h, struct rc_err *err)
+{
+    struct doubling *d = &h->doubling;
+    struct rc_heat_problem problem = h->problem;
+
+    rc_heat_free(d->half);
+    d->half = d->finest;
+    problem.time_steps = d->half != NULL ? 2 * d->half->times.n : 2;
+    memset(h->work, 0, h->shape.nx * h->shape.ny * sizeof *h->work);
+    for (size_t i = 0; i < h->n; i++)
+        h->work[h->node[i]] = 1;
+    d->finest = rc_heat_new(&h->shape, &problem, h->q, h->work, err);
+    if (d->finest == NULL)
+        return RC_FAIL;
+    d->finest->coarse = d->half != NULL ? d->half : h;
+    return RC_MORE;
+}
+
+/* The error of the result from the changes of the last two doublings, without fronts. With errors that fall
+ * r times with each doubling, that of the finest run is its change over r - 1, of which the result takes 1/3.
+ * r is that of the two changes, at least `least_fall`, from 8 steps on. The first change is one from constant
+ * to linear heat, where errors fall at least 2.25 times. A part of the change before guards against a last
+ * change that is small by chance. */
+static double
+time_error(size_t n, double change, double former)
+{
+    const double of_two = 0.8, least_fall = 1.5, of_last = 0.75,
+                 of_former = n == 4 ? 1.0 / 6 : 1.0 / 8;
+    double part = of_last;
+
+    if (n == 2)
+        return of_two * change;
+    if (n > 4 && change > 0)
+        part = fmax(part, 1 / (fmax(least_fall, former / change) - 1) - 1.0 / 3);
+    return fmax(part * change, of_former * former);
+}
+
+/* After a run: keeps its result, and begins one with twice the time steps while the error is too large. */
 static enum rc_status
 redouble(struct rc_heat *h, enum rc_status status, struct rc_err *err)
 {
     struct doubling *d = &h->doubling;
     struct rc_heat_figures *f = &h->figures;
-    struct rc_heat_problem problem = h->problem;
     const size_t nodes = h->shape.nx * h->shape.ny;
+    double front = 0;
 
     if (d->finest == NULL) {
         for (int b = 0; b < 2; b++)
             memcpy(d->rise[b], h->rise[b], nodes * sizeof *h->rise[b]);
         memcpy(d->flux, h->flux[0], nodes * sizeof *d->flux);
-        f->time_error = d->change = NAN;
+        f->time_error = INFINITY;
     } else {
+        const size_t n = d->finest->times.n;
         const double change = extrapolate(h, d->finest);
-        f->time_error = isnan(d->change) ? INFINITY : fmax(change, d->change / 2);
+        f->time_error = time_error(n, change, d->change);
         f->mismatch = fmax(f->mismatch, d->finest->figures.mismatch);
         d->change = change;
+        if ((f->time_error <= h->asked || n == TIMES) && find_front(h, n, &front, err) != RC_OK)
+            return RC_FAIL;
     }
-    f->converged = f->mismatch <= h->asked && f->time_error <= h->asked;
+    f->convolutions = d->count + h->c->count;
+    f->converged = f->mismatch <= h->asked && fmax(f->time_error, front) <= h->asked;
     if (f->converged || (status == RC_SHORT && f->mismatch > h->asked) ||
-        (d->finest != NULL && d->finest->times.n == TIMES))
+        (d->finest != NULL && (d->finest->times.n == TIMES ||
+                               (d->front > 0 && front > d->front / 2 && never_resolved(h))))) {
+        f->time_error = fmax(f->time_error, front);
         return f->converged ? RC_OK : RC_SHORT;
-    rc_heat_free(d->half);
-    d->half = d->finest;
-    problem.time_steps = d->half != NULL ? 2 * d->half->times.n : 2;
-    memset(h->work, 0, nodes * sizeof *h->work);
-    for (size_t i = 0; i < h->n; i++)
-        h->work[h->node[i]] = 1;
-    d->finest = rc_heat_new(&h->shape, &problem, h->q, h->work, err);
-    return d->finest != NULL ? RC_MORE : RC_FAIL;
+    }
+    d->front = front;
+    return refine(h, err);
 }
 
 enum rc_status
@@ -874,15 +1239,22 @@ add_rise_at(struct rc_heat *h, int b, double depth, double weight, double *to, s
 {
     const size_t nodes = h->shape.nx * h->shape.ny;
     RC_ENDS(rc_store_free) struct rc_store own = {0};
-    const struct rc_warming *lag = lags_new(h, b, depth, &own, err);
-    double *rise = lag == NULL ? NULL : rc_store_zeros(&own, nodes, sizeof *rise);
+    struct lags lags;
+    double *rise;
 
-    if (lag == NULL)
+    if (set_lags(h, b, depth, &lags, &own, err) != RC_OK)
         return RC_FAIL;
-    if (rise == NULL)
+    if ((rise = rc_store_zeros(&own, nodes, sizeof *rise)) == NULL)
         return rc_err_set(err, "out of memory for the temperatures of %zu x %zu nodes", h->shape.nx,
                           h->shape.ny);
-    add_rise(h, b, lag, h->times.n, h->times.n - 1, rise);
+    if (h->times.waves[0] != NULL) {
+        h->times.sum.n = 0;
+        rise_of(h, b, &lags, NULL, h->times.n, &h->times.sum);
+        rc_conduction_sum(h->c, h->times.sum.n, h->times.sum.of, rise);
+    } else {
+        rc_conduction_load(h->c, h->flux[b]);
+        field(h, lags.first, rise);
+    }
     for (size_t k = 0; k < nodes; k++)
         to[k] += weight * rise[k];
     return RC_OK;
@@ -903,8 +1275,10 @@ rc_heat_temperature(struct rc_heat *h, int b, double depth, double *to, struct r
         memset(to, 0, nodes * sizeof *to);
     if (depth > 0 && d->finest == NULL)
         status = add_rise_at(h, b, depth, 1, to, err);
-    else if (depth > 0 && (status = add_rise_at(d->finest, b, depth, 2, to, err)) == RC_OK)
-        status = add_rise_at(d->half != NULL ? d->half : h, b, depth, -1, to, err);
+    else if (depth > 0 &&
+             (status = add_rise_at(d->finest, b, depth, 1 + beyond(d->finest), to, err)) == RC_OK &&
+             d->half != NULL)
+        status = add_rise_at(d->half, b, depth, -beyond(d->finest), to, err);
     for (size_t k = 0; k < nodes; k++)
         to[k] += b == 1 ? h->drop : 0;
     return status;

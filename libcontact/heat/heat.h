@@ -26,6 +26,8 @@ struct rc_heated {
     double diffusion; /* m: 2 sqrt(kap t), t since heating began; INFINITY: steady   */
     double ended;     /* m: the same for the time since heating ended; 0: it goes on */
     double depth;     /* m                                                           */
+    /* m2, 1/m2: where slope is above 0, the flux tau ago, as a diffusion, is slope (top - tau^2) */
+    double top, slope;
 };
 
 /* ---- coefficients.c: temperatures of cells ---- */
@@ -87,6 +89,10 @@ struct rc_conduction *rc_conduction_new(const struct rc_shape *shape, struct rc_
                                         size_t threads, struct rc_err *err);
 void rc_conduction_free(struct rc_conduction *c); /* NULL is allowed */
 RC_OWNER(rc_conduction)
+/* A spectrum of 0 of a body, in memory of `own`. */
+enum rc_status rc_warming_new(struct rc_warming *w, struct rc_store *own,
+                              const struct rc_conduction *c, const struct rc_heated *body,
+                              struct rc_err *err);
 /* Sets the spectrum of a body, in memory of `own`. RC_FAIL when that is short. */
 enum rc_status rc_warming_set(struct rc_warming *w, struct rc_store *own, struct rc_conduction *c,
                               const struct rc_heated *body, struct rc_err *err);
@@ -95,6 +101,21 @@ void rc_conduction_load(struct rc_conduction *c, const double *q);
 /* The sum of the fields of the loaded map. */
 void rc_conduction_field(struct rc_conduction *c, size_t n, const struct rc_warming *const *w,
                          double *out);
+/* A map, by its transform, as heat of a body. */
+struct rc_heating {
+    const struct rc_warming *body;
+    const double *waves; /* of rc_conduction_keep */
+    double times;
+};
+/* Numbers in the transform of a map, and a copy of that of the loaded one. */
+size_t rc_conduction_size(const struct rc_conduction *c);
+void rc_conduction_keep(const struct rc_conduction *c, double *waves);
+/* The sum of the fields of n maps. */
+void rc_conduction_sum(struct rc_conduction *c, size_t n, const struct rc_heating *heating,
+                       double *out);
+/* to = to + times w */
+void rc_warming_add(const struct rc_conduction *c, struct rc_warming *to, double times,
+                    const struct rc_warming *w);
 /* v = (C1 + C2)^-1 v on the map with its frame. */
 void rc_conduction_inverse(struct rc_conduction *c, const struct rc_warming *const w[2], float *v);
 

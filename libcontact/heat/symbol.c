@@ -5,6 +5,12 @@
  * with s = sqrt(kap t) and a = z/(2 s), it is (Carslaw and Jaeger 1959, section 2.9)
  *
  *     [exp(-m z) erfc(a - m s) - exp(m z) erfc(a + m s)]/(2 k m).
+ *
+ * This is the integral over tau from 0 to T = 2 s of f = exp(-m^2 tau^2/4 - z^2/tau^2)/(k sqrt(pi)). A flux
+ * that grows needs that of tau^2 f, too. Integrals I_n of tau^n f follow from each other by parts:
+ *
+ *     (n + 1) I_n = T^(n+1) f(T) + m^2/2 I_(n+2) - 2 z^2 I_(n-2),   I_(-2) = [exp(-m z) erfc(a - m s)
+ *                                                     + exp(m z) erfc(a + m s)]/(4 k z).
  */
 #include "heat.h"
 
@@ -43,32 +49,66 @@ rc_scaled_erfc(const struct rc_heat_waves *w, double complex z)
     return over / sqrt(RC_PI) + 2 * over * over * sum;
 }
 
-/* At the time s^2/kap after heating began. */
+/* Below this m s the integral of tau^2 f is a series of m^2, with terms of 1e-2^5 at most. */
+static const double slow = 0.1;
+
+/* The integral of tau^2 f; `first`: that of f with m = 0. */
 static double complex
-after(const struct rc_heat_waves *w, double qx, double qy, double s)
+of_square(const struct rc_heat_waves *w, double complex square, double s, double first)
+{
+    const double z = w->body.depth, end = 2 * s, a = z / end;
+    const double last = exp(-a * a) / (w->body.k * sqrt(RC_PI));
+    double complex sum = 0, term = 1;
+    double power = end, integral = first;
+
+    for (int n = 0; n < 6; n++) {
+        power *= end * end;
+        integral = (power * last - 2 * z * z * integral) / (2 * n + 3);
+        sum += term * integral;
+        term *= -square / (4 * (n + 1));
+    }
+    return sum;
+}
+
+/* At the time s^2/kap after heating began: the integral of f, and *second, that of tau^2 f. */
+static double complex
+after(const struct rc_heat_waves *w, double qx, double qy, double s, double complex *second)
 {
     const struct rc_heated *b = &w->body;
     const double complex m = csqrt(CMPLX(qx * qx + qy * qy, 2 * (b->px * qx + b->py * qy)));
     const double z = b->depth, a = z / (2 * s);
     double complex below, above, fall;
 
-    if (isinf(s))
+    if (isinf(s)) {
+        *second = 2 / (m * m) * (1 + m * z) * cexp(-m * z) / (b->k * m);
         return cexp(-m * z) / (b->k * m);
-    if (m == 0)
-        return (2 * s / sqrt(RC_PI) * exp(-a * a) - z * erfc(a)) / b->k;
+    }
+    if (m == 0) {
+        const double first = (2 * s / sqrt(RC_PI) * exp(-a * a) - z * erfc(a)) / b->k;
+        *second = of_square(w, 0, s, first);
+        return first;
+    }
     fall = cexp(-a * a - m * m * s * s);
     above = fall * rc_scaled_erfc(w, a + m * s);
     below = a >= creal(m) * s ? fall * rc_scaled_erfc(w, a - m * s)
                               : 2 * cexp(-m * z) - fall * rc_scaled_erfc(w, m * s - a);
+    *second = cabs(m * s) < slow
+                  ? of_square(w, m * m, s, (2 * s / sqrt(RC_PI) * exp(-a * a) - z * erfc(a)) / b->k)
+                  : 2 / (m * m) *
+                        ((below - above) / (2 * b->k * m) + z * (below + above) / (2 * b->k) -
+                         2 * s * fall / (b->k * sqrt(RC_PI)));
     return (below - above) / (2 * b->k * m);
 }
 
 double complex
 rc_heat_symbol(const struct rc_heat_waves *w, double qx, double qy)
 {
-    const double ended = w->body.ended;
+    const struct rc_heated *b = &w->body;
+    double complex second[2] = {0, 0};
+    const double complex first = after(w, qx, qy, b->diffusion / 2, &second[0]) -
+                                 (b->ended > 0 ? after(w, qx, qy, b->ended / 2, &second[1]) : 0);
 
-    return after(w, qx, qy, w->body.diffusion / 2) - (ended > 0 ? after(w, qx, qy, ended / 2) : 0);
+    return b->slope > 0 ? b->slope * (b->top * first - (second[0] - second[1])) : first;
 }
 
 /* From C at (qx, qy) and (qx, -qy), where C(-q) is the conjugate of C(q). */

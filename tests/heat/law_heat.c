@@ -425,17 +425,17 @@ conductance(void **state)
     rc_solver_free(s);
 }
 
-/* A share in time: with the heat of Hertz's pressure, one step and 16 of them against 64. */
+/* A share in time: with the heat of Hertz's pressure, fewer steps against 64. */
 static void
 time_steps(void **state)
 {
-    static const size_t times[] = {64, 16, 1};
-    static const double error[] = {0, 1e-3, 4e-2};
-    double found[3];
+    static const size_t times[] = {64, 16, 4, 2, 1};
+    static const double error[] = {0, 3e-5, 1e-3, 4e-3, 4e-2};
+    double found[5];
     (void)state;
 
     set_heat();
-    for (int k = 0; k < 3; k++) {
+    for (int k = 0; k < 5; k++) {
         struct rc_heat_problem problem = steel(20);
         struct rc_heat *h;
         problem.time = 1e-6; /* a quarter of a^2/kap */
@@ -446,7 +446,94 @@ time_steps(void **state)
         near(found[k], found[0], error[k] * found[0], "largest temperature after time steps");
         rc_heat_free(h);
     }
-    assert_true(found[2] > 1.001 * found[0]);
+    assert_true(found[4] > 1.001 * found[0]);
+}
+
+/* ---- one node in contact: a dense program ---- */
+
+/* The temperature of the middle of a cell, a time after its heat of 1 began: by the rule of the middle. */
+static double
+response(const struct rc_heat_body *body, double t)
+{
+    const double p = body->velocity[0] / (2 * body->diffusivity);
+    const size_t n = 2000;
+    const double end = 2 * sqrt(body->diffusivity * t);
+    double sum = 0;
+
+    for (size_t k = 0; k < n; k++) {
+        const double tau = end * ((double)k + 0.5) / (double)n, moved = p * tau * tau / 2;
+        sum += (erf((0.5e-6 - moved) / tau) + erf((0.5e-6 + moved) / tau)) / 2 * erf(0.5e-6 / tau);
+    }
+    return end / (double)n * sum / (body->conductivity * sqrt(RC_PI));
+}
+
+/* The temperature after n steps of constant heat, which equal temperatures in their middles determine. */
+static double
+by_middles(const struct rc_heat_problem *p, size_t n, double heat)
+{
+    static double flux[400], c[2][801]; /* response after half steps */
+    double t[2] = {0, p->body[1].bulk};
+
+    for (size_t k = 0; k <= 2 * n; k++)
+        for (int b = 0; b < 2; b++)
+            c[b][k] = response(&p->body[b], p->time * (double)k / (double)(2 * n));
+    for (size_t at = 0; at < n; at++) {
+        double differs = p->body[1].bulk + c[1][2 * at + 1] * heat;
+        for (size_t k = 0; k < at; k++)
+            for (int b = 0; b < 2; b++)
+                differs -= flux[k] * (c[b][2 * (at - k) + 1] - c[b][2 * (at - k) - 1]);
+        flux[at] = differs / (c[0][1] + c[1][1]);
+    }
+    for (size_t k = 0; k < n; k++) {
+        t[0] += flux[k] * (c[0][2 * (n - k)] - c[0][2 * (n - k - 1)]);
+        t[1] += (heat - flux[k]) * (c[1][2 * (n - k)] - c[1][2 * (n - k - 1)]);
+    }
+    return (t[0] + t[1]) / 2;
+}
+
+/* The error of the time steps is below the estimate, and steps of linear heat are of second order. */
+static void
+one_node(void **state)
+{
+    const struct rc_shape s = {3, 3, 1e-6, 1e-6};
+    static const double speed[] = {0, 30, 300}, ends[] = {1e-8, 1e-6, 3e-5};
+    (void)state;
+
+    memset(q, 0, sizeof q);
+    q[4] = 1e9;
+    for (int k = 0; k < 9; k++) {
+        struct rc_heat_problem problem = steel(speed[k % 3]);
+        const struct rc_heat_figures *f;
+        struct rc_err err = {""};
+        struct rc_heat *h;
+        double truth, other, rise;
+        problem.body[0] = (struct rc_heat_body){16, 1e-6, {0, 0}, 0};
+        problem.body[1].bulk = k == 4 ? 10 : 0;
+        problem.time = ends[k / 3];
+        other = by_middles(&problem, 200, q[4]);
+        truth = by_middles(&problem, 400, q[4]);
+        for (size_t n = 4; n <= 64; n *= 4) {
+            problem.time_steps = n;
+            problem.tol = 1e-9;
+            h = run(&s, &problem, q, NULL);
+            near(rc_heat_result(h)->max_temperature, truth,
+                 pow((double)n, -1.5) * 0.04 * truth + 3 * fabs(truth - other),
+                 "time steps of one node");
+            rc_heat_free(h);
+        }
+        problem.time_steps = 0;
+        problem.tol = 1e-4;
+        h = rc_heat_new(&s, &problem, q, NULL, &err);
+        assert_non_null(h);
+        while (rc_heat_step(h, &err) == RC_MORE)
+            continue;
+        f = rc_heat_result(h);
+        rise = truth - fmin(0, problem.body[1].bulk);
+        assert_true(f->converged && f->time_error <= 1e-4);
+        near(f->max_temperature, truth, (f->time_error + f->mismatch) * rise + fabs(truth - other),
+             "time steps of its own");
+        rc_heat_free(h);
+    }
 }
 
 /* Where like bodies move alike the share is 1/2 at all times, and time steps change nothing. */
@@ -607,7 +694,8 @@ main(void)
         cmocka_unit_test(no_steady_state), cmocka_unit_test(hot_row),
         cmocka_unit_test(charron),         cmocka_unit_test(conductance),
         cmocka_unit_test(time_steps),      cmocka_unit_test(no_change),
-        cmocka_unit_test(steps),           cmocka_unit_test(estimates),
+        cmocka_unit_test(one_node),        cmocka_unit_test(steps),
+        cmocka_unit_test(estimates),
     };
 
     return cmocka_run_group_tests(tests, NULL, NULL);

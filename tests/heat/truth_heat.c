@@ -147,7 +147,7 @@ coefficients(void **state)
     for (size_t p = 0; p < sizeof peclet / sizeof *peclet; p++)
         for (size_t a = 0; a < sizeof turned / sizeof *turned; a++) {
             const struct rc_heated body = {
-                1, peclet[p] * cos(turned[a]), peclet[p] * sin(turned[a]), INFINITY, 0, 0};
+                1, peclet[p] * cos(turned[a]), peclet[p] * sin(turned[a]), INFINITY, 0, 0, 0, 0};
             struct rc_heat_cells *cells = rc_heat_cells_new(&shape, RC_FREE, &body, NULL);
             double self = exact_cell(0, 0, at.dx, at.dy, body.px, body.py);
             for (size_t k = 0; k < sizeof offset / sizeof *offset; k++) {
@@ -174,7 +174,7 @@ ended(void **state)
                 double found[3];
                 for (int k = 0; k < 3; k++) {
                     const struct rc_heated body = {
-                        1, p, -p / 2, k == 0 ? 0.7 * end : end, k == 2 ? 0.7 * end : 0, 0.3};
+                        1, p, -p / 2, k == 0 ? 0.7 * end : end, k == 2 ? 0.7 * end : 0, 0.3, 0, 0};
                     struct rc_heat_cells *cells = rc_heat_cells_new(&shape, RC_FREE, &body, NULL);
                     found[k] = coefficient(cells, &at, i, 1);
                     rc_heat_cells_free(cells);
@@ -183,12 +183,47 @@ ended(void **state)
             }
 }
 
+/* Heat that grows from the beginning to the end: a sum of heats that begin in between. */
+static double
+begins(double tau, const double *with) /* P, node, end, depth */
+{
+    const struct rc_lattice at = {1, 1, 1, 1};
+    const struct rc_shape shape = {OFFSETS, OFFSETS, 1, 1};
+    const struct rc_heated body = {1, with[0], -with[0] / 2, tau, with[2], with[3], 0, 0};
+    struct rc_heat_cells *cells = rc_heat_cells_new(&shape, RC_FREE, &body, NULL);
+    const double found = coefficient(cells, &at, (int)with[1], 1);
+
+    rc_heat_cells_free(cells);
+    return 2 * tau * found;
+}
+
+static void
+grows(void **state)
+{
+    const struct rc_lattice at = {1, 1, 1, 1};
+    const struct rc_shape shape = {OFFSETS, OFFSETS, 1, 1};
+    (void)state;
+
+    for (double p = 0; p < 20; p = 10 * p + 0.1)
+        for (double end = 0.5; end < 100; end *= 4)
+            for (int i = -2; i < 6; i += 3) {
+                const double from = i < 0 ? 0 : 0.7 * end, square = end * end - from * from,
+                             with[] = {p, i, from, 0.3};
+                const struct rc_heated body = {1, p, -p / 2, end, from, 0.3, end * end, 1 / square};
+                struct rc_heat_cells *cells = rc_heat_cells_new(&shape, RC_FREE, &body, NULL);
+                near(coefficient(cells, &at, i, 1),
+                     integral(begins, with, from, end, 1e-12, 12) / square, 1e-12,
+                     "heat that grows");
+                rc_heat_cells_free(cells);
+            }
+}
+
 /* Far downstream all heat is in the material. The sum over y and the integral over z of the temperature
  * is then dx dy/(rho c V). */
 static double
 section(double z, const double *with)
 {
-    const struct rc_heated body = {1, with[0], 0, INFINITY, 0, z};
+    const struct rc_heated body = {1, with[0], 0, INFINITY, 0, z, 0, 0};
     const struct rc_lattice at = {1, 1, 1, 1};
     const struct rc_shape shape = {OFFSETS, OFFSETS, 1, 1};
     struct rc_heat_cells *cells = rc_heat_cells_new(&shape, RC_FREE, &body, NULL);
@@ -218,12 +253,13 @@ balance(void **state)
 /* ---- waves ---- */
 
 static double
-wave_part(double tau, const double *with) /* m^2 as two numbers, z, which part */
+wave_part(double tau, const double *with) /* m^2 as two numbers, z, which part, end if it grows */
 {
     const double s = tau * tau / 4,
                  fall = exp(-with[0] * s - (with[2] > 0 ? with[2] * with[2] / (4 * s) : 0));
 
-    return (with[3] == 0 ? cos(with[1] * s) : -sin(with[1] * s)) * fall / sqrt(RC_PI);
+    return (with[3] == 0 ? cos(with[1] * s) : -sin(with[1] * s)) * fall / sqrt(RC_PI) *
+           (with[4] > 0 ? with[4] * with[4] - tau * tau : 1);
 }
 
 static void
@@ -236,19 +272,24 @@ symbols(void **state)
     for (int e = 0; e < 4; e++)
         for (int d = 0; d < 3; d++)
             for (int k = 0; k < 4; k++)
-                for (int n = 0; n < 4; n++) {
-                    const double qx = 0.7 * n, qy = n % 2 ? -0.3 : 0.2;
-                    const double from = part[n] * end[e];
-                    const struct rc_heated body = {2, p[k], -0.6 * p[k], end[e], from, depth[d]};
+                for (int n = 0; n < 16; n++) {
+                    const double small = n < 8 ? 1 : 0.01, qx = small * 0.7 * (n % 4);
+                    const double qy = small * (n % 2 ? -0.3 : 0.2), from = part[n % 4] * end[e];
+                    const double slope = n % 8 < 4 ? 0 : 1 / (end[e] * end[e] - from * from);
+                    const double over = n % 8 < 4 ? 2 : 2 / slope;
+                    const struct rc_heated body = {2,    p[k],     -0.6 * p[k],     end[e],
+                                                   from, depth[d], end[e] * end[e], slope};
                     const struct rc_heat_waves waves = rc_heat_waves_of(&body);
                     const double complex found = rc_heat_symbol(&waves, qx, qy);
                     double with[] = {qx * qx + qy * qy, 2 * (body.px * qx + body.py * qy), depth[d],
-                                     0};
-                    near(creal(found), integral(wave_part, with, from, end[e], 1e-14, 30) / 2,
-                         3e-13 * end[e], "wave, real part");
+                                     0, slope > 0 ? end[e] : 0};
+                    near(creal(found),
+                         integral(wave_part, with, from, end[e], 1e-14 * over, 30) / over,
+                         3e-13 * fmax(1, end[e]), "wave, real part");
                     with[3] = 1;
-                    near(cimag(found), integral(wave_part, with, from, end[e], 1e-14, 30) / 2,
-                         3e-13 * end[e], "wave, imaginary part");
+                    near(cimag(found),
+                         integral(wave_part, with, from, end[e], 1e-14 * over, 30) / over,
+                         3e-13 * fmax(1, end[e]), "wave, imaginary part");
                 }
 }
 
@@ -424,9 +465,9 @@ int
 main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(coefficients), cmocka_unit_test(ended),          cmocka_unit_test(balance),
-        cmocka_unit_test(symbols),      cmocka_unit_test(table),          cmocka_unit_test(band),
-        cmocka_unit_test(disc),         cmocka_unit_test(mean_of_square),
+        cmocka_unit_test(coefficients), cmocka_unit_test(ended),   cmocka_unit_test(grows),
+        cmocka_unit_test(balance),      cmocka_unit_test(symbols), cmocka_unit_test(table),
+        cmocka_unit_test(band),         cmocka_unit_test(disc),    cmocka_unit_test(mean_of_square),
     };
 
     return cmocka_run_group_tests(tests, set_rule, NULL);
