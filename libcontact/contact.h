@@ -1106,7 +1106,7 @@ struct rc_viscoelastic_figures {
     double time;
     /* steps from the previous point */
     size_t increments;
-    /* relative L1 error of the pressure due to the steps, from a second run with half as many */
+    /* relative L1 error of the pressure due to the steps, from runs with half and a quarter as many */
     double increment_error;
     /* N: load with the same contact on bodies that keep their instantaneous moduli, as long as
      * this load has only risen: the integral of J(t - s)/J(0) dP(s) */

@@ -617,6 +617,14 @@ rc_elastic_pressure(const struct rc_model *m)
 }
 
 double
+rc_elastic_own(const struct rc_model *m)
+{
+    const struct elastic *e = (const struct elastic *)m;
+
+    return e->solver != NULL ? e->solver->op->diagonal : 0;
+}
+
+double
 rc_elastic_top(const struct rc_model *m)
 {
     return solver_of(m)->posed.top;

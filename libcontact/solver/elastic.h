@@ -25,6 +25,8 @@ struct rc_elastic_heights {
 const double *rc_elastic_pressure(const struct rc_model *m);
 /* The highest node of the present heights. */
 double rc_elastic_top(const struct rc_model *m);
+/* m/Pa: displacement of a node under unit pressure on its own cell; 0 before the first contact. */
+double rc_elastic_own(const struct rc_model *m);
 /* u = K p as the iteration follows it, or the same added to u. */
 void rc_elastic_displacement(const struct rc_model *m, bool add, double *u);
 /* The same by a fresh convolution in double precision or, not `fresh`, as the iteration follows it, in a map

@@ -12,10 +12,12 @@
  * after the step is that of the inner model with the heights (h - g)/C. Each step is one elastic contact, and
  * the method is of second order. A jump of the load is a step without time: C = 1.
  *
- * A second run has half as many steps, each of two steps of the first one. The estimated error is the
- * difference of the two pressures. With second order the error is a third of it. Nodes that enter and leave
- * the contact one by one lower the order; the estimate then grows where nodes are few. A history in single
- * precision would add errors of up to 2e-5 that both runs share.
+ * A second run has half as many steps, a third one a quarter. The estimated error follows from the
+ * differences of the three pressures; with second order it is three times the error. Nodes that enter the
+ * contact lower the order. One that joins in the last step has a pressure that is too low, alike in all runs
+ * where the body creeps within a step; this error follows from its gap before the step. A node that no run
+ * knows to touch shows in the differences of the gaps. A history in single precision would add errors of up
+ * to 2e-5 that all runs share.
  *
  * A step is long where the weights of the old displacement exceed 1: that under a held contact would change
  * its sign, and the steps of a fluid, or of a solid whose modulus falls by orders, would ring without decay.
@@ -34,12 +36,14 @@
 
 #include "libcontact/expected.h"
 #include "libcontact/model/row.h"
+#include "libcontact/solver/elastic.h"
 
 enum {
-    COARSE, /* the run with half as many steps */
+    QUARTER, /* the run with a quarter of the steps */
+    HALF,
     FINE,
     RUNS,
-    MAPS = 2 * RUNS + 3
+    MAPS = 3 * RUNS + 3
 };
 /* Relaxation moduli are rarely known to 1 %. */
 static const double usual_tol = 0.01;
@@ -68,13 +72,9 @@ static const double fast = 1e-3, slow = 1e3;
 /* A step that is longer than the last one times this starts anew: methods of two steps are unstable where the
  * steps grow faster than 2.4 times. */
 static const double most_longer = 2;
-/* Part that is added to the difference where no node has joined or left the contact of late: the first step
- * after a corner, which is of first order if it is long, can dominate the error. */
-static const double fixed = 0.1;
-/* Nodes in contact, or that joined or left it, with which the estimate is twice the difference. Half and
- * double change the estimates by at most 2 % where hundreds of nodes touch (12 runs of bench/constants.py).
- * */
-static const double few = 8;
+/* Least fall of the errors where the steps are halved that the estimate takes from two differences, and the
+ * part of the former difference that it has at least: its own with errors of second order. */
+static const double least_fall = 1.5, of_former = 0.25;
 /* Relative: rounding of the times that a user gives. Half and double of `same_slope` change no bit (12
  * runs of bench/constants.py). */
 static const double same_slope = 1e-9, whole = 1 - 1e-9;
@@ -110,14 +110,15 @@ struct follower {
 struct material {
     size_t terms;
     struct term *term;
-    double quickest; /* s: shortest time of a term that takes time */
+    double quickest; /* s: shortest time in which a pressure relaxes or grows */
     /* errors of fast and slow terms, relative to the largest load of the leg and of the history */
     double left_out[2];
 };
 
-/* Heights of the inner model; free; pressure of the coarse run. */
+/* Heights of the inner model; two that are free; what find_touch finds at the end of the coarse runs, and
+ * before the last step of the fine one. */
 struct maps {
-    double *posed, *room, *coarse;
+    double *posed, *room, *gap, *coarse[FINE], *before;
 };
 
 /* The way from one point to the next. */
@@ -125,7 +126,7 @@ struct leg {
     double start, end;          /* s */
     double least, most, shrink; /* s, s, -: first and longest step of the fine run, times shrink */
     size_t increments;
-    size_t steps; /* of the fine run; even */
+    size_t steps; /* of the fine run; a multiple of 4 */
     double tried; /* estimate of the last try; INFINITY: none */
     double slope; /* of load or approach in the last leg, per s */
     bool taken;   /* the end is reached */
@@ -139,7 +140,6 @@ struct viscoelastic {
     struct material material;
     struct follower load, error; /* N: load after the last step, and error of its pressure */
     double most, rate;           /* N, N/s: largest load so far; its change in the last step */
-    double nodes, changed[2]; /* in contact; that joined or left in this leg and in the last one */
     struct run run[RUNS];
     size_t on; /* the present run */
     struct maps maps;
@@ -209,10 +209,14 @@ choose_terms(struct material *material, const struct rc_viscoelastic_problem *a)
             flow += j / th;
             of_slow += j * pow(a->longest / th, 2) / 2;
         } else {
-            material->quickest = fmin(material->quickest, th);
             material->term[material->terms++] = (struct term){.time = th, .j = j};
         }
     }
+    /* each relaxation time is shorter than the retardation time of its place; the last one of a fluid has
+     * none */
+    for (size_t k = 0; k < m->terms; k++)
+        if (k >= m->creep_terms || (m->retardation[k] >= low && m->time[k] <= high))
+            material->quickest = fmin(material->quickest, fmax(low, m->time[k]));
     material->left_out[0] = of_fast / (1 + at_once);
     material->left_out[1] = of_slow / (1 + flow * a->longest);
     if (at_once > 0)
@@ -221,11 +225,20 @@ choose_terms(struct material *material, const struct rc_viscoelastic_problem *a)
         material->term[material->terms++] = (struct term){.time = INFINITY, .j = flow};
 }
 
+/* The mean of 1 - exp(-s) for s from 0 to x > 0. */
+static double
+mean_of_creep(double x)
+{
+    const double series = 0.01; /* the difference loses digits below it */
+
+    return x < series ? x * (1.0 / 2 - x * (1.0 / 6 - x * (1.0 / 24 - x / 120)))
+                      : 1 + expm1(-x) / x;
+}
+
 /* Finds the weights of the terms for w that changes linearly in the step, and returns the sum of old. */
 static double
 weigh_linear(struct material *material, double dt)
 {
-    const double series = 0.01; /* the difference loses digits below it */
     double old = 0;
 
     for (size_t k = 0; k < material->terms; k++) {
@@ -238,9 +251,7 @@ weigh_linear(struct material *material, double dt)
             m->keep = 1;
             m->old = m->new = m->j *dt / 2;
         } else {
-            const double part = x < series
-                                    ? x * (1.0 / 2 - x * (1.0 / 6 - x * (1.0 / 24 - x / 120)))
-                                    : 1 - gone / x;
+            const double part = mean_of_creep(x);
             m->keep = exp(-x);
             m->new = m->j *part;
             m->old = m->j * (gone - part);
@@ -351,6 +362,9 @@ target(struct viscoelastic *v)
     return at;
 }
 
+/* Steps of the fine run in one of each run. */
+static const size_t merged[RUNS] = {4, 2, 1};
+
 /* Step i of the fine run. Steps grow in proportion to the time since a corner of the load. */
 static double
 fine_step(const struct leg *leg, size_t i)
@@ -360,7 +374,7 @@ fine_step(const struct leg *leg, size_t i)
     return leg->shrink * fmin(leg->most, leg->least * growth);
 }
 
-/* Divides the leg into steps. A step of the coarse run is two of the fine one. */
+/* Divides the leg into steps. A step of a coarse run is two or four of the fine one. */
 static void
 divide(struct leg *leg, double quickest, bool corner, size_t increments)
 {
@@ -372,19 +386,21 @@ divide(struct leg *leg, double quickest, bool corner, size_t increments)
     leg->most = way / n;
     leg->shrink = 1;
     leg->steps = 0;
-    while (way > 0 && (sum < whole * way || leg->steps % 2 == 1))
+    while (way > 0 && (sum < whole * way || leg->steps % merged[QUARTER] > 0))
         sum += fine_step(leg, leg->steps++);
     leg->shrink = way > 0 ? way / sum : 1;
 }
 
 /* The length of the next step. */
 static double
-next_step(const struct leg *leg, struct run *run, bool fine)
+next_step(const struct leg *leg, struct run *run, size_t times)
 {
     const size_t i = run->steps++;
-    const bool last = run->steps >= (fine ? leg->steps : leg->steps / 2);
-    const double dt = fine ? fine_step(leg, i) : fine_step(leg, 2 * i) + fine_step(leg, 2 * i + 1);
+    const bool last = run->steps >= leg->steps / times;
+    double dt = 0;
 
+    for (size_t k = 0; k < times; k++)
+        dt += fine_step(leg, times * i + k);
     return leg->end == leg->start ? 0 : last ? leg->end - run->t : dt;
 }
 
@@ -399,12 +415,31 @@ take_means(struct viscoelastic *v, struct run *run)
         all[k]->before = mean_of(run, all[k]->now, all[k]->before);
 }
 
+/* A pressure in contact, and elsewhere, below 0, the gap over the displacement of a cell under unit pressure:
+ * a node which a displacement closes has no more pressure than the displacement beyond its gap gives. */
+static enum rc_status
+find_touch(struct viscoelastic *v, double *to, struct rc_err *err)
+{
+    const double own = rc_elastic_own(v->base.inner);
+
+    if (rc_model_frame(v->base.inner, "pressure", to, err) != RC_OK ||
+        rc_model_frame(v->base.inner, "gap", v->maps.gap, err) != RC_OK)
+        return RC_FAIL;
+    for (size_t i = 0; i < v->n && own > 0; i++)
+        if (!rc_in_contact(to[i]))
+            to[i] = -fmax(0, v->weights.c * v->maps.gap[i] + v->beyond) / own;
+    return RC_OK;
+}
+
 static enum rc_status
 start_step(struct viscoelastic *v, struct rc_err *err)
 {
     struct run *run = &v->run[v->on];
-    const double dt = next_step(&v->leg, run, v->on == FINE);
+    const double dt = next_step(&v->leg, run, merged[v->on]);
     struct rc_point at;
+
+    if (v->on == FINE && run->steps == v->leg.steps && find_touch(v, v->maps.before, err) != RC_OK)
+        return RC_FAIL;
 
     v->weights.dt = dt;
     v->weights.last = run->last;
@@ -432,11 +467,8 @@ follow_load(struct viscoelastic *v, double load)
     const double own = load > 0
                            ? fmin(most, rc_model_number(v->base.inner, "pressure_error_estimate"))
                            : 0,
-                 old = load > 0 ? history_of(v, &v->error) : 0,
-                 nodes = load > 0 ? rc_model_number(v->base.inner, "contact_nodes") : 0;
+                 old = load > 0 ? history_of(v, &v->error) : 0;
 
-    v->changed[0] += fabs(nodes - v->nodes);
-    v->nodes = nodes;
     v->inherited = load > 0 ? fabs(old) / load : 0;
     v->rate = v->weights.dt > 0 ? fabs(load - v->load.now) / v->weights.dt : 0;
     follow(v, &v->error, own * load + old);
@@ -493,23 +525,62 @@ start_run(struct viscoelastic *v, size_t on, struct rc_err *err)
     return status;
 }
 
-/* The relative difference of the pressures of the two runs. */
+/* C of a step of this length in which w is linear. */
 static double
-difference(const double *fine, const double *coarse, size_t n, double changed)
+linear_c(const struct material *material, double dt)
 {
-    struct rc_total apart = {0}, of_coarse = {0}, of_fine = {0};
-    double size, nodes = 0;
+    double c = 1;
 
-    for (size_t i = 0; i < n; i++) {
-        rc_total_add(&apart, fabs(fine[i] - coarse[i]));
-        rc_total_add(&of_coarse, coarse[i]);
-        rc_total_add(&of_fine, fine[i]);
-        nodes += rc_in_contact(fine[i]);
+    for (size_t k = 0; k < material->terms; k++) {
+        const struct term *m = &material->term[k];
+        c += m->j * (isinf(m->time) ? dt / 2 : mean_of_creep(dt / m->time));
     }
-    size = fmax(rc_total_value(&of_coarse), rc_total_value(&of_fine));
-    return size != 0 ? (1 + (changed > 0 ? few / (nodes + changed) : fixed)) *
-                           rc_total_value(&apart) / size
-                     : 0;
+    return c;
+}
+
+/* The error of the pressure of a node that has joined the contact in the last step, from the gap before it.
+ * The step takes the displacement of this node as linear since its beginning; it is linear since the gap
+ * closed, and the body then had less time to creep. */
+static double
+of_joining(const struct viscoelastic *v, double pressure, double before)
+{
+    const double c = v->weights.c, way = pressure * c, since = v->weights.dt * way / (way - before);
+
+    return before < 0 ? pressure * fabs(c / linear_c(&v->material, since) - 1) : 0;
+}
+
+/* The relative error of the pressure due to the steps. With errors that fall r times where the steps are
+ * halved, it is the difference of the fine and the half run over r - 1; r is that of the two differences. A
+ * part of the other difference guards against one that is small by chance. A node that touches in no run may
+ * do so where the difference of its gaps exceeds its gap. What a node has too much, the others have too
+ * little. */
+static double
+error_of_steps(const struct viscoelastic *v, const double *fine)
+{
+    struct rc_total last = {0, 0}, former = {0, 0}, joins = {0, 0}, of_fine = {0, 0},
+                    of_half = {0, 0};
+    double size, fell, change;
+
+    for (size_t i = 0; i < v->n; i++) {
+        const double f = fine[i], h = v->maps.coarse[HALF][i], q = v->maps.coarse[QUARTER][i],
+                     p = fmax(0, f), of_h = fmax(0, h);
+        rc_total_add(&of_fine, p);
+        rc_total_add(&of_half, of_h);
+        rc_total_add(&last, fabs(p - of_h));
+        rc_total_add(&former, fabs(of_h - fmax(0, q)));
+        if (p == 0 && of_h == 0)
+            rc_total_add(&joins, fmax(0, f + fabs(f - h)));
+        else if (p > 0 && v->leg.end > v->leg.start)
+            rc_total_add(&joins, of_joining(v, p, v->maps.before[i]));
+    }
+    size = fmax(rc_total_value(&of_fine), rc_total_value(&of_half));
+    if (size == 0)
+        return 0;
+    change = rc_total_value(&last);
+    fell = change > 0 ? fmax(least_fall, rc_total_value(&former) / change) : INFINITY;
+    return (fmax(change * fmax(1, 1 / (fell - 1)), of_former * rc_total_value(&former)) +
+            2 * rc_total_value(&joins)) /
+           size;
 }
 
 /* The relative error due to terms that are left out. */
@@ -581,18 +652,19 @@ go_on(struct viscoelastic *v, struct rc_err *err)
 
     if (v->run[v->on].t < v->leg.end)
         return start_step(v, err);
-    if (v->on == COARSE)
-        return rc_model_frame(v->base.inner, "pressure", v->maps.coarse, err) == RC_OK
-                   ? start_run(v, FINE, err)
-                   : RC_FAIL;
-    if (begins) { /* both runs start from the same contact */
-        memcpy(v->run[COARSE].w, v->run[FINE].w, v->n * sizeof *v->maps.room);
-        v->run[COARSE].t = v->leg.end;
+    if (v->on != FINE)
+        return find_touch(v, v->maps.coarse[v->on], err) == RC_OK ? start_run(v, v->on + 1, err)
+                                                                  : RC_FAIL;
+    if (begins) { /* all runs start from the same contact */
+        for (size_t k = 0; k < FINE; k++) {
+            memcpy(v->run[k].w, v->run[FINE].w, v->n * sizeof *v->maps.room);
+            v->run[k].t = v->leg.end;
+        }
         v->f.increment_error = left_out(v);
     } else {
-        if (rc_model_frame(v->base.inner, "pressure", v->maps.room, err) != RC_OK)
+        if (find_touch(v, v->maps.room, err) != RC_OK)
             return RC_FAIL;
-        v->between = difference(v->maps.room, v->maps.coarse, v->n, v->changed[0] + v->changed[1]);
+        v->between = error_of_steps(v, v->maps.room);
         v->f.increment_error = left_out(v) + v->between;
         if (deserves_more(v))
             return try_again(v, err);
@@ -617,9 +689,10 @@ step(struct rc_model *m, struct rc_err *err)
 static enum rc_status
 allocate(struct viscoelastic *v, struct rc_err *err)
 {
-    double **maps[] = {&v->maps.room,   &v->maps.coarse,        &v->run[COARSE].w,
-                       &v->run[FINE].w, &v->run[COARSE].before, &v->run[FINE].before,
-                       &v->maps.posed};
+    double **maps[] = {&v->maps.posed,           &v->maps.room,         &v->maps.gap,
+                       &v->maps.coarse[QUARTER], &v->maps.coarse[HALF], &v->maps.before,
+                       &v->run[QUARTER].w,       &v->run[HALF].w,       &v->run[FINE].w,
+                       &v->run[QUARTER].before,  &v->run[HALF].before,  &v->run[FINE].before};
 
     if (v->maps.posed != NULL)
         return RC_OK;
@@ -651,16 +724,15 @@ start_leg(struct viscoelastic *v, size_t increments, struct rc_err *err)
     v->leg.start = begins ? v->leg.end : v->base.from.at[RC_TIME];
     v->f.increments = 0;
     v->leg.taken = false;
-    v->changed[1] = v->changed[0];
-    v->changed[0] = 0;
     if (begins)
         v->run[FINE].t = v->leg.end;
     corner = turns(&v->leg, by_approach(v) ? RC_APPROACH : RC_LOAD, &v->base.from, &v->base.to);
     divide(&v->leg, v->material.quickest, corner, increments);
-    v->run[COARSE].steps = v->run[FINE].steps = 0;
-    if (corner)
-        v->run[COARSE].last = v->run[FINE].last = 0;
-    return start_run(v, begins ? FINE : COARSE, err);
+    for (size_t k = 0; k < RUNS; k++) {
+        v->run[k].steps = 0;
+        v->run[k].last = corner ? 0 : v->run[k].last;
+    }
+    return start_run(v, begins ? FINE : QUARTER, err);
 }
 
 static enum rc_status
@@ -760,14 +832,15 @@ state(struct rc_model *m, struct rc_state *s)
 
     rc_state_count(s, &v->on, FINE);
     RC_STATE_FLAGS(s, &begun, &v->good, &v->leg.taken);
-    RC_STATE_COUNTS(s, &v->f.increments, &v->leg.increments, &v->leg.steps, &v->run[COARSE].steps,
-                    &v->run[FINE].steps);
-    RC_STATE_NUMBERS(
-        s, &v->leg.start, &v->leg.end, &v->weights.dt, &v->weights.last, &v->beyond, &v->leg.shrink,
-        &v->most, &v->rate, &v->nodes, &v->changed[0], &v->changed[1], &v->between, &v->inherited,
-        &v->posed_top, &v->f.increment_error, &v->f.contact.convolutions, &v->run[COARSE].t,
-        &v->run[FINE].t, &v->run[COARSE].last, &v->run[FINE].last, &v->run[COARSE].part,
-        &v->run[FINE].part, &v->load.now, &v->load.before, &v->error.now, &v->error.before);
+    RC_STATE_COUNTS(s, &v->f.increments, &v->leg.increments, &v->leg.steps);
+    RC_STATE_NUMBERS(s, &v->leg.start, &v->leg.end, &v->weights.dt, &v->weights.last, &v->beyond,
+                     &v->leg.shrink, &v->most, &v->rate, &v->between, &v->inherited, &v->posed_top,
+                     &v->f.increment_error, &v->f.contact.convolutions, &v->load.now,
+                     &v->load.before, &v->error.now, &v->error.before);
+    for (size_t k = 0; k < RUNS; k++) {
+        RC_STATE_COUNTS(s, &v->run[k].steps);
+        RC_STATE_NUMBERS(s, &v->run[k].t, &v->run[k].last, &v->run[k].part);
+    }
     RC_STATE_OPEN(s, &v->leg.slope, &v->leg.least, &v->leg.most, &v->leg.tried);
     rc_state_finite(s, v->material.terms, v->load.r);
     rc_state_finite(s, v->material.terms, v->error.r);
@@ -782,7 +855,9 @@ state(struct rc_model *m, struct rc_state *s)
             rc_state_map(s, v->n, v->run[k].r + q * v->n);
     }
     rc_state_map(s, v->n, v->maps.posed);
-    rc_state_map(s, v->n, v->maps.coarse);
+    rc_state_map(s, v->n, v->maps.before);
+    for (size_t k = 0; k < FINE; k++)
+        rc_state_map(s, v->n, v->maps.coarse[k]);
     if (!rc_state_reads(s))
         return;
     weigh(&v->material, &v->weights);
@@ -807,13 +882,15 @@ steps_of(const struct rc_viscoelastic_problem *a, double quickest, double part)
     const double usual = 6e-4;
     const double n =
         a->increments > 0 ? (double)a->increments : (double)USUAL * fmax(sqrt(usual / a->tol), 1);
-    double decades = 0;
+    double decades = 0, runs = 0;
 
     if (!(a->longest > 0))
         return 0;
     if (isfinite(quickest))
         decades = fmax(0, log10(a->longest / fmin(quickest, a->longest)));
-    return (n + per_decade * n * decades * part) * (1 + 1.0 / 2);
+    for (size_t k = 0; k < RUNS; k++)
+        runs += 1 / (double)merged[k];
+    return (n + per_decade * n * decades * part) * runs;
 }
 
 static enum rc_status

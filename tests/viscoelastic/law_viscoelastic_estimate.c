@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Estimated errors of viscoelastic pressures are not below the error, except for 1 in 33, most of them
- * where both runs miss that a node joins the contact. The median of their ratio is at most 5 by load and of
- * fluids, and 8 by approach, where often a single node touches. For random materials, maps and histories
+/* Estimated errors of viscoelastic pressures are not below the error, except for 1 in 100, where differences of
+ * the runs are small by chance. The median of their ratio is at most 5. For random materials, maps and histories
  * with falls of 10 to 1000. The truth is a scheme in strains: the displacement changes linearly in each
  * step, and stresses of the terms of the relaxation modulus follow it. It shares the elastic contact with
  * the library, and neither terms nor steps. It counts where its pressures with twice as many steps agree to
@@ -212,6 +211,7 @@ by_library(const struct history *a, struct result *to)
 struct truth {
     const struct history *a;
     struct rc_model *m;
+    bool apart;
     double top, *u, *y, *posed, *w; /* y: one map for each term */
 };
 
@@ -240,7 +240,8 @@ truth_step(struct truth *t, double dt, double value)
     if (a->axis == RC_APPROACH)
         approach = all * (value - t->top) + top;
     rc_point_set(&at, a->axis, a->axis == RC_LOAD ? value : fmax(0, approach));
-    if (approach <= 0)
+    t->apart = approach <= 0;
+    if (t->apart)
         memset(t->w, 0, a->n * sizeof *t->w);
     else if (rc_model_set_heights(t->m, t->posed, &err) != RC_OK ||
              rc_model_run(t->m, &at, &err) != RC_OK || rc_model_keep(t->m, &err) != RC_OK ||
@@ -305,7 +306,7 @@ by_strains(const struct history *a, size_t n, double (*p)[MOST])
         memset(p[k], 0, sizeof p[k]);
         for (size_t i = 0; i < a->n; i++)
             good = good && isfinite(t.w[i]);
-        if (good && rc_model_frame(t.m, "pressure", p[k], &err) != RC_OK)
+        if (good && !t.apart && rc_model_frame(t.m, "pressure", p[k], &err) != RC_OK)
             good = false;
     }
     rc_model_free(t.m);
@@ -315,6 +316,16 @@ by_strains(const struct history *a, size_t n, double (*p)[MOST])
 /* ---- the comparison ---- */
 
 static double ratio[KINDS][60000];
+
+static bool
+carries(const double *p, size_t n)
+{
+    bool any = false;
+
+    for (size_t i = 0; i < n; i++)
+        any = any || p[i] > 0;
+    return any;
+}
 
 static int
 ascending(const void *a, const void *b)
@@ -347,7 +358,9 @@ estimates(void **state)
             }
             work += took;
             for (size_t k = 0; k < POINTS; k++) {
-                const double error = found[k].load > 0 ? distance(a.n, found[k].p, truth[1][k]) : 0,
+                const double error = found[k].load > 0 || carries(truth[1][k], a.n)
+                                         ? distance(a.n, found[k].p, truth[1][k])
+                                         : 0,
                              halved = error > 0 ? distance(a.n, truth[0][k], truth[1][k]) : 0;
                 points++;
                 missed += found[k].status != RC_OK;
@@ -380,8 +393,7 @@ estimates(void **state)
                       "%.0f convolutions\n",
                       kind_name[kind], cases, refused, points, missed, n, below, unknown,
                       ratio[kind][0], ratio[kind][n / 2], ratio[kind][9 * n / 10], work);
-        assert_true(below <= n / 33 &&
-                    (n < 100 || ratio[kind][n / 2] <= (kind == APPROACH ? 8 : 5)));
+        assert_true(below <= n / 100 && (n < 100 || ratio[kind][n / 2] <= 5));
     }
 }
 
