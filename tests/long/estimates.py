@@ -351,6 +351,8 @@ def heat(seed, count, table):
     rows, work, short = [], 0, 0
     for c in range(count):
         q, boundary, options = heated(random.Random(seed * 100003 + c))
+        if not q.any():
+            continue
         surface = rcg.dumps([rcg.frame('heat', q, STEP, unit='W/m2', boundary=boundary)])
         run = ['--quiet', '--report', table]
 
