@@ -1070,6 +1070,15 @@ RC_API struct rc_relaxation *rc_relaxation_new(double relaxed, size_t terms, con
 RC_API struct rc_relaxation *rc_relaxation_fit(size_t n, const double *omega, const double *storage,
                                                const double *loss, double per_decade,
                                                double *misfit, struct rc_err *err);
+/* Fits a measured relaxation: moduli (Pa, > 0) at n >= 4 different times (s, >= 0) after a step of strain.
+ * Moduli and misfit are as for rc_relaxation_fit; the relaxation times, 4 a decade by default, go from the
+ * shortest time above 0 to the longest one.
+ * `relaxed` is the relaxed modulus (Pa, >= 0); NAN: it is fitted, which needs times at which E(t) is level.
+ * NULL when a number is out of range or memory is short. */
+RC_API struct rc_relaxation *rc_relaxation_fit_time(size_t n, const double *time,
+                                                    const double *modulus, double relaxed,
+                                                    double per_decade, double *misfit,
+                                                    struct rc_err *err);
 /* E(t), Pa. */
 RC_API double rc_relaxation_modulus(const struct rc_relaxation *r, double t);
 /* J(t), 1/Pa. */

@@ -251,6 +251,37 @@ RC_API enum rc_status rc_subtract(const struct rc_shape *a, const double *ha,
                                   const struct rc_shape *b, const double *hb, double *out,
                                   struct rc_err *err);
 
+/* How a scan B lies on a scan A of the same surface. B is turned counterclockwise in the picture about its
+ * middle, and moved right and down from the middle of A. */
+struct rc_alignment {
+    /* m */
+    double shift_x, shift_y;
+    /* rad */
+    double rotation;
+    /* slopes that are added to B, and the height that is added at the middle of A, m */
+    double tilt_x, tilt_y, offset;
+    /* m: 1.4826 times the median absolute deviation of A - B where nothing has changed */
+    double residual;
+    /* m, rad, of 95 %: of the shift in the plane, and of the rotation */
+    double shift_error, rotation_error;
+    /* m^3: integral of A - B, and its uncertainty of 95 % */
+    double volume, volume_error;
+    /* part of A on which both are measured, and part of that in patches that have changed */
+    double overlap, changed;
+};
+/* A - B on the grid of A (m), NaN where either is missing, with B moved, turned and tilted so that the part
+ * that has not changed is 0. Shift, rotation, tilt and offset are fitted with Tukey's biweights, from the
+ * peak of a correlation on; patches of 7 x 7 nodes whose mean has changed do not count. B is a cubic spline
+ * between its nodes. A and B have the same spacings, and may have different sizes; a quarter of the smaller
+ * side must overlap. Rotations up to 12 degrees are found. Profiles are not turned. The uncertainties contain
+ * the noise, with its correlation between neighbours, and the errors of the fit. out is not ha. RC_FAIL as
+ * rc_add_shape; also when a side has fewer than 16 nodes, a height is infinite, three quarters are missing,
+ * the maps do not fit on each other, or memory is short. Switches off GSL's error handler, which belongs to
+ * the process, during the call. */
+RC_API enum rc_status rc_align(const struct rc_shape *a, const double *ha, const struct rc_shape *b,
+                               const double *hb, size_t threads, double *out,
+                               struct rc_alignment *found, struct rc_err *err);
+
 /* ---- figures and sums of maps ---- */
 
 struct rc_statistics {

@@ -3,17 +3,27 @@
 #include "tools/cli/cli.h"
 #include "tools/frames/frames.h"
 
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
 static struct args {
-    bool subtract;
+    bool subtract, align;
+    const char *report;
 } args;
+
+static struct report report;
 
 /* clang-format off */
 static const struct opt opts[] = {
     {.name = "subtract", .type = OPT_FLAG, .at = offsetof(struct args, subtract), .result = true,
      .help = "A - B, without mirroring B: the change between two measurements"},
+    {.name = "align", .type = OPT_FLAG, .at = offsetof(struct args, align), .result = true,
+     .needs = RULES({.with = "subtract", .because = "it aligns two scans of one surface"}),
+     .help = "shift, turn and tilt B so that the part that has not changed is 0"},
+    {.name = "report", .type = OPT_REPORT, .at = offsetof(struct args, report), .arg = "FILE",
+     .needs = RULES({.with = "align", .because = "it reports the alignment"}),
+     .help = "write one JSON object per surface, or a row of FILE.tsv or .csv: shift, volume, errors"},
     {.name = NULL},
 };
 /* clang-format on */
@@ -23,7 +33,8 @@ static const struct tool_info info = {
     .summary = "Add two surfaces that face each other, or subtract one from the other",
     .operands = "A B",
     .examples = "  rc-synth sphere --radius 2mm --like flat.rcg | rc-add flat.rcg - > both.rcg\n"
-                "  rc-add --subtract flat.rcg surface.rcg > change.rcg\n",
+                "  rc-add --subtract flat.rcg surface.rcg > change.rcg\n"
+                "  rc-add --subtract --align worn.rcg new.rcg > wear.rcg\n",
     .opts = opts,
     .reads = READS_FILES,
     .writes = WRITES_STREAM,
@@ -229,6 +240,86 @@ add(struct tool *t, struct rc_grid *a, const struct rc_grid *b)
         a->type = RC_F64;
 }
 
+/* ---- alignment ---- */
+
+static const double in_degrees = 57.29577951308232;
+
+/* What is worth a warning: a shift that is not known to this part of a node. */
+static const double uncertain = 0.1;
+
+static void
+tell(struct tool *t, const struct rc_grid *a, const struct rc_alignment *is)
+{
+    const char *where = tool_where(t, a);
+
+    tool_tell(t,
+              "%s: B is shifted by %.3f and %.3f nodes and turned by %.4f degrees; %.3g %% of the "
+              "overlap has changed, the rest differs by %s; volume %s mm3 +- %.2g mm3 (95 %%)",
+              where, is->shift_x / a->dx, is->shift_y / a->dy, is->rotation * in_degrees,
+              100 * is->changed, shown_in_unit(is->residual, "m"),
+              shown_number(is->volume * 1e9, 4, ""), is->volume_error * 1e9);
+    if (!(is->shift_error < uncertain * fmin(a->dx, a->dy)))
+        tool_warn(
+            t,
+            "%s: the shift is uncertain by %.2g nodes: the unchanged part is smooth, or equal "
+            "along a line",
+            where, is->shift_error / fmin(a->dx, a->dy));
+}
+
+static void
+report_alignment(const struct rc_grid *a, const struct rc_alignment *is)
+{
+    struct report *r = &report;
+
+    if (!report_wanted(r))
+        return;
+    report_begin(r);
+    report_map(r, a, rc_grid_case(a));
+    report_number(r, "shift_x", is->shift_x, "m");
+    report_number(r, "shift_y", is->shift_y, "m");
+    report_number(r, "rotation", is->rotation, "rad");
+    report_number(r, "shift_error", is->shift_error, "m");
+    report_number(r, "rotation_error", is->rotation_error, "rad");
+    report_number(r, "tilt_x", is->tilt_x, NULL);
+    report_number(r, "tilt_y", is->tilt_y, NULL);
+    report_number(r, "offset", is->offset, "m");
+    report_number(r, "residual", is->residual, "m");
+    report_number(r, "volume", is->volume, "m3");
+    report_number(r, "volume_error", is->volume_error, "m3");
+    report_number(r, "overlap", is->overlap, NULL);
+    report_number(r, "changed", is->changed, NULL);
+    report_finish_row(r);
+}
+
+/* Replaces A by A - B, with B aligned; the map keeps the nodes of A. */
+static void
+align(struct tool *t, struct rc_grid *a, const struct rc_grid *b)
+{
+    const struct rc_shape sa = rc_grid_shape(a), sb = rc_grid_shape(b);
+    double *change = tool_room(t, rc_grid_nodes(a), sizeof *change, "the change");
+    struct rc_alignment is;
+    struct rc_shape both;
+
+    if (rc_add_shape(&sa, &sb, &both, &t->err) != RC_OK)
+        refuse_spacings(t, a, b);
+    tool_must(t, a, rc_align(&sa, a->v, &sb, b->v, t->threads, change, &is, &t->err));
+    free(a->v);
+    a->v = change;
+    t->input.missing = true;
+    set_periodic(t, a, b, rc_boundary_of(true, true));
+    tool_must(t, a, set_form(a, b, &t->err));
+    tool_set_number(t, a, "align.shift_x", is.shift_x);
+    tool_set_number(t, a, "align.shift_y", is.shift_y);
+    tool_set_number(t, a, "align.rotation", is.rotation);
+    tool_set_number(t, a, "align.residual", is.residual);
+    tool_set_number(t, a, "align.volume", is.volume);
+    tool_set_number(t, a, "align.volume_error", is.volume_error);
+    tool_must(t, a, add_history(t, a, b, &t->err));
+    a->type = b->type == RC_F64 ? RC_F64 : a->type;
+    tell(t, a, &is);
+    report_alignment(a, &is);
+}
+
 /* ---- the command line ---- */
 
 static void
@@ -253,18 +344,20 @@ main(int argc, char **argv)
 
     tool_start(&t, &info, argc, argv, &args);
     open_two(&t, &b);
+    report_open(&report, &t, args.report);
     while ((a = tool_channel(&t, "height", true)) != NULL) {
         next_second(&t, &b, a);
         t.input.missing |= b.t.input.missing;
         t.input.infinite |= b.t.input.infinite;
         demand_heights(&t, a);
         demand_heights(&b.t, b.g);
-        add(&t, a, b.g);
+        (args.align ? align : add)(&t, a, b.g);
         tool_write(&t, a);
         rc_grid_free(a);
         n++;
     }
     demand_end(&t, &b, n);
     rc_grid_free(b.g);
+    report_close(&report);
     return tool_finish(&t);
 }

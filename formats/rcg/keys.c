@@ -107,6 +107,12 @@ static const struct rule keys[] = {
     {"taper", FROM(0), .unit = "m"},
     {"form.radius", NUMBER, .unit = "m"},
     {"height.error", FROM(0), .unit = "m"},
+    {"align.shift_x", NUMBER, .unit = "m"},
+    {"align.shift_y", NUMBER, .unit = "m"},
+    {"align.rotation", NUMBER, .unit = "rad"},
+    {"align.residual", FROM(0), .unit = "m"},
+    {"align.volume", NUMBER, .unit = "m3"},
+    {"align.volume_error", FROM(0), .unit = "m3"},
 };
 /* clang-format on */
 

@@ -19,7 +19,9 @@
 #include "libcontact/common.h"
 #include "libcontact/memory.h"
 
-static const double usual_density = 1.5; /* relaxation times a decade of a fit */
+/* Relaxation times a decade of a fit of storage and loss, and of one of E(t), whose terms end more
+ * sharply. */
+static const double usual_density = 1.5, usual_density_in_time = 4;
 
 static struct rc_relaxation *
 allocate(size_t terms, struct rc_err *err)
@@ -228,14 +230,14 @@ rc_relaxation_mean_compliance(const struct rc_relaxation *r, double omega)
 /* ---- a master curve ---- */
 
 /* Non-negative least squares (Lawson and Hanson 1974, Solving least squares problems, chapter 23): the x >= 0
- * with the least |a x - b|. b is 1 in all rows; the columns of a have the norm 1. */
+ * with the least |a x - b|; the columns of a have the norm 1. */
 struct fit {
     size_t rows, columns;
-    double *a;           /* by rows */
-    double *x, *trial;   /* columns */
-    double *left;        /* rows: b - a x */
-    double *part, *tau;  /* QR decomposition of the columns in use */
-    double *ones, *rest; /* rows */
+    double *a;            /* by rows */
+    double *x, *trial;    /* columns */
+    double *left;         /* rows: b - a x */
+    double *part, *tau;   /* QR decomposition of the columns in use */
+    double *right, *rest; /* rows: b                           */
     size_t *in_use, used;
 };
 
@@ -243,7 +245,7 @@ static void
 find_left(struct fit *f)
 {
     for (size_t i = 0; i < f->rows; i++) {
-        f->left[i] = 1;
+        f->left[i] = f->right[i];
         for (size_t k = 0; k < f->columns; k++)
             f->left[i] -= f->a[i * f->columns + k] * f->x[k];
     }
@@ -255,7 +257,7 @@ solve_used(struct fit *f)
 {
     gsl_matrix_view m = gsl_matrix_view_array(f->part, f->rows, f->used);
     gsl_vector_view tau = gsl_vector_view_array(f->tau, f->used);
-    gsl_vector_view b = gsl_vector_view_array(f->ones, f->rows);
+    gsl_vector_view b = gsl_vector_view_array(f->right, f->rows);
     gsl_vector_view x = gsl_vector_view_array(f->trial, f->used);
     gsl_vector_view rest = gsl_vector_view_array(f->rest, f->rows);
 
@@ -332,7 +334,8 @@ least_squares(struct fit *f)
 static void
 fit_allocate(struct fit *f, struct rc_store *own, size_t rows, size_t columns)
 {
-    double **by_column[] = {&f->x, &f->trial, &f->tau}, **by_row[] = {&f->left, &f->ones, &f->rest};
+    double **by_column[] = {&f->x, &f->trial, &f->tau},
+           **by_row[] = {&f->left, &f->right, &f->rest};
 
     *f = (struct fit){.rows = rows, .columns = columns};
     f->in_use = rc_store_take(own, columns + 1, sizeof *f->in_use);
@@ -342,8 +345,8 @@ fit_allocate(struct fit *f, struct rc_store *own, size_t rows, size_t columns)
         *by_column[k] = rc_store_zeros(own, columns, sizeof(double));
         *by_row[k] = rc_store_zeros(own, rows, sizeof(double));
     }
-    for (size_t i = 0; i < rows && f->ones != NULL; i++)
-        f->ones[i] = 1;
+    for (size_t i = 0; i < rows && f->right != NULL; i++)
+        f->right[i] = 1;
 }
 
 static enum rc_status
@@ -397,13 +400,99 @@ set_norms(struct fit *f, double *norm)
     }
 }
 
+/* Relaxation times even in the logarithm; `low` and `high` are the ends. */
+static size_t
+count_terms(size_t most, double low, double high, double per_decade)
+{
+    return (size_t)fmin((double)most, fmax(1, round(per_decade * log10(high / low))) + 1);
+}
+
+static double
+even_time(double low, double high, size_t k, size_t terms)
+{
+    return terms > 1 ? low * pow(high / low, (double)k / (double)(terms - 1)) : sqrt(low * high);
+}
+
+/* The result: moduli in the unit of the rows. */
+static void
+solve_fit(struct fit *f, double *norm, double *misfit)
+{
+    double sum = 0;
+
+    set_norms(f, norm);
+    least_squares(f);
+    for (size_t i = 0; i < f->rows; i++)
+        sum += f->left[i] * f->left[i];
+    *misfit = sqrt(sum / (double)f->rows);
+    for (size_t k = 0; k < f->columns; k++)
+        f->x[k] /= norm[k];
+}
+
+static enum rc_status
+check_relaxation(size_t n, const double *time, const double *modulus, double relaxed,
+                 struct rc_err *err)
+{
+    size_t later = 0;
+
+    if (relaxed < 0 || isinf(relaxed))
+        return rc_err_set(err, "relaxed modulus %g Pa: it must be at least 0 and finite", relaxed);
+    for (size_t i = 0; i < n; i++) {
+        if (!(time[i] >= 0) || isinf(time[i]))
+            return rc_err_set(err, "time %g s in line %zu: it must be at least 0 and finite",
+                              time[i], i + 1);
+        if (!(modulus[i] > 0) || isinf(modulus[i]))
+            return rc_err_set(err, "modulus %g Pa in line %zu: it must be above 0 and finite",
+                              modulus[i], i + 1);
+        for (size_t j = 0; j < i; j++)
+            if (time[i] == time[j])
+                return rc_err_set(err, "time %g s: it must be given only once", time[i]);
+        later += time[i] > 0;
+    }
+    if (n < 4 || later < 3)
+        return rc_err_set(err, "a relaxation of %zu times: it must have at least 4", n);
+    return RC_OK;
+}
+
+struct rc_relaxation *
+rc_relaxation_fit_time(size_t n, const double *time, const double *modulus, double relaxed,
+                       double per_decade, double *misfit, struct rc_err *err)
+{
+    const size_t plateau = isnan(relaxed) ? 1U : 0U; /* the column of the relaxed modulus */
+    RC_ENDS(rc_store_free) struct rc_store own = {0};
+    double low = INFINITY, high = 0, *tau, *norm;
+    struct fit f;
+    size_t terms;
+
+    if (check_relaxation(n, time, modulus, relaxed, err) != RC_OK)
+        return NULL;
+    for (size_t i = 0; i < n; i++) {
+        low = time[i] > 0 ? fmin(low, time[i]) : low;
+        high = fmax(high, time[i]);
+    }
+    terms = count_terms(n, low, high, per_decade > 0 ? per_decade : usual_density_in_time);
+    tau = rc_store_take(&own, terms, sizeof *tau);
+    norm = rc_store_take(&own, terms + 1, sizeof *norm);
+    fit_allocate(&f, &own, n, terms + plateau);
+    if (own.failed)
+        return rc_err_null(err, "out of memory for a fit of %zu relaxation times", terms);
+    for (size_t k = 0; k < terms; k++)
+        tau[k] = even_time(low, high, k, terms);
+    for (size_t i = 0; i < n; i++) {
+        f.right[i] = plateau ? 1 : 1 - relaxed / modulus[i];
+        for (size_t k = 0; k < f.columns; k++)
+            f.a[i * f.columns + k] =
+                (k < plateau ? 1 : exp(-time[i] / tau[k - plateau])) / modulus[i];
+    }
+    solve_fit(&f, norm, misfit);
+    return rc_relaxation_new(plateau ? f.x[0] : relaxed, terms, f.x + plateau, tau, err);
+}
+
 struct rc_relaxation *
 rc_relaxation_fit(size_t n, const double *omega, const double *storage, const double *loss,
                   double per_decade, double *misfit, struct rc_err *err)
 {
-    const double dense = per_decade > 0 ? per_decade : usual_density;
     RC_ENDS(rc_store_free) struct rc_store own = {0};
-    double low = INFINITY, high = 0, *time, *norm, sum = 0;
+    double low = INFINITY, high = 0, *time, *norm;
     struct fit f;
     size_t terms;
 
@@ -413,7 +502,7 @@ rc_relaxation_fit(size_t n, const double *omega, const double *storage, const do
         low = fmin(low, omega[i]);
         high = fmax(high, omega[i]);
     }
-    terms = (size_t)fmin((double)n, fmax(1, round(dense * log10(high / low))) + 1);
+    terms = count_terms(n, low, high, per_decade > 0 ? per_decade : usual_density);
     time = rc_store_take(&own, 2 * terms + 1, sizeof *time);
     fit_allocate(&f, &own, 2 * n, terms + 1);
     if (own.failed)
@@ -422,12 +511,6 @@ rc_relaxation_fit(size_t n, const double *omega, const double *storage, const do
     for (size_t k = 0; k < terms; k++)
         time[k] = pow(low / high, (double)k / (double)(terms - 1)) / low;
     set_rows(&f, time, omega, storage, loss);
-    set_norms(&f, norm);
-    least_squares(&f);
-    for (size_t i = 0; i < f.rows; i++)
-        sum += f.left[i] * f.left[i];
-    *misfit = sqrt(sum / (double)f.rows);
-    for (size_t k = 0; k <= terms; k++)
-        f.x[k] /= norm[k];
+    solve_fit(&f, norm, misfit);
     return rc_relaxation_new(f.x[0], terms, f.x + 1, time, err);
 }

@@ -61,6 +61,30 @@ near "$(field max_pressure report.json)" \
     "$(awk -v R="$radius" 'BEGIN { a = (3 * 2 * R / (4 * 114e9)) ^ (1 / 3); print 3 * 2 / (2 * atan2(0, -1) * a * a) }')" \
     "$(awk -v c="$grid_peak" 'BEGIN { print c / 20 ^ 2 }')" "Hertz's pressure"
 
+# ---- alignment ----
+
+# two parts of one surface; 7 columns and 4 rows apart
+rc-synth selfaffine --nx 128 --dx 1um --hurst 0.7 --rms-height 0.3um --seed 5 | rc-pick --set periodic=no -o whole.rcg
+rc-pick --quiet --crop 0,0,100,90 whole.rcg -o new.rcg
+rc-pick --quiet --crop 7,4,96,96 whole.rcg -o later.rcg
+claim "two scans are aligned" bash -c 'rc-add --subtract --align --report align.json later.rcg new.rcg -o change.rcg 2>err && [ ! -s err ]'
+# the middle of B lies at column 49.5 - 7 of A, whose middle is at column 47.5; at row 44.5 - 4 and at 47.5
+near "$(field shift_x align.json)" -5e-6 1e-6 "the shift along x"
+near "$(field shift_y align.json)" -7e-6 1e-6 "  along y"
+between -1e-6 "$(field rotation align.json)" 1e-6 "  without a rotation"
+between 0 "$(field residual align.json)" 1e-11 "nothing is left"
+between -1e-20 "$(field volume align.json)" 1e-20 "  and no volume"
+info cat change.rcg
+near "$(field nx info.json)" 96 "$same" "the map has the nodes of A"
+near "$(field missing info.json)" "$((96 * 96 - 93 * 86))" "$same" "  and is missing where B does not reach"
+claim "frames have the alignment as keys" bash -c 'rc-info change.rcg >keys.txt && says "align.shift_x=-5" cat keys.txt && says "align.volume_error=" cat keys.txt'
+claim "one line tells it" warns 'B is shifted by -5.000 and -7.000 nodes and turned by -?0.0000 degrees; .*volume .* mm3 .- .* mm3 .95 %.$' \
+    rc-add --subtract --align --verbose later.rcg new.rcg -o c.rcg
+claim "a table has a row" bash -c 'rc-add --subtract --align --report align.tsv later.rcg new.rcg -o c.rcg && [ $(wc -l <align.tsv) = 2 ] && says "volume_error/m3" cat align.tsv'
+refuses 2 '--align has no effect without --subtract' "no alignment of a sum" "rc-add --align later.rcg new.rcg"
+refuses 1 'an alignment needs 16 a side' "too small a map" "rc-pick --crop 0,0,12,12 new.rcg | rc-add --subtract --align later.rcg -"
+refuses 1 'bring them together by rc-pick --resample' "other spacings" "rc-pick --resample 2um new.rcg | rc-add --subtract --align later.rcg -"
+
 # ---- cut, missing, periodic ----
 
 claim "maps of two sizes are added where they overlap" bash -c '

@@ -222,7 +222,7 @@ OTHER = {
         'E2': ['50GPa', 'rigid'], 'nu2': ['.1'], 'layer': ['1um,50GPa,.3', '2um,100GPa,.2'], 'hardness': ['3GPa'], 'radius': ['30um'], 'cylinder': ['20um'],
         'periodic': [None, 'y'], 'datum': ['1mm'], 'yield': ['3GPa', '2GPa,1GPa'], 'adhesion': ['80mJ/m2,exponential,.5um', '50mJ/m2,dugdale,.5um'],
         'history': [None], 'tilt': ['free'], 'at': ['.5um,.5um'], 'increments': ['3'], 'slabs': ['3'],
-        'relaxation': ['20MPa,100MPa:1s'], 'shift': ['3'], 'time': ['0,1s'], 'speed': ['2um/s'], 'along': ['y'], 'track': ['fresh', 'repeated'],
+        'relaxation': ['20MPa,100MPa:1s'], 'shift': ['3'], 'temperature': ['40degC'], 'time': ['0,1s'], 'speed': ['2um/s'], 'along': ['y'], 'track': ['fresh', 'repeated'],
         'pull-off': [None], 'travel': ['-1um'], 'counter': ['rough.rcg'], 'counter-travel': ['.5'], 'window': ['10x10'], 'passes': ['3', '1'],
         'kernel': ['direct', 'mlms'], 'method': ['pk99'], 'tol': ['1e-2', '1e-8'], 'output': ['gap,pressure', 'plastic'], 'stiffness': [None],
         'conductivity': ['45W/mK,16W/mK'], 'discretization': [None]},
@@ -240,6 +240,7 @@ OTHER = {
 COMMON = {'threads': ['2'], 'memory': ['4G'], 'type': ['f32']}
 # both bodies of rc-slip, which must be those of the stream
 TOGETHER = {('rc-slip', o): '--E1 200GPa --nu1 .3 --E2 200GPa --nu2 .3'.split() for o in ('E1', 'nu1', 'E2', 'nu2')}
+TOGETHER['rc-solve', 'temperature'] = '--shift wlf,17.44,51.6,20degC'.split()
 # the stream fixes bodies and boundary, and of the path only the contents change
 FIXED = {('rc-slip', o) for o in 'history E1 nu1 E2 nu2 periodic'.split()}
 # keys of rcg(5): other values
@@ -255,7 +256,8 @@ KEYS = {
     'material': ['1'], 'frames': ['2'], 'section': ['x'], 'at': ['0'], 'depths': ['0'], 'adhesion': ['0.05,jkr,1e-9'],
     'time': ['2'], 'speed': ['.1'], 'distance': ['.1'], 'thickness': ['1e-6'], 'window': ['hann'], 'max_temperature': ['10'],
     'direction': ['x'], 'flow_conductance': ['1e-18'], 'flow_rate': ['1e-9'], 'pressure_drop': ['1e6'], 'viscosity': ['1e-3'],
-    'throat_x': ['0'], 'throat_y': ['0'],
+    'throat_x': ['0'], 'throat_y': ['0'], 'align.shift_x': ['1e-6'], 'align.shift_y': ['1e-6'], 'align.rotation': ['1e-3'],
+    'align.residual': ['1e-9'], 'align.volume': ['1e-15'], 'align.volume_error': ['1e-17'],
 }
 FRAMES = {'height': 'm', 'pressure': 'Pa', 'gap': 'm', 'displacement': 'm', 'contact': '1', 'hardness': 'Pa', 'wear-coefficient': '1/Pa', 'slip': 'm'}
 

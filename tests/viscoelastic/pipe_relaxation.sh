@@ -52,6 +52,27 @@ for file in dma.tsv comma.csv names.csv omega.txt; do
     $solve --relaxation $file --load 0.2mN --time 50ms --report same.json -o t.rcg ball.rcg
     near "$(field approach same.json)" "$(field approach curve.json)" 1e-7 "  as $(head -n 1 $file | tr '\t' ' ')"
 done
+# a measured relaxation of the same material, in three forms of its heading
+awk 'BEGIN { for (i = -32; i <= 16; i++) { t = 1e-3 * 10 ^ (i / 8); print t "\t" 1 + 9 * exp(-t / 1e-3) } }' >body.tsv
+{ printf 'time/s\tE/MPa\n'; cat body.tsv; } >relax.tsv
+{ echo 'Time (s);E(t) (MPa)'; tr '\t.' ';,' <body.tsv; } >relax.csv
+{ printf 't, E_relax\ns, MPa\n'; tr '\t' ',' <body.tsv; echo inf,1; } >relax-inf.csv
+for file in relax.tsv relax.csv relax-inf.csv; do
+    $solve --relaxation $file --load 0.2mN --time 50ms --report measured.json -o t.rcg ball.rcg
+    near "$(field approach measured.json)" "$(field approach typed.json)" 5e-3 "a measured E(t) is fitted: $(head -n 1 $file | tr '\t' ' ')"
+    between 0 "$(field relaxation_misfit measured.json)" 0.02 "  with a small misfit"
+done
+near "$(field modulus_relaxed measured.json)" 1e6 "$same" "the line inf has the relaxed modulus"
+sed 's/inf,1/inf,0/' relax-inf.csv >fluid.csv
+claim "  0 there has a warning" warns 'relaxed modulus is 0, so that body 1 flows' \
+    ${solve/--quiet/} --relaxation fluid.csv --load 0.2mN --time 1ms -o t.rcg ball.rcg
+# WLF with the universal constants 10 K above T0: log10 aT = -174.4/61.6; Arrhenius with 50 kJ/mol
+$solve $solid --shift "$(awk 'BEGIN { printf "%.12g", 10 ^ (-174.4 / 61.6) }')" --load 0.2mN --time 1us --report factor.json -o t.rcg ball.rcg
+$solve $solid --shift wlf,17.44,51.6,20degC --temperature 303.15K --load 0.2mN --time 1us --report wlf.json -o t.rcg ball.rcg
+near "$(field approach wlf.json)" "$(field approach factor.json)" 1e-7 "--shift wlf shifts the times to --temperature"
+$solve $solid --shift "$(awk 'BEGIN { printf "%.12g", exp(50e3 / 8.314462618 * (1 / 353.15 - 1 / 293.15)) }')" --load 0.2mN --time 1ms --report factor.json -o t.rcg ball.rcg
+$solve $solid --shift arrhenius,50e3,293.15K --temperature 80degC --load 0.2mN --time 1ms --report arrhenius.json -o t.rcg ball.rcg
+near "$(field approach arrhenius.json)" "$(field approach factor.json)" 1e-7 "  and --shift arrhenius"
 printf 'E;tau\nMPa;ms\n1;inf\n9;1,0\n' >terms.csv
 $solve --relaxation terms.csv --load 0.2mN --time 50ms --report same.json -o t.rcg ball.rcg
 near "$(field approach same.json)" "$(field approach typed.json)" "$same" "a table of terms in other units"
@@ -131,8 +152,17 @@ done
 for table in 'time/s E/MPa\n0.001 10\n0.01 8\n' 't,E_relax\ns,MPa\n0.001,10\n0.01,8\n' \
     'Time (s);E(t) (MPa)\n0,001;10\n0,01;8\n'; do
     printf "$table" >measured.txt
-    refuses 2 'measured E.t. must be fitted first' "a measured E(t), $table" "$solve --relaxation measured.txt --time 0 $more"
+    refuses 2 'a relaxation of 2 times: it must have at least 4' "a measured E(t) of two times, $table" "$solve --relaxation measured.txt --time 0 $more"
 done
+printf 'time/s E/MPa\n1 9\n2 8\n3 0\n4 7\n' >zero.txt
+refuses 2 'line 4: E: it must be above 0' "a measured modulus of 0" "$solve --relaxation zero.txt --time 0 $more"
+printf 'time/s E/MPa\n1 9\n2 8\n3 7\n4 7\ninf 1\ninf 2\n' >twice.txt
+refuses 2 'line 7: the relaxed modulus .inf. is given twice' "two relaxed moduli" "$solve --relaxation twice.txt --time 0 $more"
+refuses 2 'give its unit, K or degC' "a temperature without a unit" "$solve $solid --shift wlf,17.44,51.6,20degC --temperature 40 --time 0 $more"
+refuses 2 '--shift wlf .*needs --temperature' "a law without a temperature" "$solve $solid --shift wlf,17.44,51.6,20degC --time 0 $more"
+refuses 2 '--temperature .*without --shift' "a temperature without a law" "$solve $solid --shift 2 --temperature 20degC --time 0 $more"
+refuses 2 'it must be a factor, wlf,C1,C2,T0 or arrhenius,EA,T0' "half a law" "$solve $solid --shift wlf,17.44 --temperature 20degC --time 0 $more"
+refuses 2 'at .* it has no value: C2' "a temperature below the range of WLF" "$solve $solid --shift wlf,17.44,51.6,20degC --temperature -40degC --time 0 $more"
 printf 'tau E\n1 9\n' >bare.txt
 refuses 2 'bare.txt: line 2: E: give its unit' "a table of moduli without a unit" "$solve --relaxation bare.txt --time 0 $more"
 printf 'frequency storage\n1 9MPa\n' >two.txt

@@ -174,6 +174,90 @@ refused(double relaxed, double e, double tau, const char *words)
         fail_msg("%s", err.text);
 }
 
+/* ---- a measured relaxation ---- */
+
+enum {
+    TIMES = 81
+};
+
+/* E(t) of published forms, with 10^7 Pa at first and 10^6 Pa at last. */
+static double
+zener(double t)
+{
+    return 1e6 + 9e6 * exp(-t / 0.037);
+}
+
+static double
+kohlrausch(double t)
+{
+    return 1e6 + 9e6 * exp(-pow(t / 0.3, 0.45));
+}
+
+static double
+prony(double t)
+{
+    return 1e6 + 4e6 * exp(-t / 2e-3) + 3e6 * exp(-t / 0.05) + 2e6 * exp(-t / 7);
+}
+
+/* Fits E(t) from 10^-4 s to 10^4 s; returns the largest relative error of the fit at other times. */
+static double
+worst_fit(double (*law)(double), double noise, double relaxed, double *misfit,
+          struct rc_relaxation **fit)
+{
+    double t[TIMES], e[TIMES], worst = 0;
+    struct rc_err err = {""};
+
+    for (int i = 0; i < TIMES; i++) {
+        t[i] = pow(10, -4 + 8. * i / (TIMES - 1));
+        e[i] = law(t[i]) * (1 + noise * sin(17.3 * i * i));
+    }
+    *fit = rc_relaxation_fit_time(TIMES, t, e, relaxed, 0, misfit, &err);
+    if (*fit == NULL)
+        fail_msg("%s", err.text);
+    for (double s = 1.3e-4; s < 1e4; s *= 1.37)
+        worst = larger(worst, fabs(rc_relaxation_modulus(*fit, s) / law(s) - 1));
+    return worst;
+}
+
+/* The fit of E(t) has also the storage and loss moduli of the law, where they have a formula. Of a single
+ * time two neighbours of the quarter of a decade take the place. */
+static void
+measured_relaxation(void **state)
+{
+    static double (*const laws[])(double) = {zener, kohlrausch, prony};
+    struct rc_relaxation *r;
+    double misfit, em[2];
+
+    (void)state;
+    for (size_t k = 0; k < 3; k++) {
+        assert_true(worst_fit(laws[k], 0, NAN, &misfit, &r) < 0.05);
+        assert_true(misfit < 0.01);
+        assert_true(fabs(r->relaxed / 1e6 - 1) < 0.01);
+        for (size_t q = 0; q < r->terms; q++)
+            assert_true(r->modulus[q] > 0);
+        if (k == 0)
+            for (double w = 1e-2; w < 1e3; w *= 3.3) {
+                const double x = w * 0.037;
+                rc_relaxation_dynamic(r, w, em, (double[2]){0});
+                assert_true(fabs(em[0] / (1e6 + 9e6 * x * x / (1 + x * x)) - 1) < 0.03);
+                if (x > 0.1 && x < 10)
+                    assert_true(fabs(em[1] / (9e6 * x / (1 + x * x)) - 1) < 0.1);
+            }
+        rc_relaxation_free(r);
+        /* noise of 5 % RMS is the misfit, and not in the fit */
+        assert_true(worst_fit(laws[k], 0.0707, NAN, &misfit, &r) < 0.07);
+        assert_true(fabs(misfit / 0.05 - 1) < 0.2);
+        rc_relaxation_free(r);
+        /* a given relaxed modulus is kept, also one of a fluid */
+        worst_fit(laws[k], 0.01, 0.9e6, &misfit, &r);
+        assert_true(r->relaxed == 0.9e6);
+        rc_relaxation_free(r);
+        worst_fit(laws[k], 0.01, 0, &misfit, &r);
+        assert_true(r->relaxed == 0 && r->fluidity > 0);
+        rc_relaxation_free(r);
+    }
+}
+
 static void
 refusals(void **state)
 {
@@ -190,6 +274,14 @@ refusals(void **state)
     refused(1, 1, 1, "relaxation time 1 s: it must be given only once");
     assert_null(rc_relaxation_new(0, 1, &zero, one, &err));
     assert_non_null(strstr(err.text, "all moduli are 0"));
+    assert_null(rc_relaxation_fit_time(4, w, one, NAN, 0, &misfit, &err));
+    assert_non_null(strstr(err.text, "time 2 s: it must be given only once"));
+    assert_null(rc_relaxation_fit_time(4, w, lossless, NAN, 0, &misfit, &err));
+    assert_non_null(strstr(err.text, "modulus 0 Pa in line 2"));
+    assert_null(rc_relaxation_fit_time(3, w, one, NAN, 0, &misfit, &err));
+    assert_non_null(strstr(err.text, "3 times"));
+    assert_null(rc_relaxation_fit_time(3, w, one, -1, 0, &misfit, &err));
+    assert_non_null(strstr(err.text, "relaxed modulus -1 Pa"));
     assert_null(rc_relaxation_fit(3, w, one, one, 0, &misfit, &err));
     assert_non_null(strstr(err.text, "3 frequencies"));
     assert_null(rc_relaxation_fit(4, w, one, one, 0, &misfit, &err));
@@ -202,11 +294,9 @@ int
 main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(product_over_20_decades),
-        cmocka_unit_test(product_of_near_times),
-        cmocka_unit_test(standard_solid),
-        cmocka_unit_test(master_curve),
-        cmocka_unit_test(refusals),
+        cmocka_unit_test(product_over_20_decades), cmocka_unit_test(product_of_near_times),
+        cmocka_unit_test(standard_solid),          cmocka_unit_test(master_curve),
+        cmocka_unit_test(measured_relaxation),     cmocka_unit_test(refusals),
     };
 
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
- * --relaxation: terms on the command line, a table of terms, or a master curve.
+ * --relaxation: terms on the command line, a table of terms, a measured relaxation, or a master curve.
  */
 #include "relaxation.h"
 
@@ -82,7 +82,7 @@ static const struct wanted_column wanted[KINDS] = {
                  .unit = UNIT_PA,
                  .optional = true,
                  .needs_unit = true},
-    [TIME] = {.names = "time t", .unit = UNIT_S, .optional = true},
+    [TIME] = {.names = "time t", .unit = UNIT_S, .optional = true, .infinite = true},
     [FREQUENCY] = {.names = "frequency f freq", .unit = UNIT_HZ, .optional = true},
     [OMEGA] = {.names = "omega angularfrequency", .unit = UNIT_RAD_S, .optional = true},
     [STORAGE] = {.names = "storage storagemodulus e' estor estorage",
@@ -144,6 +144,31 @@ fit_curve(struct relaxation_law *law, struct columns *c, double shift, struct rc
     return law->material != NULL ? RC_OK : RC_FAIL;
 }
 
+/* A measured relaxation; the line `inf E` has the relaxed modulus. */
+static enum rc_status
+fit_relaxation(struct relaxation_law *law, struct columns *c, double shift, struct rc_err *err)
+{
+    double *time = c->v[TIME], *modulus = c->v[MODULUS], relaxed = NAN;
+    size_t n = 0;
+
+    for (size_t k = 0; k < c->n; k++) {
+        if (isinf(time[k]) ? !(modulus[k] >= 0) : !(modulus[k] > 0))
+            return rc_err_set(err, "line %zu: E: it must be %s 0", c->line[k],
+                              isinf(time[k]) ? "at least" : "above");
+        if (isinf(time[k])) {
+            if (!isnan(relaxed))
+                return rc_err_set(err, "line %zu: the relaxed modulus (inf) is given twice",
+                                  c->line[k]);
+            relaxed = modulus[k];
+        } else {
+            time[n] = time[k] * shift;
+            modulus[n++] = modulus[k];
+        }
+    }
+    law->material = rc_relaxation_fit_time(n, time, modulus, relaxed, 0, &law->misfit, err);
+    return law->material != NULL ? RC_OK : RC_FAIL;
+}
+
 static enum rc_status
 take_table(struct relaxation_law *law, struct columns *c, double shift, struct rc_err *err)
 {
@@ -154,13 +179,10 @@ take_table(struct relaxation_law *law, struct columns *c, double shift, struct r
     if (has(c, 1U << FREQUENCY | moduli) || has(c, 1U << OMEGA | moduli))
         return fit_curve(law, c, shift, err);
     if (has(c, 1U << TIME | 1U << MODULUS))
-        return rc_err_set(err,
-                          "its columns time and E are a measured relaxation: a table of measured "
-                          "E(t) must be fitted first, for example in another program: give its "
-                          "terms in columns `tau E`");
+        return fit_relaxation(law, c, shift, err);
     return rc_err_set(err,
-                      "its heading must be `tau E`, `frequency storage loss` or `omega storage "
-                      "loss`");
+                      "its heading must be `tau E`, `time E`, `frequency storage loss` or `omega "
+                      "storage loss`");
 }
 
 enum rc_status
@@ -176,4 +198,68 @@ relaxation_law_read(struct relaxation_law *law, const char *text, double shift, 
         status = take_table(law, &c, shift, err);
     columns_free(&c);
     return status;
+}
+
+/* ---- the shift of a temperature ---- */
+
+static enum rc_status
+read_temperature(const char *text, double *kelvin, struct rc_err *err)
+{
+    static const struct {
+        const char *unit;
+        double zero;
+    } units[] = {{"K", 0}, {"degC", 273.15}, {"C", 273.15}};
+    char *end;
+    const double value = strtod(text, &end);
+
+    for (size_t k = 0; k < sizeof units / sizeof *units && end != text; k++)
+        if (strcmp(end, units[k].unit) == 0) {
+            *kelvin = value + units[k].zero;
+            return *kelvin > 0 && !isinf(*kelvin)
+                       ? RC_OK
+                       : rc_err_set(err, "temperature %s: it must be above 0 K", text);
+        }
+    return rc_err_set(err, "temperature %s: give its unit, K or degC, as in 40degC", text);
+}
+
+/* Ferry 1980, Viscoelastic properties of polymers, chapter 11: log10 aT = -C1 (T - T0)/(C2 + T - T0), and ln
+ * aT = EA/R (1/T - 1/T0). */
+enum rc_status
+relaxation_shift_read(const char *text, const char *temperature, double *shift, struct rc_err *err)
+{
+    static const char *const forms = "it must be a factor, wlf,C1,C2,T0 or arrhenius,EA,T0";
+    const double gas = 8.314462618; /* J/(mol K) */
+    const bool wlf = strncmp(text, "wlf,", 4) == 0;
+    double c[2], t, t0;
+    char *end;
+
+    if (!wlf && strncmp(text, "arrhenius,", 10) != 0) {
+        *shift = strtod(text, &end);
+        if (end == text || *end != '\0' || !(*shift > 0) || isinf(*shift))
+            return rc_err_set(err, "%s; a factor is above 0", forms);
+        return temperature == NULL
+                   ? RC_OK
+                   : rc_err_set(err,
+                                "--temperature has no effect without --shift wlf or arrhenius");
+    }
+    if (temperature == NULL)
+        return rc_err_set(err, "--shift %s needs --temperature", wlf ? "wlf" : "arrhenius");
+    text = strchr(text, ',');
+    for (int k = 0; k < (wlf ? 2 : 1); k++) {
+        c[k] = strtod(text + 1, &end);
+        if (end == text + 1 || *end != ',' || !(c[k] > 0) || isinf(c[k]))
+            return rc_err_set(err, "%s, with numbers above 0 and T0 in K or degC", forms);
+        text = end;
+    }
+    if (read_temperature(text + 1, &t0, err) != RC_OK ||
+        read_temperature(temperature, &t, err) != RC_OK)
+        return RC_FAIL;
+    if (wlf && !(c[1] + t - t0 > 0))
+        return rc_err_set(err, "at %s it has no value: C2 = %g K reaches down to %g K", temperature,
+                          c[1], t0 - c[1]);
+    *shift = wlf ? pow(10, -c[0] * (t - t0) / (c[1] + t - t0)) : exp(c[0] / gas * (1 / t - 1 / t0));
+    return *shift > 0 && !isinf(*shift)
+               ? RC_OK
+               : rc_err_set(err, "at %s the factor is %g: the law does not reach so far",
+                            temperature, *shift);
 }

@@ -14,10 +14,10 @@
 /* ---- the material ---- */
 
 static struct {
-    const char *law; /* words of the command line, or NULL */
-    double shift;    /* factor of all times of the material */
+    const char *law;                 /* words of the command line, or NULL */
+    const char *shift, *temperature; /* a factor of all times, or a law for a temperature */
     struct numbers time;
-} args = {.shift = 1};
+} args;
 
 static struct relaxation_law law;
 static double shortest; /* s, between two times; 0: there are no times */
@@ -36,10 +36,14 @@ static const struct opt options[] = {
                       {.with = "discretization",
                        .remedy = "solve a coarser map in a second command instead"}),
      .help = "body 1 is viscoelastic: relaxed modulus and terms of E(t), or a file (instead of --E1)"},
-    {.name = "shift", .type = OPT_NUMBER, .base = &args.shift, .min = 0, .max = INFINITY, .above = true,
-     .result = true, .arg = "FACTOR",
+    {.name = "shift", .type = OPT_TEXT, .base = &args.shift, .result = true,
+     .arg = "FACTOR|wlf,C1,C2,T0|arrhenius,EA,T0",
      .needs = RULES({.with = "relaxation"}),
-     .help = "multiply all times of --relaxation, as the shift factor of a temperature (default 1)"},
+     .help = "multiply all times of --relaxation, by a factor (default 1) or by the law of Williams, "
+             "Landel and Ferry, or of Arrhenius, for --temperature; EA in J/mol"},
+    {.name = "temperature", .type = OPT_TEXT, .base = &args.temperature, .result = true, .arg = "T",
+     .needs = RULES({.with = "shift", .because = "it needs a law"}),
+     .help = "temperature of body 1 for --shift, as 40degC or 313K"},
     {.name = NULL},
 };
 static const struct opt time_options[] = {
@@ -64,6 +68,18 @@ forget_relief(struct run *run)
     run->relief = "";
 }
 
+/* The factor of all times. */
+static double
+find_shift(struct tool *t)
+{
+    double shift = 1;
+
+    if (args.shift != NULL &&
+        relaxation_shift_read(args.shift, args.temperature, &shift, &t->err) != RC_OK)
+        tool_usage(t, "--shift %s: %s", args.shift, t->err.text);
+    return shift;
+}
+
 static bool
 ask(struct run *run)
 {
@@ -72,7 +88,7 @@ ask(struct run *run)
 
     if (args.law == NULL)
         return false;
-    if (relaxation_law_read(&law, args.law, args.shift, &t->err) != RC_OK)
+    if (relaxation_law_read(&law, args.law, find_shift(t), &t->err) != RC_OK)
         tool_usage(t, "--relaxation %s: %s", args.law, t->err.text);
     a->relaxes = 1 / law.material->instant;
     run->material = &law;
@@ -87,10 +103,11 @@ warn_of_material(struct run *run)
     const double contradicts = 0.05, rubber = 0.45, nu = isinf(a->e1) ? a->layers[0].nu : a->nu1;
 
     if (law.misfit > contradicts)
-        tool_warn(&run->d.t,
-                  "--relaxation: the RMS misfit of the master curve is %.2g: its storage and loss "
-                  "moduli contradict each other, or are scattered",
-                  law.misfit);
+        tool_warn(
+            &run->d.t,
+            "--relaxation: the terms differ from the measured moduli by %.2g (RMS, relative): "
+            "the moduli are scattered, E(t) rises, or storage and loss contradict each other",
+            law.misfit);
     if (m->relaxed == 0)
         tool_warn(&run->d.t, "--relaxation: the relaxed modulus is 0, so that body 1 flows without "
                              "end under a load: for a solid give its relaxed modulus, first as in "

@@ -1,0 +1,835 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/*
+ * The position of one scan on another scan of the same surface, by the part of it that did not change.
+ *
+ * Coarse maps are turned by steps and correlated, which gives starts: by their phases (Kuglin and Hines
+ * 1975), which suits rough surfaces, and by their heights, which suits smooth ones. From the best start a
+ * shift, a rotation, two tilts and an offset are fitted on finer and finer maps. The weights of the residuals
+ * are Tukey's biweights about their median absolute deviation, and are renewed until they agree with the
+ * residuals. Between its nodes B is the cubic spline through them. On the finest maps, nodes of patches whose
+ * mean has changed are left out, so that the rims of a groove do not pull the offset.
+ */
+#include "libcontact/common.h"
+
+#include <complex.h>
+#include <gsl/gsl_linalg.h>
+#include <gsl/gsl_multifit_nlinear.h>
+#include <gsl/gsl_statistics.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "handler.h"
+#include "libcontact/memory.h"
+#include "libcontact/transform/transform.h"
+#include "robust.h"
+
+enum {
+    NUMBERS = 6,     /* shift along x and y, rotation, offset, tilt along x and y */
+    ON_PROFILE = 3,  /* shift, offset, tilt                                        */
+    SMALLEST = 16,   /* nodes of a side                                            */
+    COARSE = 96,     /* most nodes of a side of the maps that are correlated       */
+    TURNS = 12,      /* steps of rotation on either side                           */
+    STARTS = 4,      /* correlation peaks that are tried                           */
+    ROUNDS = 40,     /* of weights                                                 */
+    POINTS = 1 << 20 /* most nodes of a fit                                        */
+};
+static const double widest_turn = 12 * RC_PI / 180;
+static const double reach = 4.685; /* residuals, in standard deviations, that lose all weight */
+
+/* ---- a map between its nodes ---- */
+
+struct spline {
+    struct rc_shape shape;
+    double *c;           /* coefficients                                                   */
+    unsigned char *hole; /* 1: one of the nodes around the cell right and below is missing */
+};
+
+static void
+spline_free(struct spline *s)
+{
+    free(s->c);
+    free(s->hole);
+}
+
+/* Coefficients of the cubic spline through n values, reflected about the outermost (Unser 1999). */
+static void
+filter_line(double *c, size_t n, size_t step)
+{
+    const double z = sqrt(3) - 2;
+    double sum = 0, power = 1;
+
+    if (n == 1)
+        return;
+    for (size_t k = 0; k < n && fabs(power) > 1e-17; k++, power *= z)
+        sum += power * 6 * c[k * step];
+    c[0] = sum;
+    for (size_t k = 1; k < n; k++)
+        c[k * step] = 6 * c[k * step] + z * c[(k - 1) * step];
+    c[(n - 1) * step] = z / (z * z - 1) * (c[(n - 1) * step] + z * c[(n - 2) * step]);
+    for (size_t k = n - 1; k-- > 0;)
+        c[k * step] = z * (c[(k + 1) * step] - c[k * step]);
+}
+
+static enum rc_status
+spline_new(const struct rc_shape *shape, const double *h, struct spline *s, struct rc_err *err)
+{
+    const size_t nx = shape->nx, ny = shape->ny;
+    size_t filled;
+
+    *s = (struct spline){
+        .shape = *shape, .c = rc_alloc(nx * ny, sizeof *s->c), .hole = rc_calloc(nx * ny, 1)};
+    if (s->c == NULL || s->hole == NULL)
+        return rc_err_set(err, "out of memory for a spline of %zu x %zu nodes", nx, ny);
+    for (size_t j = 0; j < ny; j++)
+        for (size_t i = 0; i < nx; i++)
+            if (isnan(h[j * nx + i]))
+                for (size_t b = j < 2 ? 0 : j - 2; b <= j + 1 && b < ny; b++)
+                    for (size_t a = i < 2 ? 0 : i - 2; a <= i + 1 && a < nx; a++)
+                        s->hole[b * nx + a] = 1;
+    memcpy(s->c, h, nx * ny * sizeof *h);
+    if (rc_inpaint(shape, s->c, &filled, err) != RC_OK)
+        return RC_FAIL;
+    for (size_t j = 0; j < ny; j++)
+        filter_line(s->c + j * nx, nx, 1);
+    for (size_t i = 0; i < nx; i++)
+        filter_line(s->c + i, ny, nx);
+    return RC_OK;
+}
+
+/* Four places and weights along one side, and the derivatives of the weights. False: beyond the map. */
+static bool
+along_side(double x, size_t n, size_t *first, size_t place[4], double weight[4], double slope[4])
+{
+    const double last = (double)(n - 1), rim = 1e-3; /* nodes: the error of a shift */
+    double t;
+
+    if (!(x >= -rim && x <= last + rim))
+        return false;
+    x = fmin(fmax(x, 0), last);
+    if (n == 1) {
+        memset(place, 0, 4 * sizeof *place);
+        memset(slope, 0, 4 * sizeof *slope);
+        memcpy(weight, (const double[]){1, 0, 0, 0}, 4 * sizeof *weight);
+        *first = 0;
+        return true;
+    }
+    *first = x < last ? (size_t)x : n - 2;
+    t = x - (double)*first;
+    place[0] = *first == 0 ? 1 : *first - 1;
+    place[1] = *first;
+    place[2] = *first + 1;
+    place[3] = *first + 2 == n ? n - 2 : *first + 2;
+    weight[0] = (1 - t) * (1 - t) * (1 - t) / 6;
+    weight[1] = (4 - 6 * t * t + 3 * t * t * t) / 6;
+    weight[3] = t * t * t / 6;
+    weight[2] = 1 - weight[0] - weight[1] - weight[3];
+    slope[0] = -(1 - t) * (1 - t) / 2;
+    slope[1] = -2 * t + 1.5 * t * t;
+    slope[3] = t * t / 2;
+    slope[2] = -slope[0] - slope[1] - slope[3];
+    return true;
+}
+
+/* Height and gradient at a place (m from the middle). False: beyond the map, or beside a missing node. */
+static bool
+spline_at(const struct spline *s, double x, double y, double *h, double gradient[2])
+{
+    const size_t nx = s->shape.nx, ny = s->shape.ny;
+    size_t i, j, px[4], py[4];
+    double wx[4], wy[4], sx[4], sy[4];
+
+    if (!along_side(x / s->shape.dx + (double)(nx - 1) / 2, nx, &i, px, wx, sx) ||
+        !along_side(y / s->shape.dy + (double)(ny - 1) / 2, ny, &j, py, wy, sy) ||
+        s->hole[j * nx + i])
+        return false;
+    *h = gradient[0] = gradient[1] = 0;
+    for (int b = 0; b < 4; b++) {
+        const double *row = s->c + py[b] * nx;
+        double value = 0, along = 0;
+        for (int a = 0; a < 4; a++) {
+            value += wx[a] * row[px[a]];
+            along += sx[a] * row[px[a]];
+        }
+        *h += wy[b] * value;
+        gradient[0] += wy[b] * along / s->shape.dx;
+        gradient[1] += sy[b] * value / s->shape.dy;
+    }
+    return true;
+}
+
+/* ---- the fit ---- */
+
+/* B turned counterclockwise and then moved lies on A. The fit has its numbers in units that make them
+ * alike. */
+struct fit {
+    struct rc_shape shape; /* of A */
+    const double *a;
+    const struct spline *b;
+    double unit[NUMBERS];
+    double height;       /* unit of the residuals, m           */
+    size_t numbers;      /* NUMBERS or ON_PROFILE              */
+    size_t n, step;      /* nodes of A in the fit: every step-th */
+    bool fresh;          /* the numbers are not near the result yet */
+    unsigned char *skip; /* nodes that have changed, or NULL   */
+    double q[NUMBERS];   /* the result, in SI                  */
+    double spread;       /* 1.4826 MAD of the residuals, m     */
+    double *r, *work;    /* n residuals, m; NAN: none          */
+    int threads;
+};
+
+static void
+set_place(const struct fit *f, size_t k, double *x, double *y)
+{
+    *x = ((double)(k % f->shape.nx) - (double)(f->shape.nx - 1) / 2) * f->shape.dx;
+    *y = ((double)(k / f->shape.nx) - (double)(f->shape.ny - 1) / 2) * f->shape.dy;
+}
+
+/* The order of the numbers in `q`; a profile has no shift along y, rotation and tilt along y. */
+static const size_t order[NUMBERS] = {0, 3, 4, 1, 2, 5};
+
+/* A - B at node k, and the derivatives of B there by all numbers (not NULL). NAN where one is missing. */
+static double
+difference(const struct fit *f, const double q[NUMBERS], size_t k, double *by)
+{
+    const double c = cos(q[2]), s = sin(q[2]);
+    double x, y, u, v, h, g[2];
+
+    if (isnan(f->a[k]))
+        return NAN;
+    set_place(f, k, &x, &y);
+    u = c * (x - q[0]) - s * (y - q[1]);
+    v = s * (x - q[0]) + c * (y - q[1]);
+    if (!spline_at(f->b, u, v, &h, g))
+        return NAN;
+    if (by != NULL) {
+        by[0] = -g[0] * c - g[1] * s;
+        by[1] = g[0] * s - g[1] * c;
+        by[2] = -g[0] * v + g[1] * u;
+        by[3] = 1;
+        by[4] = x;
+        by[5] = y;
+    }
+    return f->a[k] - h - q[3] - q[4] * x - q[5] * y;
+}
+
+static void
+from_gsl(const struct fit *f, const gsl_vector *x, double q[NUMBERS])
+{
+    memcpy(q, f->q, NUMBERS * sizeof *q);
+    for (size_t k = 0; k < f->numbers; k++)
+        q[order[k]] = gsl_vector_get(x, k) * f->unit[order[k]];
+}
+
+static int
+residuals(const gsl_vector *x, void *data, gsl_vector *to)
+{
+    const struct fit *f = data;
+    double q[NUMBERS];
+
+    from_gsl(f, x, q);
+#pragma omp parallel for num_threads(f->threads) schedule(static)
+    for (size_t i = 0; i < f->n; i++) {
+        const double d = difference(f, q, i * f->step, NULL);
+        gsl_vector_set(to, i, isnan(d) ? 0 : d / f->height);
+    }
+    return GSL_SUCCESS;
+}
+
+static int
+derivatives(const gsl_vector *x, void *data, gsl_matrix *to)
+{
+    const struct fit *f = data;
+    double q[NUMBERS];
+
+    from_gsl(f, x, q);
+#pragma omp parallel for num_threads(f->threads) schedule(static)
+    for (size_t i = 0; i < f->n; i++) {
+        double by[NUMBERS];
+        const bool there = !isnan(difference(f, q, i * f->step, by));
+        for (size_t k = 0; k < f->numbers; k++)
+            gsl_matrix_set(to, i, k, there ? -by[order[k]] * f->unit[order[k]] / f->height : 0);
+    }
+    return GSL_SUCCESS;
+}
+
+/* Residuals of the result and their spread; returns how many nodes count. */
+static size_t
+find_spread(struct fit *f)
+{
+    size_t count = 0;
+
+#pragma omp parallel for num_threads(f->threads) schedule(static)
+    for (size_t i = 0; i < f->n; i++)
+        f->r[i] =
+            f->skip != NULL && f->skip[i * f->step] ? NAN : difference(f, f->q, i * f->step, NULL);
+    for (size_t i = 0; i < f->n; i++)
+        if (!isnan(f->r[i]))
+            f->work[count++] = f->r[i];
+    if (count > 0) {
+        double *room = f->work + f->n;
+        f->spread = gsl_stats_mad(f->work, 1, count, room);
+    }
+    return count;
+}
+
+static void
+fit_free(struct fit *f)
+{
+    free(f->r);
+    free(f->work);
+}
+
+static enum rc_status
+fit_new(const struct rc_shape *shape, const double *a, const struct spline *b, int threads,
+        struct fit *f, struct rc_err *err)
+{
+    const size_t n = shape->nx * shape->ny;
+    struct rc_statistics is;
+
+    *f = (struct fit){.shape = *shape, .a = a, .b = b, .threads = threads};
+    f->numbers = shape->ny == 1 ? ON_PROFILE : NUMBERS;
+    f->step = (n + POINTS - 1) / POINTS;
+    f->n = (n + f->step - 1) / f->step;
+    f->r = rc_alloc(f->n, sizeof *f->r);
+    f->work = rc_alloc(2 * f->n, sizeof *f->work);
+    if (f->r == NULL || f->work == NULL)
+        return rc_err_set(err, "out of memory for the fit of %zu heights", f->n);
+    rc_measure(shape, a, &is);
+    f->height = is.rms > 0 ? is.rms : 1;
+    f->unit[0] = shape->dx;
+    f->unit[1] = shape->dy;
+    f->unit[2] = 2 / hypot((double)shape->nx, (double)shape->ny);
+    f->unit[3] = f->height;
+    f->unit[4] = f->height / ((double)shape->nx * shape->dx);
+    f->unit[5] = f->height / ((double)shape->ny * shape->dy);
+    return RC_OK;
+}
+
+/* Fits from f->q on, with weights that are renewed. RC_FAIL: memory is short. */
+static enum rc_status
+fit_solve(struct fit *f, struct rc_err *err)
+{
+    /* changes that end the rounds: of places in nodes, and of heights in deviations */
+    const double closest = 1e-4, level = 1e-3;
+    gsl_multifit_nlinear_parameters how = gsl_multifit_nlinear_default_parameters();
+    gsl_multifit_nlinear_fdf what = {
+        .f = residuals, .df = derivatives, .n = f->n, .p = f->numbers, .params = f};
+    gsl_multifit_nlinear_workspace *w = NULL;
+    gsl_vector *start = gsl_vector_alloc(f->numbers), *weight = gsl_vector_alloc(f->n);
+
+    how.solver = gsl_multifit_nlinear_solver_cholesky;
+    w = gsl_multifit_nlinear_alloc(gsl_multifit_nlinear_trust, &how, f->n, f->numbers);
+    for (int round = 0; w != NULL && start != NULL && weight != NULL && round < ROUNDS; round++) {
+        double change = 0;
+        int info;
+        if (find_spread(f) <= f->numbers || !(f->spread > 1e-12 * f->height))
+            break;
+        for (size_t i = 0; i < f->n; i++)
+            gsl_vector_set(weight, i,
+                           round == 0 && f->fresh ? (isnan(f->r[i]) ? 0 : 1)
+                                                  : rc_biweight(f->r[i], reach * f->spread));
+        for (size_t k = 0; k < f->numbers; k++)
+            gsl_vector_set(start, k, f->q[order[k]] / f->unit[order[k]]);
+        if (gsl_multifit_nlinear_winit(start, weight, &what, w) != GSL_SUCCESS)
+            break;
+        (void)gsl_multifit_nlinear_driver(12, 1e-6, 1e-9, 0, NULL, NULL, &info, w);
+        for (size_t k = 0; k < f->numbers; k++)
+            change = fmax(change, fabs(gsl_vector_get(w->x, k) - gsl_vector_get(start, k)) /
+                                      (order[k] < 3 ? closest : level * f->spread / f->height));
+        from_gsl(f, w->x, f->q);
+        if (change < 1)
+            break;
+    }
+    if (w == NULL || start == NULL || weight == NULL)
+        rc_err_set(err, "out of memory for the fit of %zu heights", f->n);
+    gsl_vector_free(start);
+    gsl_vector_free(weight);
+    if (w == NULL)
+        return RC_FAIL;
+    gsl_multifit_nlinear_free(w);
+    return RC_OK;
+}
+
+/* ---- the start ---- */
+
+struct start {
+    double score, shift[2], turn;
+};
+
+/* A map for the correlation: levelled, with 0 in its holes and towards its edges. */
+static enum rc_status
+flatten(const struct rc_shape *shape, double *h, struct rc_err *err)
+{
+    const struct rc_form plane = {.degree = 1, .threads = 1};
+    const double rim = 0.1; /* part of a side on which the map goes to 0 */
+
+    if (rc_detrend_form(shape, &plane, h, NULL, err) != RC_OK)
+        return RC_FAIL;
+    for (size_t j = 0; j < shape->ny; j++)
+        for (size_t i = 0; i < shape->nx; i++) {
+            const double x = ((double)i + 0.5) / (double)shape->nx,
+                         y = ((double)j + 0.5) / (double)shape->ny;
+            const double at[] = {fmin(x, 1 - x) / rim, shape->ny > 1 ? fmin(y, 1 - y) / rim : 1};
+            double *v = h + j * shape->nx + i;
+            for (int k = 0; k < 2; k++)
+                *v *= at[k] < 1 ? (1 - cos(RC_PI * at[k])) / 2 : 1;
+            *v = isnan(*v) ? 0 : *v;
+        }
+    return RC_OK;
+}
+
+struct search {
+    struct rc_shape a, b, pad; /* coarse maps, and the grid of the transforms */
+    double *v;
+    double complex *sa, *sb, *s;
+    struct start best[STARTS]; /* first half: by phases, second half: by heights */
+};
+
+static void
+put(const struct search *w, const struct rc_shape *shape, const double *h)
+{
+    memset(w->v, 0, w->pad.nx * w->pad.ny * sizeof *w->v);
+    for (size_t j = 0; j < shape->ny; j++)
+        memcpy(w->v + j * w->pad.nx, h + j * shape->nx, shape->nx * sizeof *h);
+}
+
+/* Keeps the highest peaks, one for each rotation. */
+static void
+keep(struct start *best, struct start now)
+{
+    for (size_t k = 0; k < STARTS / 2; k++)
+        if (now.score > best[k].score) {
+            const struct start next = best[k];
+            best[k] = now;
+            now = next;
+        }
+}
+
+/* The highest peak of a correlation. A quarter of each side of the smaller map must lie on the other. */
+static void
+find_peak(struct search *w, double turn, struct start *best)
+{
+    const long ax = (long)w->a.nx, ay = (long)w->a.ny, bx = (long)w->b.nx, by = (long)w->b.ny;
+    const long least[] = {((ax < bx ? ax : bx) + 3) / 4, ((ay < by ? ay : by) + 3) / 4};
+    struct start peak = {.turn = turn};
+
+    for (long j = least[1] - by; j <= ay - least[1]; j++)
+        for (long i = least[0] - bx; i <= ax - least[0]; i++) {
+            const size_t y = (size_t)(j < 0 ? j + (long)w->pad.ny : j);
+            const size_t x = (size_t)(i < 0 ? i + (long)w->pad.nx : i);
+            const double c = w->v[y * w->pad.nx + x];
+            if (c > peak.score)
+                peak = (struct start){c,
+                                      {((double)i - (double)(ax - bx) / 2) * w->a.dx,
+                                       ((double)j - (double)(ay - by) / 2) * w->a.dy},
+                                      turn};
+        }
+    keep(best, peak);
+}
+
+/* Correlates A with B turned by an angle. */
+static enum rc_status
+correlate(struct search *w, const struct spline *b, double *room, double turn, struct rc_err *err)
+{
+    const size_t n = rc_fourier_size(&w->pad);
+    const struct rc_shape turned = {w->b.nx, w->b.ny, w->a.dx, w->a.dy};
+    double h, g[2];
+
+    for (size_t j = 0; j < turned.ny; j++)
+        for (size_t i = 0; i < turned.nx; i++) {
+            const double x = ((double)i - (double)(turned.nx - 1) / 2) * turned.dx;
+            const double y = ((double)j - (double)(turned.ny - 1) / 2) * turned.dy;
+            room[j * turned.nx + i] =
+                spline_at(b, cos(turn) * x - sin(turn) * y, sin(turn) * x + cos(turn) * y, &h, g)
+                    ? h
+                    : 0;
+        }
+    put(w, &turned, room);
+    if (rc_fourier_forward(&w->pad, w->v, w->sb, err) != RC_OK)
+        return RC_FAIL;
+    for (int heights = 0; heights < 2; heights++) {
+        for (size_t k = 0; k < n; k++) {
+            const double complex c = w->sa[k] * conj(w->sb[k]);
+            w->s[k] = heights || cabs(c) == 0 ? c : c / cabs(c);
+        }
+        if (rc_fourier_backward(&w->pad, w->s, w->v, err) != RC_OK)
+            return RC_FAIL;
+        find_peak(w, turn, w->best + (heights ? STARTS / 2 : 0));
+    }
+    return RC_OK;
+}
+
+static enum rc_status
+find_starts(const struct rc_shape *a, const double *ha, const struct rc_shape *b, const double *hb,
+            struct start best[STARTS], struct rc_err *err)
+{
+    RC_ENDS(rc_store_free) struct rc_store own = {0};
+    RC_ENDS(spline_free) struct spline spline = {0};
+    struct search w = {.a = *a, .b = *b};
+    const size_t nx = a->nx > b->nx ? a->nx : b->nx, ny = a->ny > b->ny ? a->ny : b->ny;
+    double *flat_a = rc_store_copy(&own, a->nx * a->ny, sizeof *ha, ha);
+    double *flat_b = rc_store_copy(&own, b->nx * b->ny, sizeof *hb, hb);
+    double *room = rc_store_take(&own, b->nx * b->ny, sizeof *room);
+
+    w.pad = (struct rc_shape){rc_fourier_length(nx, 1), ny == 1 ? 1 : rc_fourier_length(ny, 1),
+                              a->dx, a->dy};
+    w.v = rc_store_take(&own, w.pad.nx * w.pad.ny, sizeof *w.v);
+    w.sa = rc_store_take(&own, rc_fourier_size(&w.pad), sizeof *w.sa);
+    w.sb = rc_store_take(&own, rc_fourier_size(&w.pad), sizeof *w.sb);
+    w.s = rc_store_take(&own, rc_fourier_size(&w.pad), sizeof *w.s);
+    if (own.failed)
+        return rc_err_set(err, "out of memory for the correlation of two maps");
+    if (flatten(a, flat_a, err) != RC_OK || flatten(b, flat_b, err) != RC_OK ||
+        spline_new(b, flat_b, &spline, err) != RC_OK)
+        return RC_FAIL;
+    put(&w, a, flat_a);
+    if (rc_fourier_forward(&w.pad, w.v, w.sa, err) != RC_OK)
+        return RC_FAIL;
+    for (int k = -TURNS; k <= TURNS; k++)
+        if ((a->ny > 1 || k == 0) &&
+            correlate(&w, &spline, room, widest_turn * k / TURNS, err) != RC_OK)
+            return RC_FAIL;
+    memcpy(best, w.best, sizeof w.best);
+    return RC_OK;
+}
+
+/* ---- levels ---- */
+
+/* A map of means with 1/factor of the nodes; NULL: memory is short. */
+static double *
+coarsened(const struct rc_shape *from, const double *h, size_t factor, struct rc_shape *to)
+{
+    double *v;
+
+    to->nx = (from->nx + factor - 1) / factor;
+    to->ny = (from->ny + factor - 1) / factor;
+    to->dx = from->dx * (double)from->nx / (double)to->nx;
+    to->dy = from->dy * (double)from->ny / (double)to->ny;
+    if ((v = rc_alloc(to->nx * to->ny, sizeof *v)) != NULL)
+        rc_resample_means(from, h, to, v);
+    return v;
+}
+
+static const char apart[] = "the two maps do not fit on each other: are they scans of one surface, "
+                            "turned by less than 12 degrees?";
+
+/* Fits all starts on a coarse map; the least spread wins. */
+static enum rc_status
+try_starts(struct fit *f, const struct start start[STARTS], struct rc_err *err)
+{
+    double q[NUMBERS] = {0}, least = INFINITY;
+
+    for (int k = 0; k < STARTS; k++) {
+        size_t count;
+        if (!(start[k].score > 0))
+            continue;
+        memset(f->q, 0, sizeof f->q);
+        f->q[0] = start[k].shift[0];
+        f->q[1] = start[k].shift[1];
+        f->q[2] = start[k].turn;
+        f->fresh = true;
+        if (fit_solve(f, err) != RC_OK)
+            return RC_FAIL;
+        count = find_spread(f);
+        if (10 * count > f->n && f->spread < least) {
+            least = f->spread;
+            memcpy(q, f->q, sizeof q);
+        }
+    }
+    f->fresh = false;
+    memcpy(f->q, q, sizeof q);
+    return least < INFINITY ? RC_OK : rc_err_set(err, "%s", apart);
+}
+
+/* Improves q on maps with 1/factor of the nodes; a NAN: there is no q yet. */
+static enum rc_status
+solve_level(const struct rc_shape *a, const double *ha, const struct rc_shape *b, const double *hb,
+            size_t factor, int threads, double q[NUMBERS], struct rc_err *err)
+{
+    struct rc_shape sa, sb;
+    RC_OWNED double *va = coarsened(a, ha, factor, &sa);
+    RC_OWNED double *vb = coarsened(b, hb, factor, &sb);
+    RC_ENDS(spline_free) struct spline spline = {0};
+    RC_ENDS(fit_free) struct fit f = {0};
+    struct start start[STARTS] = {{0}};
+    const bool first = isnan(q[0]);
+
+    if (va == NULL || vb == NULL)
+        return rc_err_set(err, "out of memory for the fit of two maps");
+    if (spline_new(&sb, vb, &spline, err) != RC_OK ||
+        fit_new(&sa, va, &spline, threads, &f, err) != RC_OK)
+        return RC_FAIL;
+    if (first) {
+        if (find_starts(&sa, va, &sb, vb, start, err) != RC_OK ||
+            try_starts(&f, start, err) != RC_OK)
+            return RC_FAIL;
+    } else {
+        memcpy(f.q, q, sizeof f.q);
+        if (fit_solve(&f, err) != RC_OK)
+            return RC_FAIL;
+    }
+    memcpy(q, f.q, sizeof f.q);
+    return RC_OK;
+}
+
+/* ---- what has changed ---- */
+
+enum {
+    PATCH = 3,  /* nodes on either side of a mean                               */
+    MARGIN = 10 /* nodes around it that are marked: shallow rims pull the offset */
+};
+
+/* A - B on all nodes. */
+static void
+find_change(const struct fit *f, double *out)
+{
+    const size_t n = f->shape.nx * f->shape.ny;
+
+#pragma omp parallel for num_threads(f->threads) schedule(static)
+    for (size_t k = 0; k < n; k++)
+        out[k] = difference(f, f->q, k, NULL);
+}
+
+/* The mean in the square around a node, NAN where most of it is missing. */
+static double
+patch_mean(const struct rc_shape *s, const double *v, size_t k)
+{
+    const size_t i = k % s->nx, j = k / s->nx;
+    double sum = 0, n = 0, all = 0;
+
+    for (size_t b = j < PATCH ? 0 : j - PATCH; b <= j + PATCH && b < s->ny; b++)
+        for (size_t a = i < PATCH ? 0 : i - PATCH; a <= i + PATCH && a < s->nx; a++) {
+            const double at = v[b * s->nx + a];
+            sum += isnan(at) ? 0 : at;
+            n += isnan(at) ? 0 : 1;
+            all++;
+        }
+    return 2 * n > all ? sum / n : NAN;
+}
+
+static void
+mark_patch(const struct rc_shape *s, size_t k, unsigned char *skip)
+{
+    const size_t i = k % s->nx, j = k / s->nx;
+
+    for (size_t b = j < MARGIN ? 0 : j - MARGIN; b <= j + MARGIN && b < s->ny; b++)
+        for (size_t a = i < MARGIN ? 0 : i - MARGIN; a <= i + MARGIN && a < s->nx; a++)
+            skip[b * s->nx + a] = 1;
+}
+
+/* Marks the patches whose mean is far from 0; false, and no mark, if that is 3/4 of the map. */
+static bool
+mark_changes(const struct fit *f, const double *change, double *mean, unsigned char *skip)
+{
+    const double far = 4; /* standard deviations of the means */
+    const size_t n = f->shape.nx * f->shape.ny;
+    size_t marked = 0, there = 0;
+    double limit;
+
+#pragma omp parallel for num_threads(f->threads) schedule(static)
+    for (size_t k = 0; k < n; k++)
+        mean[k] = patch_mean(&f->shape, change, k);
+    limit = far * 1.4826 *
+            rc_median(mean, n, rc_median(mean, n, 0, false, f->threads), true, f->threads);
+    memset(skip, 0, n);
+    for (size_t k = 0; k < n; k++)
+        if (fabs(mean[k]) > limit)
+            mark_patch(&f->shape, k, skip);
+    for (size_t k = 0; k < n; k++) {
+        marked += skip[k] && !isnan(change[k]) ? 1 : 0;
+        there += isnan(change[k]) ? 0 : 1;
+    }
+    if (4 * marked > 3 * there)
+        memset(skip, 0, n);
+    return 4 * marked <= 3 * there;
+}
+
+/* ---- uncertainty ---- */
+
+/* Ratio of the variance of sums over blocks to that of independent nodes: how many neighbours err alike. */
+static double
+correlated_nodes(const struct fit *f, const double *change)
+{
+    double most = 1;
+
+    for (size_t side = 4; side <= 32; side *= 2) {
+        double blocks = 0, nodes = 0;
+        for (size_t b = 0; b + (f->shape.ny > 1 ? side : 1) <= f->shape.ny; b += side)
+            for (size_t a = 0; a + side <= f->shape.nx; a += side) {
+                double sum = 0;
+                for (size_t j = b; j < b + side && j < f->shape.ny; j++)
+                    for (size_t i = a; i < a + side; i++) {
+                        const size_t k = j * f->shape.nx + i;
+                        if (f->skip[k] || !(fabs(change[k]) < reach * f->spread))
+                            continue;
+                        sum += change[k];
+                        nodes += change[k] * change[k];
+                    }
+                blocks += sum * sum;
+            }
+        if (nodes > 0)
+            most = fmax(most, blocks / nodes);
+    }
+    return most;
+}
+
+/* With the residuals r and the derivatives G of B the numbers err by N^-1 sum psi(r) G, N = sum psi'(r) G G'.
+ * The volume is the sum of r, which changes by -(sum G)' of that. */
+static enum rc_status
+find_errors(const struct fit *f, const double *change, struct rc_alignment *found,
+            struct rc_err *err)
+{
+    /* standard deviations: 95 %; of the volume more, by 60 pairs of scans of tests/long/law_align.c: the rims
+     * of a change are not known */
+    const double bar = 2, bar_of_volume = 2.5;
+    const size_t n = f->shape.nx * f->shape.ny, p = f->numbers;
+    double normal[NUMBERS * NUMBERS] = {0}, scatter[NUMBERS * NUMBERS] = {0}, all[NUMBERS] = {0};
+    double slope = 0, weights = 0, sum = 0, changed = 0, there = 0, volume = 0, pulls[NUMBERS];
+    gsl_matrix_view m = gsl_matrix_view_array(normal, p, p);
+    gsl_vector_view right = gsl_vector_view_array(all, p);
+    double by[NUMBERS];
+
+    for (size_t k = 0; k < n; k++) {
+        const double r = change[k], u = r / (reach * f->spread);
+        const double w = k % f->step != 0 || f->skip[k] ? 0 : rc_biweight(u, 1);
+        if (isnan(r))
+            continue;
+        difference(f, f->q, k, by);
+        there++;
+        changed += f->skip[k];
+        weights += w;
+        slope += w > 0 ? (1 - u * u) * (1 - 5 * u * u) : 0;
+        for (size_t i = 0; i < p; i++) {
+            all[i] += by[order[i]] * f->unit[order[i]];
+            for (size_t j = 0; j < p && w > 0; j++) {
+                const double g =
+                    by[order[i]] * f->unit[order[i]] * by[order[j]] * f->unit[order[j]];
+                normal[i * p + j] += w * g;
+                scatter[i * p + j] += w * w * r * r * g;
+            }
+        }
+    }
+    if (!(weights > 0) || gsl_linalg_cholesky_decomp1(&m.matrix) != GSL_SUCCESS)
+        return rc_err_set(err,
+                          "the unchanged part of the maps does not determine the alignment: it "
+                          "is flat, or equal along a line");
+    slope = fmax(slope, 0.1 * weights) / weights;
+    gsl_linalg_cholesky_svx(&m.matrix, &right.vector); /* now N^-1 sum G */
+    for (size_t k = 0; k < n; k++) {
+        const double r = change[k];
+        const double w = k % f->step != 0 || f->skip[k] ? 0 : rc_biweight(r, reach * f->spread);
+        double pull = 0;
+        if (isnan(r))
+            continue;
+        if (w == 0 && fabs(r) >= reach * f->spread) {
+            volume += f->spread * f->spread;
+            continue;
+        }
+        difference(f, f->q, k, by);
+        for (size_t i = 0; i < p; i++)
+            pull += all[i] * by[order[i]] * f->unit[order[i]];
+        volume += r * r * (1 - w * pull / slope) * (1 - w * pull / slope);
+    }
+    sum = correlated_nodes(f, change);
+    for (size_t i = 0; i < p; i++) {
+        gsl_vector_view e = gsl_vector_view_array(pulls, p);
+        double variance = 0;
+        gsl_vector_set_basis(&e.vector, i);
+        gsl_linalg_cholesky_svx(&m.matrix, &e.vector);
+        for (size_t a = 0; a < p; a++)
+            for (size_t b = 0; b < p; b++)
+                variance += pulls[a] * scatter[a * p + b] * pulls[b];
+        by[order[i]] = bar * sqrt(sum * variance) / slope * f->unit[order[i]];
+    }
+    found->shift_error = p == NUMBERS ? hypot(by[0], by[1]) : by[0];
+    found->rotation_error = p == NUMBERS ? by[2] : 0;
+    found->volume_error = bar_of_volume * sqrt(sum * volume) * f->shape.dx * f->shape.dy;
+    found->overlap = there / (double)n;
+    found->changed = changed / there;
+    return RC_OK;
+}
+
+static enum rc_status
+align(const struct rc_shape *a, const double *ha, const struct rc_shape *b, const double *hb,
+      int threads, double *out, struct rc_alignment *found, struct rc_err *err)
+{
+    const size_t n = a->nx * a->ny;
+    size_t side = a->nx, factor = 1;
+    RC_ENDS(spline_free) struct spline spline = {0};
+    RC_ENDS(fit_free) struct fit f = {0};
+    RC_OWNED unsigned char *skip = rc_calloc(n, 1);
+    RC_OWNED double *mean = rc_alloc(n, sizeof *mean);
+    double q[NUMBERS] = {NAN};
+    struct rc_statistics sum;
+
+    if (skip == NULL || mean == NULL)
+        return rc_err_set(err, "out of memory for the alignment of %zu heights", n);
+    for (size_t k = 0; k < 3; k++)
+        side = (size_t)fmax((double)side, (double)(k == 0 ? a->ny : k == 1 ? b->nx : b->ny));
+    while (side > factor * COARSE)
+        factor *= 2;
+    for (; factor > 1 || isnan(q[0]); factor = factor > 1 ? factor / 2 : 1)
+        if (solve_level(a, ha, b, hb, factor, threads, q, err) != RC_OK)
+            return RC_FAIL;
+    if (spline_new(b, hb, &spline, err) != RC_OK ||
+        fit_new(a, ha, &spline, threads, &f, err) != RC_OK)
+        return RC_FAIL;
+    memcpy(f.q, q, sizeof q);
+    f.skip = skip;
+    for (int pass = 0; pass < 3; pass++) {
+        if (fit_solve(&f, err) != RC_OK)
+            return RC_FAIL;
+        find_change(&f, out);
+        if (pass < 2 && !mark_changes(&f, out, mean, skip))
+            break;
+    }
+    if (find_spread(&f) <= f.numbers)
+        return rc_err_set(err, "%s", apart);
+    *found = (struct rc_alignment){.shift_x = f.q[0],
+                                   .shift_y = f.q[1],
+                                   .rotation = f.q[2],
+                                   .offset = f.q[3],
+                                   .tilt_x = f.q[4],
+                                   .tilt_y = f.q[5],
+                                   .residual = f.spread};
+    rc_measure(a, out, &sum);
+    found->volume = sum.sum * a->dx * a->dy;
+    return find_errors(&f, out, found, err);
+}
+
+static enum rc_status
+check(const struct rc_shape *s, const double *h, const char *name, struct rc_err *err)
+{
+    struct rc_statistics is;
+
+    rc_measure(s, h, &is);
+    if (s->nx < SMALLEST || (s->ny < SMALLEST && s->ny != 1))
+        return rc_err_set(err, "%s has %zu x %zu nodes: an alignment needs %d a side", name, s->nx,
+                          s->ny, SMALLEST);
+    if (is.infinite > 0)
+        return rc_err_set(err, "%s has %zu infinite heights", name, is.infinite);
+    if (4 * is.missing > 3 * s->nx * s->ny)
+        return rc_err_set(err, "%s: %zu of %zu points are missing: too few for an alignment", name,
+                          is.missing, s->nx * s->ny);
+    return RC_OK;
+}
+
+enum rc_status
+rc_align(const struct rc_shape *a, const double *ha, const struct rc_shape *b, const double *hb,
+         size_t threads, double *out, struct rc_alignment *found, struct rc_err *err)
+{
+    const int team = rc_useful_threads(a, threads);
+    struct rc_shape both;
+    enum rc_status status;
+
+    if (rc_add_shape(a, b, &both, err) != RC_OK || check(a, ha, "A", err) != RC_OK ||
+        check(b, hb, "B", err) != RC_OK)
+        return RC_FAIL;
+    if ((a->ny == 1) != (b->ny == 1))
+        return rc_err_set(err, "one is a profile and the other a map: they cannot be aligned");
+    rc_handler_begin();
+    status = align(a, ha, b, hb, team, out, found, err);
+    rc_handler_end();
+    return status;
+}

@@ -1,0 +1,49 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Of random pairs of scans at least 95 of 100 are aligned to .02 nodes and .01 degrees, and have their worn
+ * volume within its bar. */
+#include "tests/surface/scans.h"
+
+static void
+campaign(void **state)
+{
+    enum {
+        CASES = 100
+    };
+    int shifts = 0, turns = 0, volumes = 0;
+    struct surface s;
+
+    (void)state;
+    srand(91);
+    for (int k = 0; k < CASES; k++) {
+        const struct scans c = random_scans(150, 130);
+        struct errors e;
+        make_surface(&s, 1);
+        e = align_scans(&s, &c);
+        shifts += e.shift < 0.02;
+        turns += e.turn < 0.01;
+        volumes += fabs(e.volume) < e.bar;
+        if (!(e.shift < 0.02 && e.turn < 0.01 && fabs(e.volume) < e.bar))
+            printf("case %d: shift off by %.3g nodes (bar %.2g), rotation by %.3g degrees, volume "
+                   "by %.3g "
+                   "of %.3g m3 (bar %.2g), noise %.2g um\n",
+                   k, e.shift, e.found.shift_error / c.a.dx, e.turn, e.volume, e.worn, e.bar,
+                   1e6 * c.noise);
+    }
+    printf("of %d: shift below .02 nodes in %d, rotation below .01 degrees in %d, volume within "
+           "its bar in "
+           "%d\n",
+           CASES, shifts, turns, volumes);
+    assert_true(shifts >= 0.95 * CASES);
+    assert_true(turns >= 0.95 * CASES);
+    assert_true(volumes >= 0.95 * CASES);
+}
+
+int
+main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(campaign),
+    };
+
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
