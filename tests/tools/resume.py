@@ -225,12 +225,12 @@ OTHER = {
         'relaxation': ['20MPa,100MPa:1s'], 'shift': ['3'], 'temperature': ['40degC'], 'time': ['0,1s'], 'speed': ['2um/s'], 'along': ['y'], 'track': ['fresh', 'repeated'],
         'pull-off': [None], 'travel': ['-1um'], 'counter': ['rough.rcg'], 'counter-travel': ['.5'], 'window': ['10x10'], 'passes': ['3', '1'],
         'kernel': ['direct', 'mlms'], 'method': ['pk99'], 'tol': ['1e-2', '1e-8'], 'output': ['gap,pressure', 'plastic'], 'stiffness': [None],
-        'conductivity': ['45W/mK,16W/mK'], 'discretization': [None]},
+        'conductivity': ['45W/mK,16W/mK'], 'discretization': [None], 'body1': ['copper'], 'body2': ['copper'], 'materials': []},
     'rc-slip': {
         'mu': ['.2'], 'tau-max': ['.5GPa'], 'tangential': ['1.5mN', '1mN,1mN'], 'displacement': ['2nm,1nm'],
         'path': ['10mN,0,0;10mN,1mN,0;10mN,-2mN,0', '10mN,0,0;10mN,2mN,0;10mN,-2mN,0;10mN,0,0'], 'history': [], 'creep': ['2e-2,0', '1e-2,0,100'],
         'creep-force': ['.7mN'], 'steady': [None], 'increments': ['3', 'auto'], 'coupling': ['goodman', 'none'], 'nu': ['.2'],
-        'E1': ['210GPa'], 'nu1': ['.25'], 'E2': ['190GPa'], 'nu2': ['.25'], 'periodic': [None], 'tol': ['1e-3', '1e-7'],
+        'E1': ['210GPa'], 'nu1': ['.25'], 'E2': ['190GPa'], 'nu2': ['.25'], 'body1': [], 'body2': [], 'materials': [], 'periodic': [None], 'tol': ['1e-3', '1e-7'],
         'output': ['traction-x,state', 'pressure,slip,dissipation,height']},
     'rc-wear': {
         'coefficient': ['2e-6mm3/Nm', '1e-6mm3/Nm,1e-6mm3/Nm'], 'archard': ['2e-4,1e-4'], 'hardness': ['2GPa'], 'energy': ['2e-6mm3/J'],
@@ -241,8 +241,8 @@ COMMON = {'threads': ['2'], 'memory': ['4G'], 'type': ['f32']}
 # both bodies of rc-slip, which must be those of the stream
 TOGETHER = {('rc-slip', o): '--E1 200GPa --nu1 .3 --E2 200GPa --nu2 .3'.split() for o in ('E1', 'nu1', 'E2', 'nu2')}
 TOGETHER['rc-solve', 'temperature'] = '--shift wlf,17.44,51.6,20degC'.split()
-# the stream fixes bodies and boundary, and of the path only the contents change
-FIXED = {('rc-slip', o) for o in 'history E1 nu1 E2 nu2 periodic'.split()}
+# the stream fixes bodies and boundary; of the path and of a table of materials only the contents change
+FIXED = {('rc-slip', o) for o in 'history E1 nu1 E2 nu2 body1 body2 materials periodic'.split()} | {('rc-solve', 'materials')}
 # keys of rcg(5): other values
 KEYS = {
     'case': [], 'source': ['other'], 'file.*': [], 'history': ['rc-synth 0 sphere'], 'periodic': ['yes', 'x'], 'filled': ['3'], 'outliers': ['3'], 'spikes': ['3'],
