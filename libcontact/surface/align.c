@@ -318,6 +318,9 @@ fit_solve(struct fit *f, struct rc_err *err)
     gsl_multifit_nlinear_workspace *w = NULL;
     gsl_vector *start = gsl_vector_alloc(f->numbers), *weight = gsl_vector_alloc(f->n);
 
+    int status = GSL_SUCCESS;
+    bool failed;
+
     how.solver = gsl_multifit_nlinear_solver_cholesky;
     w = gsl_multifit_nlinear_alloc(gsl_multifit_nlinear_trust, &how, f->n, f->numbers);
     for (int round = 0; w != NULL && start != NULL && weight != NULL && round < ROUNDS; round++) {
@@ -331,9 +334,11 @@ fit_solve(struct fit *f, struct rc_err *err)
                                                   : rc_biweight(f->r[i], reach * f->spread));
         for (size_t k = 0; k < f->numbers; k++)
             gsl_vector_set(start, k, f->q[order[k]] / f->unit[order[k]]);
-        if (gsl_multifit_nlinear_winit(start, weight, &what, w) != GSL_SUCCESS)
+        status = gsl_multifit_nlinear_winit(start, weight, &what, w);
+        if (status == GSL_SUCCESS)
+            status = gsl_multifit_nlinear_driver(12, 1e-6, 1e-9, 0, NULL, NULL, &info, w);
+        if (status == GSL_ENOMEM)
             break;
-        (void)gsl_multifit_nlinear_driver(12, 1e-6, 1e-9, 0, NULL, NULL, &info, w);
         for (size_t k = 0; k < f->numbers; k++)
             change = fmax(change, fabs(gsl_vector_get(w->x, k) - gsl_vector_get(start, k)) /
                                       (order[k] < 3 ? closest : level * f->spread / f->height));
@@ -341,14 +346,14 @@ fit_solve(struct fit *f, struct rc_err *err)
         if (change < 1)
             break;
     }
-    if (w == NULL || start == NULL || weight == NULL)
+    if (w == NULL || start == NULL || weight == NULL || status == GSL_ENOMEM)
         rc_err_set(err, "out of memory for the fit of %zu heights", f->n);
+    failed = start == NULL || weight == NULL || status == GSL_ENOMEM;
     gsl_vector_free(start);
     gsl_vector_free(weight);
-    if (w == NULL)
-        return RC_FAIL;
-    gsl_multifit_nlinear_free(w);
-    return RC_OK;
+    if (w != NULL)
+        gsl_multifit_nlinear_free(w);
+    return w == NULL || failed ? RC_FAIL : RC_OK;
 }
 
 /* ---- the start ---- */

@@ -1087,7 +1087,7 @@ static const struct {
     {.name = "a robust filter", .use = filtered},
     {.name = "outliers", .use = outliers},
     {.name = "spikes", .use = without_spikes},
-    {.name = "alignment", .use = aligned, .lost = 40},
+    {.name = "alignment", .use = aligned, .lost = 64},
     {.name = "a taper", .use = tapered},
     {.name = "holes", .use = holes},
     {.name = "resampling", .use = resampled},
