@@ -244,8 +244,33 @@ scene_wear(struct rc_scene *s, struct rc_scene_effect *e, struct rc_err *err)
 
 /* ---- heat ---- */
 
+/* The largest displacement of uniform bodies under the pressure. */
+static enum rc_status
+largest_displacement(struct rc_scene *s, double *most, struct rc_err *err)
+{
+    const struct rc_conv_options o = {.boundary = s->problem.boundary,
+                                      .threads = s->problem.threads};
+    const double *u = s->now.u;
+    RC_OWNED double *uniform = NULL;
+
+    *most = 0;
+    if (s->problem.pair.one.layers > 0) {
+        RC_OWN(rc_conv, conv) = rc_conv_new(&s->shape, &s->plain.pair, &o, err);
+        if (conv == NULL)
+            return RC_FAIL;
+        if ((uniform = rc_alloc(s->n, sizeof *uniform)) == NULL)
+            return rc_err_set(err, "out of memory for a displacement");
+        rc_conv_apply(conv, s->now.p, uniform);
+        s->convolutions++;
+        u = uniform;
+    }
+    for (size_t k = 0; k < s->n; k++)
+        *most = fmax(*most, u[k]);
+    return RC_OK;
+}
+
 /* Bodies at rest: conduction and elastic displacement have the same kernel 1/r, so that the temperature
- * of a body is proportional to the displacement. Motion lowers it, to the sum of both limits of Jaeger
+ * of a body is proportional to the displacement of uniform bodies. Motion lowers it, to the sum of both limits of Jaeger
  * (1942) at the radius of the largest patch. The mean flux of a periodic map heats each body as a wall,
  * since time 0. Both bodies have the same temperature in contact: their resistances are in parallel. */
 enum rc_status
@@ -271,8 +296,8 @@ scene_heat(struct rc_scene *s, struct rc_scene_effect *e, struct rc_err *err)
     }
     if (scene_patches(s, &largest, NULL, err) != RC_OK)
         return RC_FAIL;
-    for (size_t i = 0; i < s->n; i++)
-        most = fmax(most, s->now.u[i]);
+    if (largest_displacement(s, &most, err) != RC_OK)
+        return RC_FAIL;
     peclet = speed * sqrt(largest / RC_PI) / (2 * d->diffusivity[moves]);
     for (int b = 0; b < 2; b++) {
         const double wall = periodic ? 2 * c->mean_pressure * sqrt(d->time / RC_PI) *
@@ -289,7 +314,7 @@ scene_heat(struct rc_scene *s, struct rc_scene_effect *e, struct rc_err *err)
     scene_number(e, "peclet", peclet);
     /* a steady state is not reached at once */
     scene_set(e, RC_SCENE_TEMPERATURE,
-              s->accepted || (d->time > 0 && !periodic) ? 0 : (periodic ? 0.2 : 0.9) * moving,
+              d->time > 0 && !periodic ? 0 : (periodic ? 0.2 : 0.9) * moving,
               fmin(1.02 * still, 3 * moving));
     return RC_OK;
 }

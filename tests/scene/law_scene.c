@@ -48,6 +48,7 @@ struct case_of {
     struct rc_problem problem;
     struct rc_scene_data data;
     struct rc_relaxation *material;
+    struct rc_layer coat;
     double bend; /* 1/m: of the ball, height bend (x^2 + y^2) */
     double h[MOST];
 };
@@ -560,18 +561,19 @@ static const struct effect_of {
     const char *name;
     void (*draw)(struct case_of *c, const struct rc_contact *e, double mises);
     bool (*truth)(struct case_of *c, const struct rc_contact *e, struct figures *f);
-    bool periodic, hard; /* on periodic maps; a third of the scenes with a hardness */
+    /* on periodic maps; a third of the scenes with a hardness; a third with a coat */
+    bool periodic, hard, coated;
     size_t side;
 } effects[] = {
-    {"grid", draw_nothing, truth_grid, false, false, 48},
-    {"yield", draw_yield, truth_yield, false, false, 32},
-    {"adhesion", draw_adhesion, truth_adhesion, false, true, 48},
-    {"wear", draw_wear, truth_wear, false, true, 48},
-    {"heat", draw_heat, truth_heat, false, true, 48},
-    {"slip", draw_slip, truth_slip, false, false, 32},
-    {"dissimilar", draw_dissimilar, truth_dissimilar, false, true, 24},
-    {"relaxation", draw_relaxation, truth_relaxation, false, false, 40},
-    {"sliding", draw_sliding, truth_sliding, true, false, 40},
+    {"grid", draw_nothing, truth_grid, false, false, false, 48},
+    {"yield", draw_yield, truth_yield, false, false, false, 32},
+    {"adhesion", draw_adhesion, truth_adhesion, false, true, true, 48},
+    {"wear", draw_wear, truth_wear, false, true, true, 48},
+    {"heat", draw_heat, truth_heat, false, true, true, 48},
+    {"slip", draw_slip, truth_slip, false, false, false, 32},
+    {"dissimilar", draw_dissimilar, truth_dissimilar, false, true, false, 24},
+    {"relaxation", draw_relaxation, truth_relaxation, false, false, false, 40},
+    {"sliding", draw_sliding, truth_sliding, true, false, false, 40},
 };
 
 /* ---- the campaign ---- */
@@ -663,6 +665,19 @@ most_mises(const struct case_of *c, const double *p)
     return most;
 }
 
+/* Estimates from the contact with this effect. */
+static bool
+accept(struct rc_scene *s, const char *name)
+{
+    struct rc_scene_effect e;
+    struct rc_err err;
+
+    if (rc_scene_estimate(s, row_of(name), &e, &err) != RC_OK || e.unfit[0] != '\0')
+        return false;
+    rc_scene_accept(s, row_of(name));
+    return true;
+}
+
 static void
 campaign(const struct effect_of *effect, size_t side, size_t scenes, uint64_t first)
 {
@@ -686,13 +701,23 @@ campaign(const struct effect_of *effect, size_t side, size_t scenes, uint64_t fi
                      effect->draw == draw_yield ? most_mises(&c, rc_scene_pressure(plain)) : 0);
         if (effect->hard && seed % 3 == 0)
             c.data.hardness = before.max_pressure * uniform(0.2, 0.9);
+        if (effect->coated && seed % 3 == 1) {
+            c.coat = (struct rc_layer){c.shape.dx * powers(0.5, 10),
+                                       c.problem.pair.one.e * powers(0.1, 10), 0.3};
+            c.data.layers = 1;
+            c.data.layer = &c.coat;
+        }
         RC_OWN(rc_scene, s) = rc_scene_new(&c.shape, c.h, &c.problem, &c.data, &err);
-        if (s != NULL && c.data.hardness > 0) {
-            const size_t hardness = row_of("hardness");
-            c.problem.hardness = c.data.hardness;
-            if (rc_scene_estimate(s, hardness, &e, &err) != RC_OK || e.unfit[0] != '\0')
+        if (s != NULL && c.data.layers > 0) {
+            c.problem.pair.one.layers = 1;
+            c.problem.pair.one.layer = &c.coat;
+            if (!accept(s, "coat"))
                 continue;
-            rc_scene_accept(s, hardness);
+        }
+        if (s != NULL && c.data.hardness > 0) {
+            c.problem.hardness = c.data.hardness;
+            if (!accept(s, "hardness"))
+                continue;
         }
         if (s != NULL)
             before = *rc_scene_contact(s);
