@@ -51,6 +51,8 @@ struct rc_scene_data {
     double conductivity[2], diffusivity[2]; /* W/(m K), m2/s, of bodies 1 and 2 */
     int moving;                             /* the body that moves past the contact; 0: 2 */
     double time;                            /* s, since the load acts and heat flows */
+    double bending, torsion;                /* Pa: endurance limits of body 1, fully reversed */
+    double drop; /* Pa: of a fluid in the gap, from the left edge to the right one */
     /* E(t) of body 1; pair.one.e is its modulus at time 0 */
     const struct rc_relaxation *material;
 };
@@ -63,6 +65,8 @@ enum rc_scene_figure {
     RC_SCENE_DISPLACEMENT, /* along the surface, over that of linear theory */
     RC_SCENE_TEMPERATURE,  /* K */
     RC_SCENE_FRICTION,     /* change of the coefficient */
+    RC_SCENE_FATIGUE, /* index of fatigue, 1 at the endurance limit, as the contact passes along x */
+    RC_SCENE_LEAK,    /* 1: the gap is open between these edges; 0: it is closed */
     RC_SCENE_FIGURES
 };
 /* Names in that order: "contact_area", "max_pressure", "approach", "displacement", ... */
@@ -78,7 +82,8 @@ enum rc_scene_basis {
 /* Names in that order: "exact", "computed", ... */
 RC_API extern const char *const rc_scene_basis_names[];
 
-/* Magnitudes of a change: relative, but temperature in K and friction as a difference. */
+/* Magnitudes of a change: relative, but temperature in K, friction as a difference, fatigue and leak as they
+ * are, with the bounds 1 and 1/2. */
 struct rc_interval {
     double low, high; /* NAN: the effect does not change this figure, or it is unknown */
 };

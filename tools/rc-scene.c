@@ -23,8 +23,9 @@ static struct args {
           .within_friction = 0.01,
           .decide = NAN};
 
-static const char *const figure_words[] = {"area",        "pressure", "approach", "displacement",
-                                           "temperature", "friction", NULL};
+static const char *const figure_words[] = {"area",         "pressure",    "approach",
+                                           "displacement", "temperature", "friction",
+                                           "fatigue",      "leak",        NULL};
 
 #define AT(field) .at = offsetof(struct args, field)
 #define ABOVE_0 .min = 0, .max = INFINITY, .above = true, .result = true
@@ -202,6 +203,9 @@ read_data(struct run *run)
     d->speed = known(args.given.speed);
     d->time = known(args.given.time);
     d->distance = known(args.given.distance);
+    d->bending = known(args.given.bending);
+    d->torsion = known(args.given.torsion);
+    d->drop = known(args.given.drop);
     if (args.given.coefficient != NULL) {
         read_numbers(t, "coefficient", args.given.coefficient, UNIT_WEAR, 1, worn);
         d->wear = worn[0] + worn[1];
@@ -333,8 +337,8 @@ name_commands(struct run *run, const struct rc_grid *g, struct line line[], size
 /* ---- output ---- */
 
 static const char *const plain_names[RC_SCENE_FIGURES] = {
-    "contact area", "largest pressure",       "approach", "tangential displacement",
-    "temperature",  "coefficient of friction"};
+    "contact area", "largest pressure",        "approach",      "tangential displacement",
+    "temperature",  "coefficient of friction", "fatigue index", "leak"};
 
 /* "12 %", "8.8 K". */
 static const char *
@@ -342,7 +346,7 @@ amount(enum rc_scene_figure figure, double v, char text[SHOWN_NUMBER])
 {
     if (figure == RC_SCENE_TEMPERATURE)
         snprintf(text, SHOWN_NUMBER, "%.3g K", v);
-    else if (figure == RC_SCENE_FRICTION)
+    else if (figure == RC_SCENE_FRICTION || figure == RC_SCENE_FATIGUE)
         snprintf(text, SHOWN_NUMBER, "%.2g", v);
     else if (v < 0.1)
         snprintf(text, SHOWN_NUMBER, "%.2g %%", 100 * v);
@@ -370,10 +374,19 @@ print_change(const struct line *l, FILE *out)
         fputs(": the bodies slide, the force is above mu times the load", out);
     else if (isinf(most) && strcmp(name, "grid") != 0)
         fputs(": it cannot carry the load", out);
+    else if (strcmp(name, "leak") == 0)
+        fputs(l->verdict == RC_SCENE_CALLS        ? ": the gap is open from edge to edge"
+              : l->verdict == RC_SCENE_NEGLIGIBLE ? ": the gap is closed between the edges"
+                                                  : ": the contact is close to percolation, where "
+                                                    "the grid decides",
+              out);
     else if (most == 0)
         fputs(": changes nothing", out);
     else if (l->effect.basis != RC_SCENE_EXACT && l->effect.nodes < 20)
         fprintf(out, ": %zu nodes in contact; refine the grid first", l->effect.nodes);
+    else if (l->figure == RC_SCENE_FATIGUE)
+        fprintf(out, ": the index is %s to %s, and 1 at the endurance limit",
+                amount(l->figure, c->low, low), amount(l->figure, c->high, high));
     else if (isinf(c->high))
         fputs(": the largest pressure is at the edge of the map, where it is no property of the "
               "surface",
@@ -653,10 +666,17 @@ do_load(struct run *run, const struct rc_grid *g, size_t step)
 
     contact = *rc_scene_contact(s);
     print_warnings(run, g, &contact, rc_scene_pressure(s), args.physics.surface_estar);
+    scene_notes(t, g, &args.given,
+                &(struct scene_notes){.contact = &contact,
+                                      .pair = &problem.pair,
+                                      .estar = args.physics.surface_estar,
+                                      .radius = args.physics.radius,
+                                      .conductivity = run->data.conductivity[0],
+                                      .within = args.within});
     for (size_t k = 0; rc_scene_name(k) != NULL && n < LINES; k++, n++) {
         struct line *l = &line[n];
         *l = (struct line){.seconds = NAN, .convolutions = NAN, .with = ""};
-        tool_progress(t, (double)k / 13, "%s", rc_scene_name(k));
+        tool_progress(t, (double)k / 15, "%s", rc_scene_name(k));
         l->base = strcmp(rc_scene_name(k), "yield") == 0 ? contact : *rc_scene_contact(s);
         tool_must(t, g, rc_scene_estimate(s, k, &l->effect, &t->err));
         l->verdict = rc_scene_judge(&l->effect, &run->bounds, &l->figure);

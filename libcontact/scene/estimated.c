@@ -71,8 +71,8 @@ above(const struct rc_scene *s, double limit)
     return over / (sum - over);
 }
 
-static enum rc_status
-largest_mises(struct rc_scene *s, double *most, struct rc_err *err)
+enum rc_status
+scene_mises(struct rc_scene *s, const double *p, double *most, double *at, struct rc_err *err)
 {
     struct rc_stress_options o = {.boundary = s->problem.boundary,
                                   .body = s->plain.pair.one,
@@ -83,20 +83,22 @@ largest_mises(struct rc_scene *s, double *most, struct rc_err *err)
     double *to[RC_STRESSES] = {[RC_MISES] = map};
     size_t depths = 0;
 
-    *most = 0;
+    *most = *at = 0;
     if (map == NULL)
         return rc_err_set(err, "out of memory for the stress");
-    if (rc_stress_depths(NULL, &s->shape, s->elastic.p, o.boundary, &o.body, &depth, &depths,
-                         err) != RC_OK)
+    if (rc_stress_depths(NULL, &s->shape, p, o.boundary, &o.body, &depth, &depths, err) != RC_OK)
         return RC_FAIL;
     o.depth = depth;
     o.depths = depths;
-    RC_OWN(rc_stress, stress) = rc_stress_new(&s->shape, s->elastic.p, &o, err);
+    RC_OWN(rc_stress, stress) = rc_stress_new(&s->shape, p, &o, err);
     for (size_t d = 0; d < depths; d++) {
         if (stress == NULL || rc_stress_slice(stress, depth[d], to, err) != RC_OK)
             return RC_FAIL;
         for (size_t k = 0; k < s->n; k++)
-            *most = fmax(*most, map[k]);
+            if (map[k] > *most) {
+                *most = map[k];
+                *at = depth[d];
+            }
     }
     return RC_OK;
 }
@@ -108,13 +110,13 @@ scene_yield(struct rc_scene *s, struct rc_scene_effect *e, struct rc_err *err)
 {
     const double y = s->data.yield, node = 1 / (double)s->elastic.contact.contact_nodes,
                  nearly = fmax(0.95, 1 - 1.7 * node), sure = 1.3, far = 2;
-    double mises, c, v, soft, hard;
+    double mises, depth, c, v, soft, hard;
 
     if (s->problem.pair.one.layers > 0) {
         snprintf(e->unfit, sizeof e->unfit, "yield is computed in uniform bodies only");
         return RC_OK;
     }
-    if (largest_mises(s, &mises, err) != RC_OK)
+    if (scene_mises(s, s->elastic.p, &mises, &depth, err) != RC_OK)
         return RC_FAIL;
     c = mises / y;
     scene_number(e, "mises_over_yield", c);

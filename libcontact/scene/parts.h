@@ -80,5 +80,11 @@ enum rc_status scene_wear(struct rc_scene *s, struct rc_scene_effect *e, struct 
 enum rc_status scene_heat(struct rc_scene *s, struct rc_scene_effect *e, struct rc_err *err);
 enum rc_status scene_dissimilar(struct rc_scene *s, struct rc_scene_effect *e, struct rc_err *err);
 enum rc_status scene_sliding(struct rc_scene *s, struct rc_scene_effect *e, struct rc_err *err);
+/* The largest Mises stress of the contact in a uniform body 1, and its depth. */
+enum rc_status scene_mises(struct rc_scene *s, const double *p, double *most, double *depth,
+                           struct rc_err *err);
+/* limits.c */
+enum rc_status scene_fatigue(struct rc_scene *s, struct rc_scene_effect *e, struct rc_err *err);
+enum rc_status scene_leak(struct rc_scene *s, struct rc_scene_effect *e, struct rc_err *err);
 
 #endif

@@ -20,6 +20,8 @@ static const struct scene_row rows[] = {
     {"heat", "frictional heat", "mu speed conductivity diffusivity", false, scene_heat},
     {"dissimilar", "friction of dissimilar bodies", "mu E1", false, scene_dissimilar},
     {"sliding", "sliding on rubber", "relaxation speed", false, scene_sliding},
+    {"fatigue", "fatigue", "bending-limit torsion-limit E1", false, scene_fatigue},
+    {"leak", "leak through the gap", "pressure-drop", false, scene_leak},
 };
 
 enum {
@@ -28,7 +30,8 @@ enum {
 };
 
 const char *const rc_scene_figure_names[RC_SCENE_FIGURES] = {
-    "contact_area", "max_pressure", "approach", "displacement", "temperature", "friction"};
+    "contact_area", "max_pressure", "approach",      "displacement",
+    "temperature",  "friction",     "fatigue_index", "leak"};
 const char *const rc_scene_basis_names[] = {"exact", "computed", "bound", "calibrated"};
 const char *const rc_scene_verdict_names[] = {"calls for it", "not decided", "negligible",
                                               "data missing"};
@@ -193,6 +196,9 @@ has(const struct rc_scene *s, const char *name, size_t length)
         {"diffusivity", d->diffusivity[0] > 0 && d->diffusivity[1] > 0},
         {"time", d->time > 0},
         {"relaxation", d->material != NULL},
+        {"bending-limit", d->bending > 0},
+        {"torsion-limit", d->torsion > 0},
+        {"pressure-drop", d->drop > 0},
     };
 
     for (size_t k = 0; k < sizeof known / sizeof *known; k++)
@@ -252,6 +258,8 @@ bound_of(const struct rc_scene_bounds *b, int figure)
     const double relative = 0.01, temperature = 10, friction = 0.01;
 
     return figure == RC_SCENE_TEMPERATURE ? (b->temperature > 0 ? b->temperature : temperature)
+           : figure == RC_SCENE_FATIGUE   ? 1
+           : figure == RC_SCENE_LEAK      ? 0.5
            : figure == RC_SCENE_FRICTION  ? (b->friction > 0 ? b->friction : friction)
            : b->relative > 0              ? b->relative
                                           : relative;

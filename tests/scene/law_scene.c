@@ -202,16 +202,13 @@ waves_at(size_t n, double at, double *w)
     }
 }
 
-/* The same waves and the same ball on a finer grid. */
-static bool
-truth_grid(struct case_of *c, const struct rc_contact *e, struct figures *f)
+/* The contact of the same waves and the same ball on a finer grid. */
+static struct rc_model *
+finer(const struct case_of *c, struct rc_shape *to, struct rc_err *err)
 {
     static double w[FINER * SIDE][SIDE], half[FINER * MOST], fine[FINER * FINER * MOST];
     const size_t n = c->shape.nx, m = FINER * n;
     const struct rc_shape shape = {m, m, c->shape.dx / FINER, c->shape.dx / FINER};
-    const struct rc_point to = load_of(c);
-    const struct rc_contact *after;
-    struct rc_err err;
 
     for (size_t i = 0; i < m; i++)
         waves_at(n, ((double)i + 0.5) / FINER - 0.5, w[i]);
@@ -234,11 +231,79 @@ truth_grid(struct case_of *c, const struct rc_contact *e, struct figures *f)
                 sum += w[j][k] * half[k * m + i];
             fine[j * m + i] = sum - c->bend * (x * x + y * y);
         }
-    RC_OWN(rc_model, model) = rc_elastic_new(&shape, fine, &c->problem, NULL, &err);
+    *to = shape;
+    return rc_elastic_new(&shape, fine, &c->problem, NULL, err);
+}
+
+static bool
+truth_grid(struct case_of *c, const struct rc_contact *e, struct figures *f)
+{
+    const struct rc_point to = load_of(c);
+    const struct rc_contact *after;
+    struct rc_shape shape;
+    struct rc_err err;
+    RC_OWN(rc_model, model) = finer(c, &shape, &err);
+
     if (!run(model, &to, &err))
         return false;
     after = &rc_elastic_result(model)->contact;
     compare(f, e, after->contact_area, after->max_pressure, after->approach);
+    return true;
+}
+
+/* A way through the gap on the finer grid. */
+static bool
+truth_leak(struct case_of *c, const struct rc_contact *e, struct figures *f)
+{
+    static double p[FINER * FINER * MOST], gap[FINER * FINER * MOST];
+    const struct rc_leak_options options = {.around = c->problem.boundary.y};
+    const struct rc_point to = load_of(c);
+    struct rc_shape shape;
+    struct rc_err err;
+    RC_OWN(rc_model, model) = finer(c, &shape, &err);
+
+    (void)e;
+    if (!run(model, &to, &err) || rc_model_frame(model, "pressure", p, &err) != RC_OK ||
+        rc_model_frame(model, "gap", gap, &err) != RC_OK)
+        return false;
+    RC_OWN(rc_leak, leak) = rc_leak_new(&shape, p, gap, &options, &err);
+    if (leak == NULL)
+        return false;
+    f->of[RC_SCENE_LEAK] = rc_leak_result(leak)->percolates;
+    return true;
+}
+
+/* The largest index of all depths from the distance of the states, as rc-fatigue takes them. */
+static bool
+truth_fatigue(struct case_of *c, const struct rc_contact *e, struct figures *f)
+{
+    static double p[MOST];
+    const double *one = p, *none[RC_COMPONENTS] = {NULL};
+    const struct rc_fatigue_limits limits = {.bending = c->data.bending,
+                                             .torsion = c->data.torsion};
+    struct rc_fatigue_problem problem = {
+        .stress = {.boundary = c->problem.boundary, .body = c->problem.pair.one, .threads = 1},
+        .wanted = 1U << RC_CROSSLAND | 1U << RC_DANG_VAN,
+        .pass = 'x',
+        .cases = 1,
+        .p = &one};
+    const struct rc_point to = load_of(c);
+    double *out[RC_FATIGUES] = {NULL};
+    const struct rc_fatigue_figures *found;
+    struct rc_err err;
+    RC_OWN(rc_model, m) = rc_elastic_new(&c->shape, c->h, &c->problem, NULL, &err);
+
+    (void)e;
+    if (!run(m, &to, &err) || rc_model_frame(m, "pressure", p, &err) != RC_OK)
+        return false;
+    RC_OWN(rc_fatigue, fatigue) = rc_fatigue_new(&c->shape, &problem, &err);
+    for (double z = 1; z < 10; z += z < 3 ? 0.125 : 0.5)
+        if (fatigue == NULL ||
+            rc_fatigue_depth(fatigue, z * c->shape.dx, &limits, none, out, &err) != RC_OK)
+            return false;
+    found = rc_fatigue_result(fatigue);
+    f->of[RC_SCENE_FATIGUE] =
+        fmax(found->largest[RC_CROSSLAND].value, found->largest[RC_DANG_VAN].value);
     return true;
 }
 
@@ -468,6 +533,23 @@ draw_yield(struct case_of *c, const struct rc_contact *e, double mises)
 }
 
 static void
+draw_fatigue(struct case_of *c, const struct rc_contact *e, double mises)
+{
+    (void)e;
+    c->data.torsion = 0.45 * mises / powers(0.6, 1.6);
+    c->data.bending = c->data.torsion / uniform(0.58, 0.8);
+}
+
+/* Near percolation. */
+static void
+draw_leak(struct case_of *c, const struct rc_contact *e, double mises)
+{
+    (void)mises;
+    c->data.drop = 1e5;
+    c->problem.load *= uniform(0.1, 1) / e->contact_fraction;
+}
+
+static void
 draw_adhesion(struct case_of *c, const struct rc_contact *e, double mises)
 {
     const double p = c->problem.load / e->contact_area, estar = estar_of(&c->problem.pair),
@@ -567,6 +649,8 @@ static const struct effect_of {
 } effects[] = {
     {"grid", draw_nothing, truth_grid, false, false, false, 48},
     {"yield", draw_yield, truth_yield, false, false, false, 32},
+    {"fatigue", draw_fatigue, truth_fatigue, false, false, false, 32},
+    {"leak", draw_leak, truth_leak, true, false, false, 48},
     {"adhesion", draw_adhesion, truth_adhesion, false, true, true, 48},
     {"wear", draw_wear, truth_wear, false, true, true, 48},
     {"heat", draw_heat, truth_heat, false, true, true, 48},
@@ -631,7 +715,10 @@ judge(struct counts count[SCALES], uint64_t seed, const struct rc_scene_effect *
 
         for (int k = 0; k < RC_SCENE_FIGURES; k++)
             above = above || (!isnan(e->change[k].high) &&
-                              f->of[k] > (k == RC_SCENE_TEMPERATURE ? b.temperature : b.relative));
+                              f->of[k] > (k == RC_SCENE_TEMPERATURE ? b.temperature
+                                          : k == RC_SCENE_FATIGUE   ? 1
+                                          : k == RC_SCENE_LEAK      ? 0.5
+                                                                    : b.relative));
         for (int k = 0; k < RC_SCENE_FIGURES && e->basis == RC_SCENE_EXACT; k++)
             above = above || f->of[k] > b.relative;
         count[s].scenes++;
@@ -698,7 +785,9 @@ campaign(const struct effect_of *effect, size_t side, size_t scenes, uint64_t fi
             continue;
         before = *rc_scene_contact(plain);
         effect->draw(&c, &before,
-                     effect->draw == draw_yield ? most_mises(&c, rc_scene_pressure(plain)) : 0);
+                     effect->draw == draw_yield || effect->draw == draw_fatigue
+                         ? most_mises(&c, rc_scene_pressure(plain))
+                         : 0);
         if (effect->hard && seed % 3 == 0)
             c.data.hardness = before.max_pressure * uniform(0.2, 0.9);
         if (effect->coated && seed % 3 == 1) {

@@ -55,6 +55,29 @@ rc-synth selfaffine --nx 64 --dx 1um --hurst 0.8 --rms-height 0.3um --rolloff 20
 claim "a rough block: the largest pressure is at its edge" warns "no property of the surface" rc-scene --mean-pressure 1GPa --estar 100GPa rough.rcg -o table.txt
 claim "data that are missing are named" grep -q "wear (--coefficient --distance)" table.txt
 
+# ---- fatigue, leak, warnings ----
+
+# a pass of a ball: the largest Mises stress is 0.62 p0, its amplitude at least half of it over sqrt 3
+scene --load 240N $steel --bending-limit 700MPa --torsion-limit 450MPa ball.rcg >fatigue.json
+between "$(awk 'BEGIN { print 0.98 * 0.62 * 2.2238e9 / (2 * sqrt(3)) / 450e6 }')" "$(of fatigue fatigue.json figures fatigue_index high)" \
+    "$(awk 'BEGIN { print 1.06 * 0.62 * 2.2238e9 / sqrt(3) / 450e6 }')" "the index of fatigue is between the bounds by the Mises stress"
+rc-solve --quiet --load 240N $steel -o pressed.rcg ball.rcg
+rc-fatigue --quiet --bending-limit 700MPa --torsion-limit 450MPa --pass x --depths auto --report f.json -o x.rcg pressed.rcg
+index=$(awk -v a="$(field crossland f.json)" -v b="$(field dangvan f.json)" 'BEGIN { print (a > b ? a : b) }')
+between "$(of fatigue fatigue.json figures fatigue_index low)" "$index" "$(of fatigue fatigue.json figures fatigue_index high)" "  and holds that of rc-fatigue"
+claim "around a ball the gap is open" test "$(scene --load 240N $steel --pressure-drop 1kPa ball.rcg >leak.json; of leak leak.json verdict)" = "calls for it"
+rc-synth wave --wavelength 64um --amplitude 1um --nx 64 --dx 1um -o wave.rcg
+claim "a ridge across the flow closes it" test "$(scene --periodic --mean-pressure 1GPa $steel --pressure-drop 1kPa wave.rcg >leak.json; of leak leak.json verdict)" = negligible
+oil="--viscosity 0.1Pas --pressure-viscosity 2e-8"
+rc-synth selfaffine --nx 64 --dx 5um --hurst 0.8 --rms-height 20nm --rolloff 100um --short-cut 30um --seed 5 -o fine.rcg
+# h = 3.63 R U^0.68 G^0.49 W^-0.073 (1 - exp(-0.68)), R 10 mm, 20 N, 2 m/s: 0.28 um
+claim "a thick film: a warning" warns "a film of the fluid may carry load: it is 278[0-9.]* nm thick, 14 times the RMS roughness" \
+    rc-scene --load 20N --radius 10mm $steel --mu 0.05 --speed 2m/s $oil fine.rcg -o x.txt
+claim "  not at 1 mm/s" bash -c "rc-scene --load 20N --radius 10mm $steel --mu 0.05 --speed 1mm/s $oil fine.rcg -o x.txt 2>&1 | tee said.txt >/dev/null; ! grep -q 'film of the fluid' said.txt"
+claim "thermal expansion: a warning" warns "thermal expansion may change the contact" rc-scene --load 240N $steel --mu 0.3 --speed 1m/s --conductivity 45W/mK,45W/mK \
+    --diffusivity 12mm2/s,12mm2/s --expansion 12e-6 ball.rcg -o x.txt
+claim "noise: a warning" warns "the noise of the scan is 0.01" rc-scene --load 240N $steel --noise 0.1um ball.rcg -o x.txt
+
 # ---- relaxation: the contact grows under a constant load as an elastic one with J(t) ----
 
 material="--relaxation 1MPa,9MPa:1ms,2MPa:0.1s --nu1 0.5 --E2 rigid"
@@ -103,7 +126,7 @@ claim "a larger bound leaves what is negligible" wider
 claim "--figures counts only what matters" test "$(scene --load 240N $steel --hardness 2.0GPa --figures approach ball.rcg | tee f.json >/dev/null; of hardness f.json verdict)" = negligible
 rc-scene --quiet --load 100N,240N $steel --hardness 2.0GPa --report list.tsv ball.rcg >two.txt
 claim "each load of a list has its table" test "$(grep -c 'case 1:' two.txt)" = 2
-claim "  and each effect its row" test "$(awk 'END { print NR }' list.tsv)" = 27
+claim "  and each effect its row" test "$(awk 'END { print NR }' list.tsv)" = 31
 claim "every verdict ends with status 0" scene --load 240N $steel ball.rcg
 
 # ---- refused ----

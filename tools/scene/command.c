@@ -51,6 +51,11 @@ static const struct {
      .program = "rc-slip",
      .options = "mu --coupling full --tangential 0N"},
     {.effect = "sliding", .solve = "relaxation speed", .relaxes = true},
+    {.effect = "fatigue",
+     .solve = "",
+     .program = "rc-fatigue",
+     .options = "bending-limit torsion-limit --pass x --depths auto"},
+    {.effect = "leak", .solve = "", .program = "rc-leak", .options = "pressure-drop"},
 };
 static const char contact_options[] =
     "estar E1 nu1 E2 nu2 radius cylinder periodic datum"; /* of the contact, without its load */

@@ -21,13 +21,24 @@ enum {
 struct scene_args {
     const char *yield, *adhesion, *conductivity, *coefficient, *moving;
     struct numbers diffusivity;
-    double mu, tangential, speed, time, distance, thickness;
+    double mu, tangential, speed, time, distance, thickness, bending, torsion, drop, viscosity,
+        piezo, expansion, noise;
 };
 #define SCENE_NOTHING                                                                              \
     {                                                                                              \
         .mu = NAN, .tangential = NAN, .speed = NAN, .time = NAN, .distance = NAN, .thickness = NAN \
     }
 extern const struct opt scene_options[];
+
+/* Warns of effects that no tool computes, where a published number says that they may matter: a film of a
+ * fluid, thermal expansion, noise of the scan. `conductivity`: of body 1; `within`: the bound. */
+struct scene_notes {
+    const struct rc_contact *contact;
+    const struct rc_pair *pair;
+    double estar, radius, conductivity, within;
+};
+void scene_notes(struct tool *tool, const struct rc_grid *g, const struct scene_args *args,
+                 const struct scene_notes *about);
 
 /* The programs of a pipe that computes an effect, each with its words. */
 struct scene_command {
