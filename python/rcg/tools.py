@@ -668,6 +668,12 @@ class Page(str):
 
 # ---- calls ----
 
+def _has_report(row, given):
+    """True if the tool writes a report beside these options: rc-add does so only with align=True."""
+    option = next((o for o in row['options'] if o['name'] == 'report'), None)
+    return option is not None and all(any(given.get(python_name(o['name'])) for o in rule['options']) for rule in option['needs'])
+
+
 def call(tool, surface=None, operands=(), spacing=None, timeout=None, progress=None, **given):
     """Runs a tool on a surface (see frames_from; spacing: of an array): a Result. See execute for timeout and progress.
 
@@ -677,8 +683,7 @@ def call(tool, surface=None, operands=(), spacing=None, timeout=None, progress=N
     command = [tool] + arguments(tool, given) + [os.fspath(o) for o in operands]
     row = table(tool)
     data = None if surface is None else _data(surface, spacing)
-    has_report = any(o['name'] == 'report' for o in row['options'])
-    status, output, words, lines = _reported(command, data, has_report, timeout, progress)
+    status, output, words, lines = _reported(command, data, _has_report(row, given), timeout, progress)
     if row['writes'] != 'stream' or not isinstance(output, _Stream):
         result = Result(tool, command, frames=[], lines=lines)
     else:
