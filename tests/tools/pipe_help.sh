@@ -178,6 +178,8 @@ make_files() {
         --short-cut 5um --seed 3 -o surface.rcg
     rc-solve --quiet --radius 2mm --load 1N --estar 114GPa --hardness 6GPa surface.rcg -o result.rcg
     cp surface.rcg flat.rcg
+    cp surface.rcg new.rcg
+    cp surface.rcg worn.rcg
     sample rough-steel surface.x3p 96,96
     sample rough-sphere rough-sphere.x3p 242,206
     cp surface.x3p bench.x3p
