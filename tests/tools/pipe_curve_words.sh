@@ -169,3 +169,11 @@ claim "  and of the figure" shows out.svg '>Force along x against creepage along
 claim "  and the legend has both" eval "shows out.svg '>Force along x<' && shows out.svg '>Force along x in linear theory<'"
 $draw --curve creep_x:tangential_x,tangential_y <(sed '1s/kalker_tangential_x/tangential_y/' theory.tsv)
 claim "  others are all named" shows out.svg '>Force along x, force along y \(N\)<'
+
+# ---- speeds are no history ----
+
+printf 'speed\tfriction\tload/N\tindentation/m\tresidual_indentation/m\tapproach/m\n1\t0.1\t1\t3e-6\t0\t3e-6\n2\t0.2\t1\t2e-6\t0\t2e-6\n' >speeds.tsv
+$draw --curve speed:friction speeds.tsv
+claim "cases with speeds have no loading and unloading" bash -c '! grep -q loading out.svg && grep -q "<path" out.svg'
+$draw --curve load:friction <(sed '1s/speed/other/' speeds.tsv)
+claim "  rows of a history have" shows out.svg 'unloading'

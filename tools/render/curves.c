@@ -33,6 +33,7 @@ enum helper {
     RESIDUAL,
     APPROACH,
     JUMPS,
+    SPEED,
     SOURCE, /* these two are words that distinguish pieces */
     LOAD,
     HELPERS
@@ -50,6 +51,7 @@ static const char *const helper_name[HELPERS] = {"nx",
                                                  "residual_indentation",
                                                  "approach",
                                                  "jumps",
+                                                 "speed",
                                                  "source",
                                                  "load"};
 
@@ -258,14 +260,16 @@ helper(const struct curves *c, const struct table *table, enum helper which)
     return table->column[c->choice.asked + which].v;
 }
 
-/* True for a row of a history: it has a residual indentation, or the indentation is not the approach. */
+/* True for a row of a history: it has a residual indentation, or the indentation is not the approach. Each speed
+ * of sliding is a case of its own. */
 static bool
 is_history(const struct curves *c, const struct table *table, size_t k)
 {
     const double indentation = helper(c, table, INDENTATION)[k];
 
-    return isfinite(indentation) && (isfinite(helper(c, table, RESIDUAL)[k]) ||
-                                     indentation != helper(c, table, APPROACH)[k]);
+    return isfinite(indentation) && isnan(helper(c, table, SPEED)[k]) &&
+           (isfinite(helper(c, table, RESIDUAL)[k]) ||
+            indentation != helper(c, table, APPROACH)[k]);
 }
 
 /* In a history each approach counts from the current shape; in a curve over these approaches work would seem
