@@ -82,6 +82,7 @@ bad() { # bad "message" "claim" TABLE
 bad "line 2, E: unknown unit 'Gpx'" "a wrong unit" 'name\tE\nx\t5Gpx\n'
 bad "'colour' is no column" "an unknown column" 'name\tcolour\nx\tred\n'
 bad "no column 'name'" "no names" 'E\tnu\n5GPa\t0.3\n'
+bad "two columns are named 'E'" "a column twice" 'name\tE\tE\nx\t5GPa\t6GPa\n'
 bad 'line 2: it has more cells' "too many cells" 'name\tE\nx\t5GPa\t3\n'
 bad 'line 3: it has no name' "a row without a name" 'name\tE\n\n\t5GPa\n'
 bad 'has more than [0-9]* bytes' "a long line" "name\n$(printf 'x%.0s' {1..5000})\n"

@@ -15,7 +15,9 @@ enum {
 
 static struct {
     const char *body[BODIES], *table;
-    struct material *own; /* rows of --materials FILE, as material_table; NULL: none */
+    char *both[MATERIAL_PROPERTIES]; /* values of two bodies, for options that take both */
+    char *told;                      /* the text of the report */
+    struct material *own;            /* rows of --materials FILE, as material_table; NULL: none */
 } asked;
 
 /* clang-format off */
@@ -180,6 +182,9 @@ read_head(struct tool *t, char *line, int column[COLUMNS])
                        "--materials %s: '%s' is no column: they are name, E, nu, hardness, yield, "
                        "conductivity, diffusivity and source, with tabs between them",
                        asked.table, cell);
+        for (size_t k = 0; k < n; k++)
+            if (column[k] == c)
+                tool_usage(t, "--materials %s: two columns are named '%s'", asked.table, cell);
         column[n] = c;
         named_column = named_column || c == COLUMN_NAME;
     }
@@ -220,7 +225,7 @@ read_row(struct tool *t, char *line, size_t number, const int column[COLUMNS], s
     if (*m->names == '\0')
         tool_usage(t, "--materials %s, line %zu: it has no name", asked.table, number);
     for (int p = 0; p < MATERIAL_PROPERTIES; p++)
-        m->of[p].source = m->of[p].value == NULL ? NULL : source;
+        m->of[p].source = source;
 }
 
 static void
@@ -337,7 +342,8 @@ lower(const char *a, const char *b, enum unit unit)
 static void
 tell(struct tool *t, const char *format, ...)
 {
-    const char *before = t->materials == NULL ? "" : t->materials;
+    RC_OWNED char *old = asked.told;
+    const char *before = old == NULL ? "" : old;
     const size_t size = strlen(before) + LINE;
     char *text = tool_room(t, size, 1, "the values of materials");
     size_t n = (size_t)snprintf(text, size, "%s%s", before, *before == '\0' ? "" : "; ");
@@ -346,20 +352,18 @@ tell(struct tool *t, const char *format, ...)
     va_start(args, format);
     vsnprintf(text + n, size - n, format, args);
     va_end(args);
-    t->materials = text;
+    t->materials = asked.told = text;
 }
 
 /* "K1,K2" of both bodies; NULL if one is unknown. */
 static const char *
-of_both(struct tool *t, const char *one, const char *two)
+of_both(struct tool *t, enum material_property p, const char *one, const char *two)
 {
-    char *both;
-
     if (one == NULL || two == NULL)
         return NULL;
-    both = tool_room(t, strlen(one) + strlen(two) + 2, 1, "the values of materials");
-    sprintf(both, "%s,%s", one, two);
-    return both;
+    asked.both[p] = tool_room(t, strlen(one) + strlen(two) + 2, 1, "the values of materials");
+    sprintf(asked.both[p], "%s,%s", one, two);
+    return asked.both[p];
 }
 
 static void
@@ -368,7 +372,7 @@ fill(struct tool *t, const struct fill *f, const struct material *const m[BODIES
     const char *one = value_of(m[0], f->property), *two = value_of(m[1], f->property);
     const char *text = f->of == FIRST    ? one
                        : f->of == SECOND ? two
-                       : f->of == BOTH   ? of_both(t, one, two)
+                       : f->of == BOTH   ? of_both(t, f->property, one, two)
                                          : lower(one, two, properties[f->property].unit);
 
     if (text == NULL || is_replaced(t, f))
