@@ -64,12 +64,13 @@
     {                                                                                              \
         360, 49                                                                                    \
     }
-/* Temperatures: sums beside those of a step in time, seconds a node for the coefficients and for a further
- * depth; bytes a node, free and periodic, with the shares of nodes and with one number; sums of a further
- * step, and its bytes. */
+/* Temperatures: sums beside those of a step in time; seconds a node for the coefficients, those of a further step
+ * and a further depth; bytes a node, free and periodic, with the shares of nodes and with one number; sums of a
+ * further step, and its bytes. */
 #define RC_HEAT_WORK 2.5
 #define RC_HEAT_STEP 8
 #define RC_HEAT_NODE 100e-9
+#define RC_HEAT_STEP_NODE 250e-9
 #define RC_HEAT_DEPTH 250e-9
 #define RC_HEAT_BYTES                                                                              \
     {                                                                                              \

@@ -400,7 +400,7 @@ static double
 usual_steps(const struct rc_shape *shape, const struct rc_heat_problem *p)
 {
     const double patch = 0.05; /* area of the largest patch over that of the map */
-    const double few = 2, long_time = 3;
+    const double few = 3.4, long_time = 3;
     const double steady = patch * (double)(shape->nx * shape->ny) * shape->dx * shape->dy /
                           fmin(p->body[0].diffusivity, p->body[1].diffusivity);
     const double tol = p->tol > 0 ? p->tol : usual_tol;
@@ -409,15 +409,18 @@ usual_steps(const struct rc_shape *shape, const struct rc_heat_problem *p)
                                         : fmin(few * pow(2.2, fmax(log10(1e-2 / tol), 0)), TIMES);
 }
 
-/* Adds the work and the memory of n time steps. */
+/* Adds the work and the memory of n time steps; `part`: how probable this run is. Each step has coefficients of
+ * its own. */
 static void
-expect_run(const struct rc_heat_problem *p, size_t n, double nodes, struct rc_expected *expected)
+expect_run(const struct rc_heat_problem *p, size_t n, double nodes, double part,
+           struct rc_expected *expected)
 {
     static const double bytes[2][2] = RC_HEAT_BYTES, of_step[2] = RC_HEAT_TIME_BYTES;
     const bool matched = p->partition == RC_HEAT_MATCHED;
 
-    expected->convolutions +=
-        RC_HEAT_WORK + (matched ? RC_HEAT_STEP : 0) + 2 + RC_HEAT_TIME_STEP * ((double)n - 1);
+    expected->convolutions += part * (RC_HEAT_WORK + (matched ? RC_HEAT_STEP : 0) + 2 +
+                                      RC_HEAT_TIME_STEP * ((double)n - 1));
+    expected->seconds += part * RC_HEAT_STEP_NODE * nodes * 2 * ((double)n - 1);
     expected->memory +=
         (size_t)(nodes * (rc_by_padding(p->boundary, bytes[0][!matched], bytes[1][!matched]) +
                           rc_by_padding(p->boundary, of_step[0], of_step[1]) * ((double)n - 1)));
@@ -430,7 +433,8 @@ rc_heat_expect(const struct rc_shape *shape, const struct rc_heat_problem *p, si
     const struct rc_conv_options sum = {.boundary = p->boundary, .threads = p->threads};
     const bool matched = p->partition == RC_HEAT_MATCHED && p->time > 0;
     const bool doubles = matched && p->time_steps == 0;
-    const size_t most = doubles ? (size_t)usual_steps(shape, p) : matched ? p->time_steps : 1;
+    const size_t given = matched && !doubles ? p->time_steps : 1;
+    const double steps = doubles ? usual_steps(shape, p) : (double)given;
     const double nodes = (double)(shape->nx * shape->ny);
     const double one = rc_conv_seconds(shape, &sum),
                  cores = (double)(p->threads == 0 ? rc_threads_available() : p->threads);
@@ -438,10 +442,11 @@ rc_heat_expect(const struct rc_shape *shape, const struct rc_heat_problem *p, si
     if (check(shape, p, err) != RC_OK)
         return RC_FAIL;
     *expected = (struct rc_expected){0};
-    for (size_t n = doubles ? 1 : most; n <= most; n *= 2)
-        expect_run(p, n, nodes, expected);
-    expected->seconds = one * expected->convolutions +
-                        (RC_HEAT_NODE + RC_HEAT_DEPTH * (double)depths) * nodes * 2 / cores;
+    for (size_t n = given; (double)n < 2 * steps; n *= 2)
+        expect_run(p, n, nodes, fmin(2 * steps / (double)n - 1, 1), expected);
+    expected->seconds =
+        one * expected->convolutions +
+        (expected->seconds + (RC_HEAT_NODE + RC_HEAT_DEPTH * (double)depths) * nodes * 2) / cores;
     return RC_OK;
 }
 
