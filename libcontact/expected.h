@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
  * The measured numbers of forecasts (rc_solver_expect, rc_model_plan and others): work, in convolutions or
- * applications, and seconds. tests/long/pipe_forecasts.sh compares them with runs, and bench/forecast.sh on larger
- * maps. Seconds are those of 2 cores of an
- * Intel Xeon, 2026-11-28; a caller scales them to its machine. Internal: never installed.
+ * applications, and seconds. tests/long/pipe_forecasts.sh compares them with runs, and bench/forecast.sh on
+ * larger maps. Seconds are those of 2 cores of an Intel Xeon, 2026-11-28; a caller scales them to its
+ * machine. Internal: never installed.
  */
 #ifndef RC_EXPECTED_H
 #define RC_EXPECTED_H
@@ -31,8 +31,8 @@
 #define RC_ADHESION_FREE 1.3
 #define RC_ADHESION_PASSES 4
 /* A body with a yield stress: seconds of the search for the largest stress, in those of a sum: free,
- * periodic. One that yields: applications after the increments and of one increment, convolutions of a slab and
- * application, and its seconds: free, periodic. */
+ * periodic. One that yields: applications after the increments and of one increment, convolutions of a
+ * slab and application, and its seconds: free, periodic. */
 #define RC_YIELD_LOOK                                                                              \
     {                                                                                              \
         45, 16                                                                                     \
@@ -64,9 +64,9 @@
     {                                                                                              \
         360, 49                                                                                    \
     }
-/* Temperatures: sums beside those of a step in time; seconds a node for the coefficients, those of a further step
- * and a further depth; bytes a node, free and periodic, with the shares of nodes and with one number; sums of a
- * further step, and its bytes. */
+/* Temperatures: sums beside those of a step in time; seconds a node for the coefficients, those of a
+ * further step and a further depth; bytes a node, free and periodic, with the shares of nodes and with
+ * one number; sums of a further step, and its bytes. */
 #define RC_HEAT_WORK 2.5
 #define RC_HEAT_STEP 8
 #define RC_HEAT_NODE 100e-9

@@ -376,8 +376,8 @@ refused(const struct work *w, const double *h, const double *p, size_t peak)
     return rc_memory_held().held < before + peak / 50 ? 0 : 5; /* FFTW keeps its plans */
 }
 
-/* Bytes of files in memory: code of the libraries. How much of it the kernel maps at once differs from machine
- * to machine. */
+/* Bytes of files in memory: code of the libraries. How much of it the kernel maps at once differs from
+ * machine to machine. */
 static size_t
 code_held(void)
 {

@@ -69,9 +69,9 @@ enum rc_status rc_friction_solver_check(const struct rc_shape *shape,
 /* Coefficients C11, C22, C23 of an ellipse: a/b, with a along x, and Poisson's ratio. NAN beyond 0.1 to 10,
  * or where nu is not in 0 to 0.5. */
 void rc_kalker(double ratio, double nu, double c[3]);
-/* Kalker's simplified theory: the force, N, on body 1 of the ellipse with the semi-axes axis[], m, along x and
- * y, whose coefficients are c[]. The contact rolls towards +x; g: shear modulus, Pa; limit: the largest force;
- * creep and spin as in contact.h. */
+/* Kalker's simplified theory: the force, N, on body 1 of the ellipse with the semi-axes axis[], m,
+ * along x and y, whose coefficients are c[]. The contact rolls towards +x; g: shear modulus, Pa; limit:
+ * the largest force; creep and spin as in contact.h. */
 void rc_fastsim(const double axis[2], double g, const double c[3], double limit,
                 const double creep[2], double spin, double force[2]);
 

@@ -409,8 +409,8 @@ usual_steps(const struct rc_shape *shape, const struct rc_heat_problem *p)
                                         : fmin(few * pow(2.2, fmax(log10(1e-2 / tol), 0)), TIMES);
 }
 
-/* Adds the work and the memory of n time steps; `part`: how probable this run is. Each step has coefficients of
- * its own. */
+/* Adds the work and the memory of n time steps; `part`: how probable this run is. Each step has
+ * coefficients of its own. */
 static void
 expect_run(const struct rc_heat_problem *p, size_t n, double nodes, double part,
            struct rc_expected *expected)

@@ -8,8 +8,8 @@
  * under a motion v, phi of body 2 over body 1 per length rolled. G is the shear modulus of similar bodies.
  *
  * His simplified theory (Vehicle System Dynamics 11, 1982, "A fast algorithm for the simplified theory of
- * rolling contact") lets each place move by L times its own traction, and bounds the traction by a paraboloid.
- * The L that give the forces above are
+ * rolling contact") lets each place move by L times its own traction, and bounds the traction by a
+ * paraboloid. The L that give the forces above are
  *
  *     L1 = 8 a/(3 G C11),   L2 = 8 a/(3 G C22),   L3 = pi a sqrt(a/b)/(4 G C23).
  */

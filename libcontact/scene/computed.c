@@ -65,11 +65,11 @@ peak_at_edge(const struct rc_scene *s)
            (!s->problem.boundary.y && ny > 1 && (most / nx == 0 || most / nx == ny - 1));
 }
 
-/* A finer grid has nearly the area without the steps of this one. Where the same waves had a grid four times as
- * fine, 200 contacts changed by 0.3 to 1 times this correction, to three nodes, and by at most 0.35 times the
- * estimate of the area, 0.09 times that of the pressure, and 0.56 times that of the approach; with other spectra
- * the pressure exceeded its estimate by up to 6 times. At the edge of a map the pressure of a finer grid
- * grows without end. */
+/* A finer grid has nearly the area without the steps of this one. Where the same waves had a grid four
+ * times as fine, 200 contacts changed by 0.3 to 1 times this correction, to three nodes, and by at most
+ * 0.35 times the estimate of the area, 0.09 times that of the pressure, and 0.56 times that of the
+ * approach; with other spectra the pressure exceeded its estimate by up to 6 times. At the edge of a
+ * map the pressure of a finer grid grows without end. */
 enum rc_status
 scene_grid(struct rc_scene *s, struct rc_scene_effect *e, struct rc_err *err)
 {

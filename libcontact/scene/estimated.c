@@ -272,9 +272,10 @@ largest_displacement(struct rc_scene *s, double *most, struct rc_err *err)
 }
 
 /* Bodies at rest: conduction and elastic displacement have the same kernel 1/r, so that the temperature
- * of a body is proportional to the displacement of uniform bodies. Motion lowers it, to the sum of both limits of Jaeger
- * (1942) at the radius of the largest patch. The mean flux of a periodic map heats each body as a wall,
- * since time 0. Both bodies have the same temperature in contact: their resistances are in parallel. */
+ * of a body is proportional to the displacement of uniform bodies. Motion lowers it, to the sum of both
+ * limits of Jaeger (1942) at the radius of the largest patch. The mean flux of a periodic map heats
+ * each body as a wall, since time 0. Both bodies have the same temperature in contact: their
+ * resistances are in parallel. */
 enum rc_status
 scene_heat(struct rc_scene *s, struct rc_scene_effect *e, struct rc_err *err)
 {

@@ -4,11 +4,10 @@
 
 #include "parts.h"
 
-/* The contact passes along x. The index at the depth of the largest Mises stress, at least the distance of the
- * states, is a lower bound. The deviators
- * of a history lie in a ball about 0 with the radius of the largest sqrt(J2), mises/sqrt(3), so that neither the
- * amplitude of Crossland nor the shear stress of Dang Van exceeds it; without friction there is no hydrostatic
- * tension. */
+/* The contact passes along x. The index at the depth of the largest Mises stress, at least the distance
+ * of the states, is a lower bound. The deviators of a history lie in a ball about 0 with the radius of
+ * the largest sqrt(J2), mises/sqrt(3), so that neither the amplitude of Crossland nor the shear stress
+ * of Dang Van exceeds it; without friction there is no hydrostatic tension. */
 enum rc_status
 scene_fatigue(struct rc_scene *s, struct rc_scene_effect *e, struct rc_err *err)
 {

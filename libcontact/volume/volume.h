@@ -106,8 +106,8 @@ struct rc_slabs *rc_slabs_new(const struct rc_shape *shape, const struct rc_slab
 void rc_slabs_free(struct rc_slabs *slabs); /* NULL is allowed */
 /* The slab has the nodes (2^level i, 2^level j) of the map. */
 size_t rc_slabs_level(const struct rc_slabs *slabs, size_t slab);
-/* Turns numbers at the nodes of a slab, row after row, into numbers at the nx ny nodes of the map, by the waves
- * of its level. */
+/* Turns numbers at the nodes of a slab, row after row, into numbers at the nx ny nodes of the map, by
+ * the waves of its level. */
 void rc_slabs_refine(struct rc_slabs *slabs, size_t slab, double *map);
 /* The number of slabs, each counted as the part of the nodes of the map that it has. */
 double rc_slabs_by_nodes(const struct rc_shape *shape, const struct rc_slabs_options *options);

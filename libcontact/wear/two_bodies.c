@@ -12,9 +12,9 @@
  * that over the last 1/fraction steps. The method is of first order in the fraction.
  *
  * Two runs go side by side with different alignments, one with half the steps of the other. The result is
- * that of the finer one, and their largest difference lately is the estimate of its error: at a single distance
- * both may come close to each other by chance. That of the pressure is the largest one in three alignments. A
- * leg whose worn depth is not accurate enough is taken again with shorter steps.
+ * that of the finer one, and their largest difference lately is the estimate of its error: at a single
+ * distance both may come close to each other by chance. That of the pressure is the largest one in three
+ * alignments. A leg whose worn depth is not accurate enough is taken again with shorter steps.
  */
 #include "wear.h"
 
@@ -233,7 +233,8 @@ try_again(struct sliding *v, struct rc_err *err)
     return start(v, err);
 }
 
-/* Starts the next step, or the contacts at the point. A short distance takes as many steps as a longer one. */
+/* Starts the next step, or the contacts at the point. A short distance takes as many steps as a longer
+ * one. */
 static enum rc_status
 set_out(struct sliding *v, struct rc_err *err)
 {

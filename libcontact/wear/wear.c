@@ -46,10 +46,11 @@ static const double third_order = 0.0404;
 static const double usual_tol = 0.1;
 /* The smoothing steps before a point take this part of the distance, and at least `fewest` steps. */
 static const double last_part = 0.1, fewest = 4;
-/* In dx/(k E*): a last short step before a point, over which the shortest wave decays by exp(-5), where the
- * smoothing steps are `unsettled` times as long. A node that comes into contact in a step of BDF2 takes up to
- * 1.5 times its pressure, because it had none in the step before: the largest pressure was up to 34 % too high.
- * With the short step, which is nearly backward Euler, it is up to 5 % off, with a third of it 14 %. */
+/* In dx/(k E*): a last short step before a point, over which the shortest wave decays by exp(-5), where
+ * the smoothing steps are `unsettled` times as long. A node that comes into contact in a step of BDF2
+ * takes up to 1.5 times its pressure, because it had none in the step before: the largest pressure was
+ * up to 34 % too high. With the short step, which is nearly backward Euler, it is up to 5 % off, with a
+ * third of it 14 %. */
 static const double settle = 3, unsettled = 4;
 /* Part of the tolerance for the errors of these steps: of the heights, and of the pressure after the
  * last one. After the steps before it the pressure may be `loose` times less accurate, because BDF2
@@ -671,9 +672,10 @@ even(struct wear *v, double of_p1, struct rc_err *err)
 }
 
 /* Adds the error of the step to the error of all steps. In contact, a wave q of this error decays by
- * exp(-k E* q s/2) as sliding continues. The waves of the error of a step at s are about as short as 2/(k E* s),
- * or at least pi/dx. The error therefore decays as 1/s, after the decay distance of the shortest wave. Outside
- * the contact nothing decays. The sum of the magnitudes of the steps was 5 to 16 times the error. */
+ * exp(-k E* q s/2) as sliding continues. The waves of the error of a step at s are about as short as
+ * 2/(k E* s), or at least pi/dx. The error therefore decays as 1/s, after the decay distance of the
+ * shortest wave. Outside the contact nothing decays. The sum of the magnitudes of the steps was 5 to 16
+ * times the error. */
 static void
 age(struct wear *v)
 {

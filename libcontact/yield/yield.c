@@ -121,9 +121,9 @@ static const double keeps = 0.03;
  * double change no number of applications (23 lists of loads of bench/constants.py). */
 static const double kept_goal = 3e-3;
 
-/* Error of the slabs over the change of the pressure by pairs of them. Where at least RESOLVED slabs yield, it
- * was at most 1.82 on 71 random maps of 8 to 32 nodes, and 0.4 to 0.65 on maps of 96 and 128 nodes, against
- * slabs a quarter as thick. Where fewer yield, it was up to 21. */
+/* Error of the slabs over the change of the pressure by pairs of them. Where at least RESOLVED slabs
+ * yield, it was at most 1.82 on 71 random maps of 8 to 32 nodes, and 0.4 to 0.65 on maps of 96 and 128
+ * nodes, against slabs a quarter as thick. Where fewer yield, it was up to 21. */
 static const double of_pairs = 2;
 
 /* ---- rows ---- */

@@ -112,8 +112,8 @@ honest(struct rc_model *m, size_t q, enum rc_status status, const char *what)
     for (size_t k = 0; (f = rc_model_figure(m, k, &data)) != NULL; k++)
         converged |=
             is_own(m, data) && strcmp(f->name, "converged") == 0 && rc_figure_number(f, data) > 0;
-    /* without load some figures are unknown; where all nodes in contact yield, the approach is; where fewer than
-     * six slabs yield, their error is */
+    /* without load some figures are unknown; where all nodes in contact yield, the approach is; where
+     * fewer than six slabs yield, their error is */
     unloaded = rc_model_number(m, "load") == 0 ||
                rc_model_number(m, "plastic_area") >= rc_model_number(m, "contact_area");
     *(converged ? &reached : &short_of) += 1;

@@ -285,8 +285,8 @@ test_kalker_figures(void **state)
     free(p);
 }
 
-/* The force of one row of the simplified theory under a creepage along x: a traction that rises by `rise` from
- * the leading edge at +half, and ends where it meets the bound most (half^2 - x^2). */
+/* The force of one row of the simplified theory under a creepage along x: a traction that rises by
+ * `rise` from the leading edge at +half, and ends where it meets the bound most (half^2 - x^2). */
 static double
 row_of_simplified_theory(double half, double rise, double most)
 {

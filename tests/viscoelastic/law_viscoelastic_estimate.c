@@ -1,11 +1,11 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Estimated errors of viscoelastic pressures are not below the error, except for 1 in 50, where differences of
- * the runs are small by chance. The median of their ratio is at most 5. For random materials, maps and histories
- * with falls of 10 to 1000. The truth is a scheme in strains: the displacement changes linearly in each
- * step, and stresses of the terms of the relaxation modulus follow it. It shares the elastic contact with
- * the library, and neither terms nor steps. It counts where its pressures with twice as many steps agree to
- * a tenth of the error. Errors up to 1e-5 do not count. RC_CAMPAIGN: number of histories of each kind;
- * RC_SEED. */
+/* Estimated errors of viscoelastic pressures are not below the error, except for 1 in 50, where
+ * differences of the runs are small by chance. The median of their ratio is at most 5. For random
+ * materials, maps and histories with falls of 10 to 1000. The truth is a scheme in strains: the
+ * displacement changes linearly in each step, and stresses of the terms of the relaxation modulus
+ * follow it. It shares the elastic contact with the library, and neither terms nor steps. It counts
+ * where its pressures with twice as many steps agree to a tenth of the error. Errors up to 1e-5 do not
+ * count. RC_CAMPAIGN: number of histories of each kind; RC_SEED. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>

@@ -529,8 +529,8 @@ shakedown(void **state)
 
 /* ---- the estimate ---- */
 
-/* The error of the slabs, against slabs a quarter as thick, is at most its estimate. It is unknown where few of
- * them yield. */
+/* The error of the slabs, against slabs a quarter as thick, is at most its estimate. It is unknown
+ * where few of them yield. */
 static void
 tells_slabs(void **state)
 {

@@ -304,7 +304,8 @@ print_table(void)
 #define BODY_2 {.name = "body2", .type = OPT_TEXT, AT(body[1]), .words = first_name, .result = true, \
     .arg = "MATERIAL", .help = "the same for body 2; also rigid"}
 #define TABLE {.name = "materials", .type = OPT_TEXT, AT(table), .optional = true, .result = true, \
-    .arg = "FILE", .help = "print the table of materials and exit; with FILE: take the rows of this table too"}
+    .arg = "FILE", \
+    .help = "print the table of materials and exit; with FILE: take the rows of this table too"}
 const struct opt material_options[] = {BODY_1, BODY_2, TABLE, {.name = NULL}};
 const struct opt material_options_of_one[] = {BODY_1, TABLE, {.name = NULL}};
 /* clang-format on */
@@ -338,7 +339,8 @@ lower(const char *a, const char *b, enum unit unit)
     return first <= second ? a : b;
 }
 
-/* Adds to the text of the report, as in "E1 211.9GPa (steel)" or, for an option of the line, "E1 as given". */
+/* Adds to the text of the report, as in "E1 211.9GPa (steel)" or, for an option of the line, "E1 as
+ * given". */
 static void
 tell(struct tool *t, const char *format, ...)
 {

@@ -51,7 +51,8 @@ const struct material material_table[] = {
     {"silicon|Si", {ELASTIC("130GPa", "0.28", hopcroft), THERMAL("148W/mK", "89.2mm2/s", incropera)}},
     {"diamond", {ELASTIC("1143GPa", "0.069", klein), [MATERIAL_CONDUCTIVITY] = {"2300W/mK", incropera}}},
     {"glass|crown-glass", {ELASTIC("71.3GPa", "0.22", kaye), THERMAL("1.4W/mK", "0.747mm2/s", incropera)}},
-    {"fused-silica|quartz-glass", {ELASTIC("73.1GPa", "0.17", kaye), THERMAL("1.38W/mK", "0.834mm2/s", incropera)}},
+    {"fused-silica|quartz-glass", {ELASTIC("73.1GPa", "0.17", kaye),
+                                   THERMAL("1.38W/mK", "0.834mm2/s", incropera)}},
     {"PDMS|Sylgard-184", {[MATERIAL_E] = {"1.32MPa", johnston}, [MATERIAL_NU] = {"0.5", incompressible}}},
     {.names = NULL},
 };

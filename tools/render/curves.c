@@ -260,8 +260,8 @@ helper(const struct curves *c, const struct table *table, enum helper which)
     return table->column[c->choice.asked + which].v;
 }
 
-/* True for a row of a history: it has a residual indentation, or the indentation is not the approach. Each speed
- * of sliding is a case of its own. */
+/* True for a row of a history: it has a residual indentation, or the indentation is not the approach.
+ * Each speed of sliding is a case of its own. */
 static bool
 is_history(const struct curves *c, const struct table *table, size_t k)
 {
@@ -834,8 +834,8 @@ add_law(struct curves *c)
 
 /* ---- the whole ---- */
 
-/* The title of a column with which those of all columns begin, as "Force along x" and "Force along x in linear
- * theory" do; NULL: none. The legend has their differences. */
+/* The title of a column with which those of all columns begin, as "Force along x" and "Force along x in
+ * linear theory" do; NULL: none. The legend has their differences. */
 static const char *
 common_title(const struct curves *c)
 {

@@ -292,10 +292,10 @@ memory(struct run *run, const struct rc_problem *contact)
            ((args.pull_off ? kept : 0) + maps * sizeof *run->g->v) * rc_grid_nodes(run->g);
 }
 
-/* The work on a map that the attraction pulls into nearly full contact, over that of rc_adhesion_expect: few
- * nodes are left whose gap must be found, except at the edges of a free map. `filled` is the pressure with the
- * attraction over the scale of the pressure in full contact, E* slope/2. Measured on rough maps of 64 x 64 to
- * 192 x 192 nodes. */
+/* The work on a map that the attraction pulls into nearly full contact, over that of
+ * rc_adhesion_expect: few nodes are left whose gap must be found, except at the edges of a free map.
+ * `filled` is the pressure with the attraction over the scale of the pressure in full contact, E*
+ * slope/2. Measured on rough maps of 64 x 64 to 192 x 192 nodes. */
 static double
 full_contact(const struct run *run, const struct rc_problem *contact)
 {
