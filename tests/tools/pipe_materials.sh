@@ -88,6 +88,6 @@ bad 'line 3: it has no name' "a row without a name" 'name\tE\n\n\t5GPa\n'
 bad 'has more than [0-9]* bytes' "a long line" "name\n$(printf 'x%.0s' {1..5000})\n"
 bad 'it is in no table' "an empty file" ''
 refuses 1 'missing.tsv: No such file' "no such file" "rc-solve --materials missing.tsv --load 1N --body1 x --body2 rigid ball.rcg"
-refuses 2 'stel: it is in no table: did you mean steel?' "a mistyped name" "rc-solve --load 1N --body1 stel --body2 rigid ball.rcg"
+refuses 2 'stel: it is in no table; .* reads yours: did you mean steel?' "a mistyped name" "rc-solve --load 1N --body1 stel --body2 rigid ball.rcg"
 refuses 2 "'steel' is not a number; a material by its name is --body1" "a name instead of a number" "rc-solve --load 1N --E1 steel ball.rcg"
 refuses 2 'or materials by name' "one body only" "rc-solve --load 1N --body1 steel ball.rcg"

@@ -127,8 +127,8 @@ named(struct tool *t, int body)
     nearest_in(material_table, name, nearest);
     tool_usage(
         t,
-        "--body%d %s: it is in no table%s; --materials prints the known ones, --materials FILE "
-        "reads yours",
+        "--body%d %s: it is in no table; --materials prints the known ones, --materials FILE "
+        "reads yours%s",
         body + 1, name, name_meant(nearest, meant));
 }
 
