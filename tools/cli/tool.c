@@ -60,6 +60,7 @@ void
 tool_start(struct tool *t, const struct tool_info *info, int argc, char **argv, void *args)
 {
     *t = (struct tool){.info = info, .args = args, .writes = info->writes};
+    waiting_restore();
     hold_standard_files();
     memory_keep_maps_apart();
     ranks_start(t);
