@@ -613,6 +613,7 @@ put_step(struct course *c, struct rc_model *m)
     run->slid = f->distance;
     report_begin(&run->steps);
     report_count(&run->steps, "case", c->number, NULL);
+    report_text(&run->steps, "source", rc_grid_get(c->g, "source"));
     rc_point_set(&at, RC_LOAD, run->d.point->at[RC_LOAD]);
     at.at[RC_APPROACH] = NAN; /* the contact within a step has other heights than the worn ones */
     report_model(&run->steps, m, &at, at.given);

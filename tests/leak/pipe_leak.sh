@@ -24,6 +24,11 @@ column() { # NAME ROW FILE
 
 # ---- known flows ----
 
+# a stream of times, as of rc-solve --relaxation --time; a load alone has no time
+made 'time=2.5' 12 4 2e-6 1e-6 gap '$j < 3 ? 2e-6 : 1e-12' pressure '$j < 3 ? 0 : 8e7' >at-time.rcg
+rc-leak --quiet --report time.tsv at-time.rcg -o flow.rcg
+claim "the report has the time of the stream" test "$(column time 1 time.tsv)" = 2.5
+
 # 12 columns have a gap of 2 um in 3 of 4 rows and a wall of contact in the fourth: 3 g^3 dy/(12 dx)
 made 'boundary=free
 load=3' 12 4 2e-6 1e-6 gap '$j < 3 ? 2e-6 : 1e-12' pressure '$j < 3 ? 0 : 8e7' >channel.rcg
@@ -93,6 +98,7 @@ refuses 2 'it must be one speed .* or two' "three speeds" "rc-leak --sliding 1m/
 rc-synth selfaffine --nx 128 --dx 1um --hurst 0.8 --rms-slope 0.05 --rolloff 32um --short-cut 4um --seed 2 -o rough.rcg
 rc-solve --quiet --periodic --estar 1GPa --mean-pressure 1MPa,3MPa,5MPa,16MPa --output pressure,gap rough.rcg -o pressed.rcg
 rc-leak --quiet --report loads.tsv pressed.rcg -o leak.rcg
+claim "a stream of loads has no time" test "$(column time 1 loads.tsv)" = NaN
 claim "four loads give four rows" test "$(wc -l <loads.tsv)" = 5
 claim "  the conductance falls from row to row" bash -c '
     awk -F "\t" "NR == 1 { for (i = 1; i <= NF; i++) if (\$i == \"flow_conductance/m3\") c = i }

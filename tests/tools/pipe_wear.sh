@@ -35,6 +35,7 @@ for radius in 85.2 141.4 249.1 442.1; do
         "  its volume is k P s"
     claim "  the result has converged" test "$(column converged $row worn.tsv)" = true
 done
+claim "--steps names the surface in each row, as the report does" test "$(column source 1 steps.tsv),$(column source 9 steps.tsv)" = "$(column source 1 worn.tsv),$(column source 1 worn.tsv)"
 claim "--steps writes a row for each step, with increasing distance" test \
     "$(awk -F'\t' 'NR == 1 { for (k = 1; k <= NF; k++) if ($k == "distance/m") c = k } NR > 1 { bad += $c <= last; last = $c; n++ }
         END { print n, bad + 0 }' steps.tsv)" = "$(column steps 4 worn.tsv) 0"

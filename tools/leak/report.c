@@ -52,7 +52,7 @@ leak_report(struct report *r, const struct leak_case *c)
     const struct figures from[] = {{rc_figures("leak"), f}, {NULL, NULL}};
     const struct rc_grid *g = c->gap;
     const char direction[2] = {c->direction, '\0'};
-    double load;
+    double load, time;
 
     report_begin(r);
     report_map(r, g, rc_grid_case(g));
@@ -60,6 +60,7 @@ leak_report(struct report *r, const struct leak_case *c)
     report_text(r, "direction", direction);
     report_text(r, "sides", c->around ? "periodic" : "closed");
     report_count(r, "threads", r->tool->threads, NULL);
+    report_value(r, "time", rc_grid_number(g, "time", &time) ? time : NAN);
     report_value(r, "load", rc_grid_number(g, "load", &load) ? load : NAN);
     report_value(r, "mean_pressure", c->mean);
     report_value(r, "contact_fraction", c->contact);
