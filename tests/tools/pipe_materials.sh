@@ -89,5 +89,5 @@ bad 'has more than [0-9]* bytes' "a long line" "name\n$(printf 'x%.0s' {1..5000}
 bad 'it is in no table' "an empty file" ''
 refuses 1 'missing.tsv: No such file' "no such file" "rc-solve --materials missing.tsv --load 1N --body1 x --body2 rigid ball.rcg"
 refuses 2 'stel: it is in no table; .* reads yours: did you mean steel?' "a mistyped name" "rc-solve --load 1N --body1 stel --body2 rigid ball.rcg"
-refuses 2 "'steel' is not a number; a material by its name is --body1" "a name instead of a number" "rc-solve --load 1N --E1 steel ball.rcg"
+refuses 2 "'steel' is not a number; a material by its name is --body1 or --body2, and --materials prints the names" "a name instead of a number" "rc-solve --load 1N --E1 steel ball.rcg"
 refuses 2 'or materials by name' "one body only" "rc-solve --load 1N --body1 steel ball.rcg"

@@ -36,6 +36,17 @@ claim "cases of several files have consecutive numbers" bash -c '
     [ "$(rc-pick --case 1,3 surface.rcg result.rcg | frames | cut -d " " -f 1 | uniq | tr "\n" ,)" = "1,3," ]'
 claim "--depth selects depths to a thousandth" bash -c '
     [ "$(rc-pick --depth 0,10.009um --case 1 --channel szz stress.rcg | frames | tr "\n" ,)" = "1 szz 0,1 szz 1e-05," ]'
+# a stream with the cases 1 to 6
+for k in 1 2 3 4 5 6; do cat surface.rcg; done >six.rcg
+cases_of() { rc-pick --case "$1" six.rcg | frames | cut -d ' ' -f 1 | tr '\n' ,; }
+claim "--case takes a range of cases" test "$(cases_of 2-4)" = 2,3,4,
+claim "  in a list too" test "$(cases_of 1,4-6)" = 1,4,5,6,
+claim "  of one case too" test "$(cases_of 5-5)" = 5,
+claim "  the history has the cases" says 'rc-pick [0-9.]* --case 1,4,5,6"' bash -c 'rc-pick --case 1,4-6 six.rcg | rc-info --json'
+refuses 2 "--case 3-1: '3-1': a range goes up" "a range that goes down" 'rc-pick --case 3-1 six.rcg'
+refuses 2 "--case 1-: '-' after 1: give a number without a unit" "a range without an end" 'rc-pick --case 1- six.rcg'
+refuses 2 "--case 1-3-5: '-3-5' after 1: give a number" "a range of three numbers" 'rc-pick --case 1-3-5 six.rcg'
+refuses 2 "a range goes up, and has at most 1000000 numbers" "a range without limit" 'rc-pick --case 1-99999999999999999999999 six.rcg'
 # nearest ASKED EXPECTED: compares the selected depth for mises in case 1 of stress.rcg, which has 0, 5 and 10
 # um
 nearest() { [ "$(rc-pick --depth "$1" --case 1 --channel mises stress.rcg 2>told.txt | frames | tr "\n" ,)" = "$2" ]; }

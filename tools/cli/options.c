@@ -320,7 +320,8 @@ number(struct tool *t, const struct opt *o, const char *text)
     if (unit_number(text, o->unit, &value, &t->err) != RC_OK)
         tool_usage(t, "--%s %s: %s%s", o->name, text, t->err.text,
                    t->info->of_materials != NULL && isalpha((unsigned char)*text)
-                       ? "; a material by its name is --body1 or --body2"
+                       ? "; a material by its name is --body1 or --body2, and --materials prints "
+                         "the names"
                        : "");
     check_bounds(t, o, value, false);
     if (o->unit == UNIT_HARD && unit_vickers(text))
@@ -415,6 +416,7 @@ set_list(struct tool *t, const struct opt *o, struct numbers *list, const char *
         return;
     t->option.list[o - t->option.row] = text;
     if ((o->per_metre ? unit_forces(text, list, &t->err)
+         : o->whole   ? unit_whole_numbers(text, list, &t->err)
                       : unit_numbers(text, o->unit, list, &t->err)) != RC_OK)
         tool_die_at(t, NULL, list->no_memory ? EXIT_IMPOSSIBLE : EXIT_USAGE, "--%s %s: %s", o->name,
                     text, t->err.text);

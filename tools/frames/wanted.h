@@ -31,7 +31,7 @@ struct wanted {                   /* starts as {0}: every frame */
      .help = "only the frames at these depths, or the nearest within half a step"},                \
     {.name = "case", .type = OPT_NUMBERS, .at = offsetof(args, member.number), .min = 1,           \
      .max = 9e15, .whole = true, .result = in_history, .arg = "LIST",                              \
-     .help = "only the frames of these cases"}
+     .help = "only the frames of these cases, as in 1,4-6"}
 /* clang-format on */
 
 /* Before the first frame: ends the tool for an empty name. */

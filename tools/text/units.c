@@ -415,6 +415,7 @@ unit_number(const char *text, enum unit unit, double *value, struct rc_err *err)
 struct list_state {
     enum unit unit;
     bool forces;                   /* N/m is accepted for N                                     */
+    bool spans;                    /* A-B is accepted for the whole numbers from A to B         */
     bool with, without;            /* some number had a unit; some number other than 0 had none */
     bool per_metre, not_per_metre; /* with a unit                                               */
 };
@@ -492,11 +493,28 @@ read_range(const char *text, const char *first, const char *second, struct list_
     return RC_OK;
 }
 
+/* Values of text[0..n): those from A to B if it is A-B, two whole numbers; else one, and ends[0] is NAN. */
+static double
+piece_values(const char *text, size_t n, const struct list_state *state, double ends[2])
+{
+    const char *digits = "0123456789";
+    const size_t first = strspn(text, digits);
+
+    ends[0] = NAN;
+    if (!state->spans || first == 0 || first + 1 >= n || text[first] != '-' ||
+        first + 1 + strspn(text + first + 1, digits) != n)
+        return 1;
+    (void)rc_number_read(text, false, &ends[0]);
+    (void)rc_number_read(text + first + 1, false, &ends[1]);
+    return ends[1] - ends[0] + 1;
+}
+
 static enum rc_status
 read_list(const char *text, struct list_state *state, struct numbers *list, struct rc_err *err)
 {
+    static const double most = 1e6; /* numbers */
     const char *colon = strchr(text, ':');
-    size_t n = 1;
+    double n = 0, ends[2];
 
     if (colon != NULL) {
         const char *second = strchr(colon + 1, ':');
@@ -507,15 +525,25 @@ read_list(const char *text, struct list_state *state, struct numbers *list, stru
                               text);
         return read_range(text, colon, second, state, list, err);
     }
-    for (const char *s = text; *s != '\0'; s++)
-        n += *s == ',';
-    list->v = malloc(n * sizeof *list->v);
+    for (const char *s = text, *end; s != NULL; s = *end == ',' ? end + 1 : NULL) {
+        const double values = piece_values(s, strcspn(s, ","), state, ends);
+
+        end = s + strcspn(s, ",");
+        if (!(values >= 1 && values <= most))
+            return rc_err_set(err, "'%.*s': a range goes up, and has at most %.0f numbers",
+                              (int)(end - s), s, most);
+        n += values;
+    }
+    list->v = malloc((size_t)n * sizeof *list->v);
     list->no_memory = list->v == NULL;
     if (list->no_memory)
-        return rc_err_set(err, "out of memory for %zu numbers", n);
-    for (; list->n < n; list->n++) {
+        return rc_err_set(err, "out of memory for %.0f numbers", n);
+    while (list->n < (size_t)n) {
         size_t length = strcspn(text, ",");
-        if (read_piece(text, length, state, &list->v[list->n], err) != RC_OK)
+        if ((void)piece_values(text, length, state, ends), !isnan(ends[0]))
+            for (double v = ends[0]; v <= ends[1]; v++)
+                list->v[list->n++] = v;
+        else if (read_piece(text, length, state, &list->v[list->n++], err) != RC_OK)
             return RC_FAIL;
         text += length + 1;
     }
@@ -539,6 +567,12 @@ enum rc_status
 unit_numbers(const char *text, enum unit unit, struct numbers *list, struct rc_err *err)
 {
     return read_numbers(text, (struct list_state){.unit = unit}, list, err);
+}
+
+enum rc_status
+unit_whole_numbers(const char *text, struct numbers *list, struct rc_err *err)
+{
+    return read_numbers(text, (struct list_state){.spans = true}, list, err);
 }
 
 enum rc_status

@@ -72,7 +72,9 @@ size_sum(size_t a, size_t b)
  * and without a unit in one list are an error, except 0. The caller frees list->v. */
 enum rc_status unit_numbers(const char *text, enum unit unit, struct numbers *list,
                             struct rc_err *err);
-/* The same for forces, which may all be forces per length, in N/m. */
+/* The same without units; a piece `A-B` has the whole numbers from A to B. */
+enum rc_status unit_whole_numbers(const char *text, struct numbers *list, struct rc_err *err);
+/* The same as unit_numbers for forces, which may all be forces per length, in N/m. */
 enum rc_status unit_forces(const char *text, struct numbers *list, struct rc_err *err);
 /* True if a list looks like one number with a decimal comma: two whole numbers without a unit, neither of
  * them ten times the other. */
