@@ -103,7 +103,7 @@ struct line {
     const char *with;       /* options of effects accepted before */
     bool commanded, decided;
     double seconds, convolutions; /* forecast; NAN: unknown */
-    char why[160];
+    char why[SCENE_WHY];
 };
 enum {
     LINES = 24
@@ -280,11 +280,13 @@ decide(struct run *run, struct line *l, const struct rc_contact *c, const struct
     bool any = false;
 
     for (int f = 0; f < RC_SCENE_FIGURES; f++) {
-        const double v = found->figure[f], change = f < 3 ? fabs(v / before[f] - 1) : fabs(v);
+        const double v = found->figure[f], over = f < 3 ? before[f] : 1,
+                     change = f < 3 ? fabs(v / over - 1) : fabs(v),
+                     error = fabs(v / over) * found->error[f];
         e.change[f] = (struct rc_interval){NAN, NAN};
         if (isnan(v))
             continue;
-        e.change[f] = (struct rc_interval){change, change};
+        e.change[f] = (struct rc_interval){fmax(change - error, 0), change + error};
         any = true;
     }
     if (!any || !found->converged)
@@ -311,6 +313,7 @@ name_commands(struct run *run, const struct rc_grid *g, struct line line[], size
         struct scene_found found;
 
         l->seconds = l->convolutions = NAN;
+        l->why[0] = '\0';
         if (l->verdict == RC_SCENE_NEGLIGIBLE || l->verdict == RC_SCENE_MISSING)
             continue;
         l->commanded = scene_command(&run->t, l->effect.name, load, body, l->with, &l->command);
@@ -321,8 +324,10 @@ name_commands(struct run *run, const struct rc_grid *g, struct line line[], size
             if (!solve_contact(run, &l->command, in, contact))
                 continue;
         }
-        if (!scene_run(&run->t, &l->command, l->effect.name, in, contact, true, &found, l->why))
+        if (!scene_run(&run->t, &l->command, l->effect.name, in, contact, true, &found, l->why)) {
+            l->commanded = false;
             continue;
+        }
         l->seconds = found.seconds;
         l->convolutions = found.convolutions;
         if (l->verdict == RC_SCENE_UNDECIDED && l->seconds < args.decide &&
@@ -417,7 +422,7 @@ print_warnings(struct run *run, const struct rc_grid *g, const struct rc_contact
     rc_extremes(g->nx * g->ny, p, &least, &most);
     edge = (!b.x && g->nx > 1 && (most % g->nx == 0 || most % g->nx == g->nx - 1)) ||
            (!b.y && g->ny > 1 && (most / g->nx == 0 || most / g->nx == g->ny - 1));
-    if (edge || c->edge_load_fraction > part)
+    if (edge || (rc_repeats(b) < 2 && c->edge_load_fraction > part))
         tool_warn(&run->t,
                   "%s: %s: the largest pressure is no property of the surface: take a larger map, "
                   "a smaller load, or --periodic if the surface repeats",
@@ -493,6 +498,8 @@ print_table(struct run *run, const struct rc_grid *g, const struct rc_contact *c
             continue;
         fprintf(out, "  %-30s ", line[k]->effect.title);
         print_change(line[k], out);
+        if (line[k]->why[0] != '\0')
+            fprintf(out, "      no tool computes it: %s\n", line[k]->why);
         if (!line[k]->commanded || line[k]->decided)
             continue;
         fputs("      ", out);
@@ -557,6 +564,7 @@ put_effect(struct tool *t, struct report *r, const struct line *l)
             report_text(r, NULL, l->command.word[p][k]);
     }
     report_end(r);
+    report_text(r, "refused", l->why[0] == '\0' ? NULL : l->why);
     report_number(r, "forecast_convolutions", l->convolutions, NULL);
     report_number(r, "forecast_seconds", l->seconds, "s");
     report_end(r);

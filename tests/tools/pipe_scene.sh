@@ -76,6 +76,7 @@ claim "a thick film: a warning" warns "a film of the fluid may carry load: it is
 claim "  not at 1 mm/s" bash -c "rc-scene --load 20N --radius 10mm $steel --mu 0.05 --speed 1mm/s $oil fine.rcg -o x.txt 2>&1 | tee said.txt >/dev/null; ! grep -q 'film of the fluid' said.txt"
 claim "thermal expansion: a warning" warns "thermal expansion may change the contact" rc-scene --load 240N $steel --mu 0.3 --speed 1m/s --conductivity 45W/mK,45W/mK \
     --diffusivity 12mm2/s,12mm2/s --expansion 12e-6 ball.rcg -o x.txt
+claim "a periodic map has no edge" bash -c "! rc-scene --periodic --mean-pressure 0.5GPa $steel rough.rcg -o x.txt 2>&1 | grep -q edge"
 claim "noise: a warning" warns "the noise of the scan is 0.01" rc-scene --load 240N $steel --noise 0.1um ball.rcg -o x.txt
 
 # ---- relaxation: the contact grows under a constant load as an elastic one with J(t) ----
@@ -101,6 +102,32 @@ command=$(of adhesion plain.json command 0 >/dev/null; effect adhesion plain.jso
 eval "$command --quiet --report own.json -o x.rcg rough.rcg"
 near "$(of adhesion decided.json figures contact_area high)" "$(awk -v a="$(field contact_area own.json)" -v b="$(field contact_area e.json)" 'BEGIN { d = a / b - 1; print d < 0 ? -d : d }')" 1e-6 \
     "  and its command gives the same change"
+
+# ---- commands: each one that is printed runs ----
+
+# COMMANDS OPTION...: commands of a scene, each run on rough.rcg; those that fail are printed
+commands() {
+    rc-scene --quiet --periodic "$@" -o table.txt rough.rcg || return 1
+    grep '^      rc-' table.txt | sed 's/   (about.*//' >commands.txt
+    test -s commands.txt || return 1
+    while read -r line; do
+        eval "$line --quiet" >/dev/null 2>said.txt || { test $? = 3 || { echo "# $line: $(cat said.txt)"; return 1; }; }
+    done <commands.txt
+}
+everything="--mean-pressure 0.2GPa $all --tangential 0.5N --speed 1m/s --conductivity 45W/mK,45W/mK --diffusivity 12mm2/s,12mm2/s --time 1ms
+    --bending-limit 700MPa --torsion-limit 450MPa --pressure-drop 1MPa --hardness 3GPa --yield 1GPa --thickness 10um"
+claim "each command of a scene with all effects runs" commands $everything
+claim "  with a coat" commands $everything --layer 1um,100GPa,0.3
+claim "  which rc-heat refuses: no command, and the reason" grep -q '^      no tool computes it: rc-heat: its body 1 has layers' table.txt
+claim "  with a viscosity the leak has a flow" bash -c "rc-scene --quiet --periodic $(echo $everything) --viscosity 1mPas rough.rcg | grep -q 'rc-leak --pressure-drop 1MPa --viscosity'"
+limits="--bending-limit 3000MPa --torsion-limit 1930MPa --figures fatigue"
+scene --periodic --mean-pressure 0.2GPa $all $limits --decide 100 rough.rcg >fatigue.json
+rc-fatigue --quiet --bending-limit 3000MPa --torsion-limit 1930MPa --pass x --depths auto --report f.json -o x.rcg e.rcg
+larger() { awk -v a="$(field crossland f.json)" -v b="$(field dangvan f.json)" -v e="$(field crossland_error_estimate f.json)" -v f="$(field dangvan_error_estimate f.json)" \
+    -v sign="$1" 'BEGIN { print (a > b ? a * (1 + sign * e) : b * (1 + sign * f)) }'; }
+claim "--decide computes the fatigue" test "$(of fatigue fatigue.json decided)" = 1
+near "$(of fatigue fatigue.json figures fatigue_index high)" "$(larger 1)" 1e-5 "  the index of rc-fatigue and its error"
+near "$(of fatigue fatigue.json figures fatigue_index low)" "$(larger -1)" 1e-5 "  on both sides"
 
 # ---- laws ----
 

@@ -12,8 +12,10 @@
  * names of options of rc-scene are taken as they are. */
 static const struct {
     const char *effect, *solve, *program, *options;
-    bool relaxes; /* --relaxation has the modulus of body 1 */
-    /* names of the figures in the report of the last program, in the order of enum rc_scene_figure */
+    bool relaxes;  /* --relaxation has the modulus of body 1 */
+    bool together; /* the options of the second program are used if all are given */
+    /* Names of the figures in the report of the last program, in the order of enum rc_scene_figure; of two
+     * names the larger value counts. */
     const char *figure[RC_SCENE_FIGURES];
 } rows[] = {
     {.effect = "grid", .solve = "--discretization"},
@@ -54,8 +56,14 @@ static const struct {
     {.effect = "fatigue",
      .solve = "",
      .program = "rc-fatigue",
-     .options = "bending-limit torsion-limit --pass x --depths auto"},
-    {.effect = "leak", .solve = "", .program = "rc-leak", .options = "pressure-drop"},
+     .options = "bending-limit torsion-limit --pass x --depths auto",
+     .figure = {[RC_SCENE_FATIGUE] = "crossland|dangvan"}},
+    /* its percolation on this grid is the estimate itself: nothing to decide */
+    {.effect = "leak",
+     .solve = "",
+     .program = "rc-leak",
+     .options = "pressure-drop viscosity",
+     .together = true},
 };
 static const char contact_options[] =
     "estar E1 nu1 E2 nu2 radius cylinder periodic datum"; /* of the contact, without its load */
@@ -131,6 +139,20 @@ add_option(struct tool *t, const char *name, const char **word, char (*text)[96]
     }
 }
 
+static bool
+all_given(struct tool *t, const char *names)
+{
+    for (const char *at = names; *at != '\0'; at += strspn(at, " ")) {
+        char name[48];
+        const size_t length = strcspn(at, " ");
+        snprintf(name, sizeof name, "%.*s", (int)length, at);
+        at += length;
+        if (!tool_given(t, name))
+            return false;
+    }
+    return true;
+}
+
 /* Adds the words of a row: names of options, or words as they are. */
 static void
 add_words(struct tool *t, const char *words, bool relaxes, const char **word, char (*text)[96],
@@ -191,7 +213,8 @@ scene_command(struct tool *t, const char *effect, const char *const load[2], con
         return true;
     n = 0;
     c->word[1][n++] = rows[k].program;
-    add_words(t, rows[k].options, false, c->word[1], c->text[1], &n);
+    if (!rows[k].together || all_given(t, rows[k].options))
+        add_words(t, rows[k].options, false, c->word[1], c->text[1], &n);
     c->word[1][n] = NULL;
     return true;
 }
@@ -225,6 +248,25 @@ last_object(char *said)
     return line;
 }
 
+/* The figure of this name, or the largest of NAME|NAME, and its relative error, 0 without an estimate. */
+static void
+read_figure(const char *object, const char *names, double *value, double *error)
+{
+    for (const char *at = names; *at != '\0'; at += strspn(at, "|")) {
+        char name[48], estimate[64];
+        const size_t length = strcspn(at, "|");
+        snprintf(name, sizeof name, "%.*s", (int)length, at);
+        snprintf(estimate, sizeof estimate, "%s_error_estimate", name);
+        at += length;
+        const double v = json_real(json_member(object, name)),
+                     e = json_real(json_member(object, estimate));
+        if (isnan(v) || (!isnan(*value) && v <= *value))
+            continue;
+        *value = v;
+        *error = isnan(e) ? 0 : e;
+    }
+}
+
 static void
 read_report(const char *object, size_t row, bool plan, struct scene_found *found)
 {
@@ -232,7 +274,7 @@ read_report(const char *object, size_t row, bool plan, struct scene_found *found
 
     for (int f = 0; f < RC_SCENE_FIGURES; f++)
         if (rows[row].figure[f] != NULL)
-            found->figure[f] = json_real(json_member(object, rows[row].figure[f]));
+            read_figure(object, rows[row].figure[f], &found->figure[f], &found->error[f]);
     found->converged = json_real(json_member(object, "converged")) == 1;
     found->seconds = json_real(plan ? json_member(object, "expected_seconds")
                                     : json_member(total == NULL ? "{}" : total, "total"));
@@ -242,7 +284,7 @@ read_report(const char *object, size_t row, bool plan, struct scene_found *found
 
 bool
 scene_run(struct tool *t, const struct scene_command *c, const char *effect, int in, int contact,
-          bool plan, struct scene_found *found, char why[160])
+          bool plan, struct scene_found *found, char why[SCENE_WHY])
 {
     const size_t row = row_of(effect), last = c->programs - 1;
     bool fine = true;
@@ -270,8 +312,13 @@ scene_run(struct tool *t, const struct scene_command *c, const char *effect, int
     if (end == PROCESS_INTERRUPTED)
         tool_die(t, "interrupted");
     if (end != PROCESS_ENDED || object == NULL) {
-        const char *said = process.said == NULL ? "" : process.said;
-        snprintf(why, 160, "%s: %.*s", c->word[last][0], (int)strcspn(said, "\n"), said);
+        const char *said = process.said == NULL ? "" : process.said, *of = strstr(said, "): ");
+        if (of != NULL &&
+            of < said + strcspn(said, "\n")) /* PROGRAM: SOURCE, case 1, frame 2 (NAME): */
+            said = of + 3;
+        else if (strncmp(said, c->word[last][0], strlen(c->word[last][0])) == 0)
+            said += strlen(c->word[last][0]) + strspn(said + strlen(c->word[last][0]), ": ");
+        snprintf(why, SCENE_WHY, "%s: %.*s", c->word[last][0], (int)strcspn(said, "\n"), said);
         fine = false;
     } else {
         read_report(object, row, plan, found);

@@ -13,6 +13,7 @@
 #include "tools/cli/cli.h"
 
 enum {
+    SCENE_WHY = 320, /* of a message of a tool */
     SCENE_WORDS = 96,
     SCENE_PROGRAMS = 2
 };
@@ -57,12 +58,13 @@ void scene_show(const struct scene_command *command, const char *file, FILE *out
 
 /* The figures that a command reports, for the comparison with the elastic contact; NAN: none. */
 struct scene_found {
-    double figure[RC_SCENE_FIGURES], seconds, convolutions;
+    double figure[RC_SCENE_FIGURES], error[RC_SCENE_FIGURES]; /* error: relative, as it is told */
+    double seconds, convolutions;
     bool converged;
 };
 /* Runs the programs: the first one reads `in`. With `plan` they only forecast their work; a second
  * program then reads `contact`, the elastic contact. False, and *why, when one of them fails. */
 bool scene_run(struct tool *tool, const struct scene_command *command, const char *effect, int in,
-               int contact, bool plan, struct scene_found *found, char why[160]);
+               int contact, bool plan, struct scene_found *found, char why[SCENE_WHY]);
 
 #endif
