@@ -5,8 +5,6 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "memory.h"
-
 const char *
 rc_version(void)
 {
@@ -67,13 +65,21 @@ rc_highest(const double *v, size_t n)
     return most;
 }
 
-double
-rc_distance(const double *a, const double *b, size_t n)
+struct rc_total
+rc_distance_of(const double *a, const double *b, size_t n)
 {
     struct rc_total sum = {0};
 
     for (size_t k = 0; k < n; k++)
         rc_total_add(&sum, fabs(b == NULL ? a[k] : a[k] - b[k]));
+    return sum;
+}
+
+double
+rc_distance(const double *a, const double *b, size_t n)
+{
+    const struct rc_total sum = rc_distance_of(a, b, n);
+
     return rc_total_value(&sum);
 }
 
@@ -95,8 +101,8 @@ add_lanes(const double *v, size_t n, double *restrict sum, double *restrict lost
         }
 }
 
-double
-rc_sum(const double *v, size_t n)
+struct rc_total
+rc_total_of(const double *v, size_t n)
 {
     double sum[LANES] = {0}, lost[LANES] = {0};
     struct rc_total total = {0};
@@ -109,61 +115,13 @@ rc_sum(const double *v, size_t n)
     }
     for (size_t k = whole; k < n; k++)
         rc_total_add(&total, v[k]);
+    return total;
+}
+
+double
+rc_sum(const double *v, size_t n)
+{
+    const struct rc_total total = rc_total_of(v, n);
+
     return rc_total_value(&total);
-}
-
-/* ---- sums of rows ---- */
-
-enum rc_status
-rc_sums_new(struct rc_sums *s, size_t rows, size_t sums, size_t mosts, int threads)
-{
-    *s = (struct rc_sums){rc_alloc(rows * (sums + mosts), sizeof *s->row), rows, sums, mosts,
-                          threads};
-    return s->row != NULL ? RC_OK : RC_FAIL;
-}
-
-void
-rc_sums_clear(const struct rc_sums *s)
-{
-    memset(s->row, 0, s->rows * (s->sums + s->mosts) * sizeof *s->row);
-}
-
-void
-rc_sums_add(const struct rc_sums *s, struct rc_total *total, double *most)
-{
-    const size_t each = s->sums + s->mosts;
-
-    for (size_t q = 0; q < s->sums; q++) {
-        struct rc_total sum = total[q];
-        for (size_t j = 0; j < s->rows; j++)
-            rc_total_add(&sum, s->row[j * each + q]);
-        total[q] = sum;
-    }
-    for (size_t q = 0; q < s->mosts; q++)
-        for (size_t j = 0; j < s->rows; j++) {
-            double v = s->row[j * each + s->sums + q];
-            most[q] = v > most[q] ? v : most[q];
-        }
-}
-
-void
-rc_sums_total(const struct rc_sums *s, double *total)
-{
-    struct rc_total all[RC_SUMS_MOST] = {{0}};
-
-    for (size_t q = 0; q < s->mosts; q++)
-        total[s->sums + q] = -INFINITY;
-    rc_sums_add(s, all, total + s->sums);
-    for (size_t q = 0; q < s->sums; q++)
-        total[q] = rc_total_value(&all[q]);
-}
-
-void
-rc_sums_rows(const struct rc_sums *s, rc_sums_work *work, void *ctx, double *total)
-{
-    rc_sums_clear(s);
-#pragma omp parallel for num_threads(s->threads) schedule(static)
-    for (size_t j = 0; j < s->rows; j++)
-        work(ctx, j, rc_sums_of(s, j));
-    rc_sums_total(s, total);
 }

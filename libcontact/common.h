@@ -61,17 +61,20 @@ rc_shape_coarser(const struct rc_shape *s)
 enum rc_status rc_err_choices(struct rc_err *err, const char *(*row)(const void *of, size_t k),
                               const void *of);
 
+/* The sum of rc_sum, value by value. */
+struct rc_total {
+    double sum, lost; /* lost: the rounding error of the additions */
+};
+/* The same of n values; rc_sum is its value. */
+struct rc_total rc_total_of(const double *v, size_t n);
+
 /* True if one of n values is not 0. */
 bool rc_any(const double *v, size_t n);
 /* The largest of n values. */
 double rc_highest(const double *v, size_t n);
 /* The sum of |a - b| over n values, compensated for rounding; b NULL: of |a|. */
 double rc_distance(const double *a, const double *b, size_t n);
-
-/* The sum of rc_sum, value by value. */
-struct rc_total {
-    double sum, lost; /* lost: the rounding error of the additions */
-};
+struct rc_total rc_distance_of(const double *a, const double *b, size_t n);
 
 static inline void
 rc_total_add(struct rc_total *total, double v)
@@ -87,34 +90,5 @@ rc_total_value(const struct rc_total *total)
 {
     return isfinite(total->sum) ? total->sum + total->lost : total->sum;
 }
-
-/* Sums over a map that depend neither on the number of threads nor on the thread of a row or block. Each row
- * is summed separately, and the rows are added in their order, with compensation for rounding. A row has
- * `sums` numbers to add, and after them `mosts` numbers to take the largest of. */
-enum {
-    RC_SUMS_MOST = 16 /* numbers that are added */
-};
-struct rc_sums {
-    double *row;
-    size_t rows, sums, mosts;
-    int threads;
-};
-
-/* RC_FAIL: memory is short; free(sums.row) in either case. */
-enum rc_status rc_sums_new(struct rc_sums *s, size_t rows, size_t sums, size_t mosts, int threads);
-/* The numbers of row j: 0 after rc_sums_clear. */
-static inline double *
-rc_sums_of(const struct rc_sums *s, size_t j)
-{
-    return s->row + j * (s->sums + s->mosts);
-}
-void rc_sums_clear(const struct rc_sums *s);
-/* Totals of the `sums` numbers, for ranks to add to theirs, and the `mosts` largest numbers. */
-void rc_sums_add(const struct rc_sums *s, struct rc_total *total, double *most);
-/* The totals as numbers, followed by the largest numbers. */
-void rc_sums_total(const struct rc_sums *s, double *total);
-/* Clears the sums, calls the function of each row, and totals the sums. */
-typedef void rc_sums_work(void *ctx, size_t j, double *sums);
-void rc_sums_rows(const struct rc_sums *s, rc_sums_work *work, void *ctx, double *total);
 
 #endif

@@ -15,10 +15,10 @@
 # files.
 cat >arrows.txt <<'END'
 libcontact          | -                                        | -
-libcontact/model    | %base                                    | libcontact libcontact/solver=rc_figures_
+libcontact/model    | %base %ranks                             | libcontact libcontact/ranks libcontact/solver=rc_figures_
 libcontact/model    |                                          | libcontact/solver=rc_model_ libcontact/adhesion=rc_figures_ libcontact/adhesion=rc_model_ libcontact/leak=rc_figures_ libcontact/yield=rc_figures_
 libcontact/model    |                                          | libcontact/friction=rc_figures_ libcontact/friction=rc_model_ libcontact/rolling=rc_figures_ libcontact/rolling=rc_model_ libcontact/wear=rc_figures_ libcontact/wear=rc_model_ libcontact/travel=rc_figures_ libcontact/travel=rc_model_ libcontact/viscoelastic=rc_figures_ libcontact/viscoelastic=rc_model_ libcontact/stress=rc_figures_ libcontact/fatigue=rc_figures_ libcontact/heat=rc_figures_ libcontact/surface=rc_figures_ libcontact/features=rc_figures_
-libcontact/ranks    | libcontact/common.h libcontact/contact_mpi.h | libcontact
+libcontact/ranks    | libcontact/common.h libcontact/contact_mpi.h libcontact/memory.h | libcontact
 libcontact/transform | %base                                   | libcontact
 libcontact/body     | %base %ranks                             | libcontact libcontact/ranks
 libcontact/operator | %base %ranks                             | libcontact libcontact/ranks
@@ -38,20 +38,20 @@ libcontact/heat     | libcontact/body/quadrature.h libcontact/body/line.h| libco
 libcontact/heat     | libcontact/pyramid/pyramid.h             | libcontact/pyramid
 libcontact/volume   | %base libcontact/operator/operator.h     | libcontact libcontact/ranks libcontact/operator libcontact/transform
 libcontact/yield    | libcontact/model/row.h                   | libcontact/model
-libcontact/yield    | %base libcontact/volume/volume.h         | libcontact libcontact/volume libcontact/solver libcontact/stress
-libcontact/adhesion | %base libcontact/operator/operator.h     | libcontact libcontact/operator libcontact/body
+libcontact/yield    | %base libcontact/volume/volume.h         | libcontact libcontact/ranks libcontact/volume libcontact/solver libcontact/stress
+libcontact/adhesion | %base libcontact/operator/operator.h     | libcontact libcontact/ranks libcontact/operator libcontact/body
 libcontact/adhesion | libcontact/model/row.h                   | libcontact/model libcontact/solver=rc_figures_
-libcontact/leak     | %base                                    | libcontact
+libcontact/leak     | %base %ranks                             | libcontact libcontact/ranks
 libcontact/scene    | %base libcontact/adhesion/adhesion.h     | %physics
 libcontact/scene    | libcontact/transform/fourier.h           | libcontact/transform
-libcontact/wear     | %base libcontact/model/row.h             | libcontact libcontact/model
-libcontact/travel   | %base libcontact/model/row.h             | libcontact libcontact/model
-libcontact/viscoelastic | %base libcontact/model/row.h             | libcontact libcontact/model
+libcontact/wear     | %base libcontact/model/row.h             | libcontact libcontact/ranks libcontact/model
+libcontact/travel   | %base libcontact/model/row.h             | libcontact libcontact/ranks libcontact/model
+libcontact/viscoelastic | %base libcontact/model/row.h             | libcontact libcontact/ranks libcontact/model
 libcontact/viscoelastic | libcontact/solver/elastic.h libcontact/transform/fourier.h | libcontact/solver libcontact/operator libcontact/transform
 libcontact/viscoelastic | libcontact/operator/operator.h libcontact/body/body.h libcontact/body/quadrature.h | libcontact/body
 libcontact/friction | %base libcontact/operator/operator.h     | libcontact libcontact/ranks libcontact/operator libcontact/transform libcontact/body
 libcontact/friction | libcontact/pyramid/pyramid.h libcontact/model/row.h | libcontact/pyramid libcontact/model libcontact/solver=rc_contact_apart
-libcontact/rolling  | %base libcontact/friction/friction.h     | libcontact libcontact/friction
+libcontact/rolling  | %base libcontact/friction/friction.h     | libcontact libcontact/ranks libcontact/friction
 libcontact/rolling  | libcontact/friction/discs.h libcontact/model/row.h | libcontact/model libcontact/operator libcontact/body
 libcontact/features | %base                                   | libcontact
 libcontact/surface  | %base %ranks                             | libcontact libcontact/ranks

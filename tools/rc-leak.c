@@ -77,6 +77,7 @@ static const struct tool_info info = {
     .figures = (const char *const[]){"leak", NULL},
     .reads = READS_STREAM,
     .writes = WRITES_STREAM,
+    .alone = "rc-pick --crop cuts a smaller map out",
 };
 
 struct run {

@@ -1240,7 +1240,7 @@ rc_gap_new(struct rc_gap *g, struct rc_whole *whole, const struct rc_attraction 
     g->maps.start = rc_store_take(&g->own, n, sizeof(float));
     g->maps.off = rc_store_zeros(&g->own, n, 1);
     g->maps.a_step = g->maps.r;
-    if (rc_sums_new(&g->sums, g->problem.py, RC_GAP_MOST, RC_GAP_SUMS - RC_GAP_MOST,
+    if (rc_sums_new(&g->sums, NULL, g->problem.py, RC_GAP_MOST, RC_GAP_SUMS - RC_GAP_MOST,
                     whole->threads) == RC_OK &&
         !g->own.failed)
         return RC_OK;

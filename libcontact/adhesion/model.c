@@ -367,7 +367,7 @@ rc_adhesion_new(const struct rc_shape *shape, const double *h,
     struct adhesion *a;
 
     if (rc_adhesion_check(shape, problem, &scales, err) != RC_OK ||
-        (m = rc_model_make(&rc_model_adhesion, sizeof *a, shape, err)) == NULL)
+        (m = rc_model_make(&rc_model_adhesion, sizeof *a, shape, NULL, err)) == NULL)
         return NULL;
     a = (struct adhesion *)m;
     a->problem = *problem;

@@ -914,7 +914,7 @@ allocate(struct rc_discs *d)
     float *single = rc_store_take(&d->own, SINGLE * d->n, sizeof *single);
 
     d->face = rc_store_take(&d->own, d->n, 1);
-    if (rc_sums_new(&d->rows, d->ny, SUMS, MOSTS, d->threads) != RC_OK || d->own.failed)
+    if (rc_sums_new(&d->rows, NULL, d->ny, SUMS, MOSTS, d->threads) != RC_OK || d->own.failed)
         return false;
     d->g = map;
     d->curve = single;

@@ -13,6 +13,7 @@
 
 #include "libcontact/common.h"
 #include "libcontact/memory.h"
+#include "libcontact/ranks/ranks.h"
 
 struct repair {
     const struct rc_passage *a;
@@ -162,7 +163,7 @@ rc_leak_bounds(const struct rc_passage *a, const uint8_t *tree, const struct rc_
     r.down = rc_store_take(&own, n, sizeof *r.down);
     r.order = rc_store_take(&own, n, sizeof *r.order);
     r.way = rc_store_take(&own, n, sizeof *r.way);
-    own.failed |= rc_sums_new(&rows, a->ny, SUMS, 0, threads) != RC_OK;
+    own.failed |= rc_sums_new(&rows, NULL, a->ny, SUMS, 0, threads) != RC_OK;
     partial = rows.row;
     if (own.failed)
         return rc_err_set(err, "out of memory for the bounds of the flow through %zu x %zu nodes",

@@ -265,7 +265,7 @@ rc_model_respond(struct rc_model *m, const double *e, double *z, struct rc_err *
 {
     if (m->row->respond != NULL)
         return m->row->respond(m, e, z, err);
-    memset(z, 0, m->shape.nx * m->shape.ny * sizeof *z);
+    memset(z, 0, rc_model_nodes(m) * sizeof *z);
     return RC_OK;
 }
 
@@ -406,30 +406,35 @@ rc_model_result(const struct rc_model *m, const struct rc_figure *table)
 
 struct rc_model *
 rc_model_make(const struct rc_model_row *row, size_t size, const struct rc_shape *shape,
-              struct rc_err *err)
+              const struct rc_ranks *ranks, struct rc_err *err)
 {
     struct rc_model *m = calloc(1, size);
 
-    if (m == NULL)
-        return rc_err_null(err, "out of memory for the %s model", row->name);
+    if (rc_ranks_need(ranks, m != NULL, err, "out of memory for the %s model", row->name) !=
+        RC_OK) {
+        free(m);
+        return NULL;
+    }
     m->row = row;
     m->shape = *shape;
+    m->rows = rc_rows_of(ranks, shape);
     return m;
 }
 
 enum rc_status
 rc_model_room(const struct rc_model *m, struct rc_err *err)
 {
-    return !m->own.failed ? RC_OK
-                          : rc_err_set(err, "out of memory for the %s model of %zu x %zu nodes",
-                                       m->row->name, m->shape.nx, m->shape.ny);
+    return rc_ranks_need(m->rows.ranks, !m->own.failed, err,
+                         "out of memory for the %s model of %zu x %zu nodes", m->row->name,
+                         m->shape.nx, m->shape.ny);
 }
 
 struct rc_model *
 rc_model_make_outer(const struct rc_model_row *row, size_t size, struct rc_model *inner,
                     struct rc_err *err)
 {
-    struct rc_model *m = inner == NULL ? NULL : rc_model_make(row, size, &inner->shape, err);
+    struct rc_model *m =
+        inner == NULL ? NULL : rc_model_make(row, size, &inner->shape, inner->rows.ranks, err);
 
     if (m == NULL)
         rc_model_free(inner);

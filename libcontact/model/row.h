@@ -8,6 +8,7 @@
 
 #include "libcontact/common.h"
 #include "libcontact/memory.h"
+#include "libcontact/ranks/ranks.h"
 
 /* A state is a sequence of numbers. One function of a row counts, writes and reads them. */
 struct rc_state;
@@ -134,7 +135,8 @@ struct rc_model_row {
 
 struct rc_model {
     const struct rc_model_row *row;
-    struct rc_shape shape;
+    struct rc_shape shape; /* the whole map */
+    struct rc_rows rows;   /* held here; the innermost model sets them, outer ones have the same */
     struct rc_boundary boundary; /* of the contact; an outer model has that of its inner one */
     struct rc_model *inner;      /* owned; NULL: none                      */
     bool inside;                 /* true: the inner model of another one   */
@@ -149,13 +151,20 @@ struct rc_model {
 /* For makers: a zeroed model of `size` bytes; NULL if memory is short. It owns its inner model from now on,
  * also on failure. If the maker of the inner model failed (inner NULL), returns NULL and keeps *err. */
 struct rc_model *rc_model_make(const struct rc_model_row *row, size_t size,
-                               const struct rc_shape *shape, struct rc_err *err);
+                               const struct rc_shape *shape, const struct rc_ranks *ranks,
+                               struct rc_err *err);
 struct rc_model *rc_model_make_outer(const struct rc_model_row *row, size_t size,
                                      struct rc_model *inner, struct rc_err *err);
 /* RC_FAIL if this, the boundary of an outer model's own problem, is not that of its inner model. */
 enum rc_status rc_model_same_boundary(const struct rc_model *m, struct rc_boundary boundary,
                                       struct rc_err *err);
-/* RC_FAIL, with a sentence, if memory was short for a block of m->own. */
+/* Nodes of this rank. Tolerances, means and messages use shape.nx * shape.ny, all nodes. */
+static inline size_t
+rc_model_nodes(const struct rc_model *m)
+{
+    return m->rows.n * m->shape.nx;
+}
+/* RC_FAIL, with a sentence, if memory was short for a block of m->own on some rank. */
 enum rc_status rc_model_room(const struct rc_model *m, struct rc_err *err);
 /* The figures of this table of the first model of the chain that has them; NULL: none has. */
 const void *rc_model_result(const struct rc_model *m, const struct rc_figure *table);

@@ -5,6 +5,7 @@
 #include <assert.h>
 #include <limits.h>
 #include <mpi.h>
+#include <stdint.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -127,6 +128,27 @@ rc_ranks_share(const struct rc_ranks *r, size_t root, size_t bytes, void *v)
     r->traffic->other += r->own == root ? (double)(bytes * (r->count - 1)) : 0;
 }
 
+static void
+reduce(const struct rc_ranks *r, size_t n, double *v, MPI_Op op)
+{
+    if (alone(r) || n == 0)
+        return;
+    MPI_Allreduce(MPI_IN_PLACE, v, (int)n, MPI_DOUBLE, op, r->comm);
+    r->traffic->other += (double)(n * sizeof *v);
+}
+
+void
+rc_ranks_each_most(const struct rc_ranks *r, size_t n, double *v)
+{
+    reduce(r, n, v, MPI_MAX);
+}
+
+void
+rc_ranks_each_sum(const struct rc_ranks *r, size_t n, double *v)
+{
+    reduce(r, n, v, MPI_SUM);
+}
+
 enum rc_status
 rc_ranks_agree(const struct rc_ranks *r, enum rc_status status, struct rc_err *err)
 {
@@ -153,14 +175,17 @@ enum {
     PIECE = 1 << 30 /* bytes of a row per message: MPI counts in ints */
 };
 
-/* A type of this many bytes, so that counts fit an int: at most half a line of 2^28 numbers. */
+/* A type of this many bytes, so that counts fit an int. A row of 2^28 numbers has 2^31 bytes, one more than an
+ * int holds. */
 static MPI_Datatype
 type_of(size_t bytes)
 {
+    const bool wide = bytes % sizeof(uint64_t) == 0;
+    const size_t count = wide ? bytes / sizeof(uint64_t) : bytes;
     MPI_Datatype type;
 
-    assert(bytes <= INT_MAX);
-    MPI_Type_contiguous((int)bytes, MPI_BYTE, &type);
+    assert(count <= INT_MAX);
+    MPI_Type_contiguous((int)count, wide ? MPI_UINT64_T : MPI_BYTE, &type);
     MPI_Type_commit(&type);
     return type;
 }

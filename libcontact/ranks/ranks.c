@@ -8,6 +8,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "libcontact/memory.h"
+
 /* ---- rows ---- */
 
 size_t
@@ -133,51 +135,59 @@ rc_turn_get(const struct rc_turn *t, size_t j, const void *pieces, void *row)
 
 /* ---- sums ---- */
 
-enum {
-    MOST = 8 /* totals at once */
-};
+/* A rank sends its totals, followed by its largest values. */
 struct all {
-    struct rc_total total[MOST];
-    double most;
+    struct rc_total total[RC_SUMS_MOST];
+    double most[RC_MOSTS_MOST];
 };
 _Static_assert(sizeof(struct all) <= RC_RANKS_ROOM, "RC_RANKS_ROOM is too small");
 
 void
 rc_ranks_totals(const struct rc_ranks *ranks, size_t n, const struct rc_total *totals, double *sums,
-                double *most)
+                size_t mosts, double *most)
 {
-    size_t count = rc_ranks_count(ranks);
-    struct all own = {.most = *most}, alone, *all = count > 1 ? rc_ranks_room(ranks) : &alone, sum;
+    const size_t count = rc_ranks_count(ranks), at = n * sizeof *totals,
+                 each = at + mosts * sizeof *most;
+    struct rc_total sum[RC_SUMS_MOST] = {{0}};
+    char own[sizeof(struct all)], *all = count > 1 ? rc_ranks_room(ranks) : own;
 
     if (n > 0)
-        memcpy(own.total, totals, n * sizeof *totals);
-    rc_ranks_gather(ranks, sizeof own, &own, all);
-    sum = all[0];
-    for (size_t r = 1; r < count; r++) {
-        for (size_t k = 0; k < n; k++) {
-            rc_total_add(&sum.total[k], all[r].total[k].sum);
-            sum.total[k].lost += all[r].total[k].lost;
-        }
-        sum.most = all[r].most > sum.most ? all[r].most : sum.most;
+        memcpy(own, totals, at);
+    if (mosts > 0)
+        memcpy(own + at, most, mosts * sizeof *most);
+    if (count > 1)
+        rc_ranks_gather(ranks, each, own, all);
+    for (size_t r = 0; r < count; r++) {
+        struct all of;
+        memcpy(of.total, all + r * each, at);
+        memcpy(of.most, all + r * each + at, mosts * sizeof *most);
+        for (size_t k = 0; k < n; k++)
+            if (r == 0) {
+                sum[k] = of.total[k];
+            } else {
+                rc_total_add(&sum[k], of.total[k].sum);
+                sum[k].lost += of.total[k].lost;
+            }
+        for (size_t k = 0; k < mosts; k++)
+            most[k] = r == 0 || of.most[k] > most[k] ? of.most[k] : most[k];
     }
     for (size_t k = 0; k < n; k++)
-        sums[k] = rc_total_value(&sum.total[k]);
-    *most = sum.most;
+        sums[k] = rc_total_value(&sum[k]);
 }
 
 double
 rc_ranks_total(const struct rc_ranks *ranks, struct rc_total total)
 {
-    double sum, most = 0;
+    double sum;
 
-    rc_ranks_totals(ranks, 1, &total, &sum, &most);
+    rc_ranks_totals(ranks, 1, &total, &sum, 0, NULL);
     return sum;
 }
 
 double
 rc_ranks_most(const struct rc_ranks *ranks, double v)
 {
-    rc_ranks_totals(ranks, 0, NULL, NULL, &v);
+    rc_ranks_totals(ranks, 0, NULL, NULL, 1, &v);
     return v;
 }
 
@@ -201,4 +211,71 @@ rc_ranks_sum_before(const struct rc_ranks *ranks, double v)
     for (size_t r = 0; r < own; r++)
         sum += all[r];
     return sum;
+}
+
+/* ---- sums over a map ---- */
+
+double
+rc_ranks_sum_of(const struct rc_ranks *ranks, const double *v, size_t n)
+{
+    return rc_ranks_total(ranks, rc_total_of(v, n));
+}
+
+double
+rc_ranks_highest(const struct rc_ranks *ranks, const double *v, size_t n)
+{
+    return rc_ranks_most(ranks, rc_highest(v, n));
+}
+
+double
+rc_ranks_distance(const struct rc_ranks *ranks, const double *a, const double *b, size_t n)
+{
+    return rc_ranks_total(ranks, rc_distance_of(a, b, n));
+}
+
+enum rc_status
+rc_sums_new(struct rc_sums *s, const struct rc_ranks *ranks, size_t rows, size_t sums, size_t mosts,
+            int threads)
+{
+    *s = (struct rc_sums){
+        .rows = rows, .sums = sums, .mosts = mosts, .threads = threads, .ranks = ranks};
+    s->row = rc_alloc(rows * (sums + mosts) + 1, sizeof *s->row);
+    return s->row != NULL ? RC_OK : RC_FAIL;
+}
+
+void
+rc_sums_clear(const struct rc_sums *s)
+{
+    memset(s->row, 0, s->rows * (s->sums + s->mosts) * sizeof *s->row);
+}
+
+void
+rc_sums_total(const struct rc_sums *s, double *total)
+{
+    const size_t each = s->sums + s->mosts;
+    struct rc_total all[RC_SUMS_MOST];
+
+    for (size_t q = 0; q < s->sums; q++) {
+        struct rc_total sum = {0};
+        for (size_t j = 0; j < s->rows; j++)
+            rc_total_add(&sum, s->row[j * each + q]);
+        all[q] = sum;
+    }
+    for (size_t q = s->sums; q < each; q++) {
+        double most = -INFINITY;
+        for (size_t j = 0; j < s->rows; j++)
+            most = s->row[j * each + q] > most ? s->row[j * each + q] : most;
+        total[q] = most;
+    }
+    rc_ranks_totals(s->ranks, s->sums, all, total, s->mosts, total + s->sums);
+}
+
+void
+rc_sums_rows(const struct rc_sums *s, rc_sums_work *work, void *ctx, double *total)
+{
+    rc_sums_clear(s);
+#pragma omp parallel for num_threads(s->threads) schedule(static)
+    for (size_t j = 0; j < s->rows; j++)
+        work(ctx, j, rc_sums_of(s, j));
+    rc_sums_total(s, total);
 }

@@ -99,7 +99,9 @@ struct rc_traffic {
 };
 
 enum {
-    RC_RANKS_ROOM = 160 /* bytes of a rank */
+    RC_SUMS_MOST = 16,  /* numbers that are added at once */
+    RC_MOSTS_MOST = 8,  /* numbers of which the largest is found at once */
+    RC_RANKS_ROOM = 320 /* bytes of a rank */
 };
 #ifdef RC_MPI
 /* Scratch of `RC_RANKS_ROOM` bytes for each rank, valid until the next call that gathers. */
@@ -114,6 +116,9 @@ void rc_ranks_share(const struct rc_ranks *ranks, size_t root, size_t bytes, voi
  * failed. */
 enum rc_status rc_ranks_agree(const struct rc_ranks *ranks, enum rc_status status,
                               struct rc_err *err);
+/* In place, of each of n values: the largest, or the sum of whole numbers below 2^53. */
+void rc_ranks_each_most(const struct rc_ranks *ranks, size_t n, double *v);
+void rc_ranks_each_sum(const struct rc_ranks *ranks, size_t n, double *v);
 /* Pieces to columns, or, `back`, columns to pieces. */
 void rc_ranks_turn(const struct rc_turn *turn, bool back, const void *from, void *to);
 /* Moves rows of `bytes`. Before, rank r holds the rows from[r] .. from[r + 1] - 1; afterwards it holds
@@ -125,6 +130,18 @@ void rc_ranks_move(const struct rc_ranks *ranks, size_t bytes, const size_t *fro
 void rc_ranks_beside(const struct rc_rows *rows, bool round, size_t bytes, const void *first,
                      const void *last, void *before, void *after, bool has[2]);
 #else
+static inline void
+rc_ranks_each_most(const struct rc_ranks *ranks, size_t n, double *v)
+{
+    (void)ranks, (void)n, (void)v;
+}
+
+static inline void
+rc_ranks_each_sum(const struct rc_ranks *ranks, size_t n, double *v)
+{
+    (void)ranks, (void)n, (void)v;
+}
+
 static inline size_t
 rc_ranks_count(const struct rc_ranks *ranks)
 {
@@ -200,8 +217,41 @@ double rc_ranks_most(const struct rc_ranks *ranks, double v);
 size_t rc_ranks_sum(const struct rc_ranks *ranks, size_t n);
 /* The sum over the ranks before this one. */
 double rc_ranks_sum_before(const struct rc_ranks *ranks, double v);
-/* Several totals and the largest of one more value at once. */
+/* Several totals, and in place the largest of several more values, at once. */
 void rc_ranks_totals(const struct rc_ranks *ranks, size_t n, const struct rc_total *totals,
-                     double *sums, double *most);
+                     double *sums, size_t mosts, double *most);
+
+/* ---- sums over a map ---- */
+
+/* rc_sum, rc_highest and rc_distance of the n values that each rank holds. */
+double rc_ranks_sum_of(const struct rc_ranks *ranks, const double *v, size_t n);
+double rc_ranks_highest(const struct rc_ranks *ranks, const double *v, size_t n);
+double rc_ranks_distance(const struct rc_ranks *ranks, const double *a, const double *b, size_t n);
+
+/* Sums over a map that depend neither on the number of threads and ranks nor on the owner of a row. Each row
+ * is summed separately, and the rows are added in their order, with compensation for rounding. A row has
+ * `sums` numbers to add, and after them `mosts` numbers to take the largest of. */
+struct rc_sums {
+    double *row;
+    size_t rows, sums, mosts; /* rows: of this rank */
+    int threads;
+    const struct rc_ranks *ranks; /* NULL: none */
+};
+
+/* RC_FAIL: memory is short on this rank; free(sums.row) in either case. */
+enum rc_status rc_sums_new(struct rc_sums *s, const struct rc_ranks *ranks, size_t rows,
+                           size_t sums, size_t mosts, int threads);
+/* The numbers of row j: 0 after rc_sums_clear. */
+static inline double *
+rc_sums_of(const struct rc_sums *s, size_t j)
+{
+    return s->row + j * (s->sums + s->mosts);
+}
+void rc_sums_clear(const struct rc_sums *s);
+/* The totals over all ranks as numbers, followed by the largest numbers. */
+void rc_sums_total(const struct rc_sums *s, double *total);
+/* Clears the sums, calls the function of each row, and totals the sums. */
+typedef void rc_sums_work(void *ctx, size_t j, double *sums);
+void rc_sums_rows(const struct rc_sums *s, rc_sums_work *work, void *ctx, double *total);
 
 #endif

@@ -823,7 +823,7 @@ allocate(struct rc_steady *d)
 
     d->g = rc_store_zeros(&d->own, (1 + 2 * count) * d->n, sizeof *d->g);
     d->face = rc_store_take(&d->own, 2 * d->n, 1);
-    if (rc_sums_new(&d->rows, d->shape.ny, SUMS, 0, d->threads) != RC_OK || d->own.failed)
+    if (rc_sums_new(&d->rows, NULL, d->shape.ny, SUMS, 0, d->threads) != RC_OK || d->own.failed)
         return false;
     memset(d->face, OFF, 2 * d->n);
     for (size_t k = 0; k < 2 * count; k++)

@@ -734,14 +734,14 @@ rc_elastic_new(const struct rc_shape *shape, const double *h, const struct rc_pr
     struct elastic *e;
 
     if (rc_solver_check(shape, problem, err) != RC_OK ||
-        (m = rc_model_make(&rc_model_elastic, sizeof *e, shape, err)) == NULL)
+        (m = rc_model_make(&rc_model_elastic, sizeof *e, shape, problem->ranks, err)) == NULL)
         return NULL;
     e = (struct elastic *)m;
     e->problem = *problem;
     e->asks = asks != NULL ? *asks : (struct rc_elastic_asks){false, {0, 0}};
     e->height_error = problem->height_error;
     e->tol = problem->tol;
-    e->n = rc_rows_of(problem->ranks, shape).n * shape->nx;
+    e->n = rc_model_nodes(m);
     e->given = h;
     m->boundary = problem->boundary;
     return m;

@@ -11,17 +11,15 @@
 static void
 total_of(const struct rc_solver *s, size_t n, double total[RC_SUMS])
 {
-    const struct rc_sums rows = {s->partial, n, RC_MOST, RC_SUMS - RC_MOST, s->posed.threads};
-    struct rc_total sum[RC_SUMS] = {{0}};
-    double most = 0;
+    const struct rc_sums rows = {.row = s->partial,
+                                 .rows = n,
+                                 .sums = RC_MOST,
+                                 .mosts = RC_SUMS - RC_MOST,
+                                 .threads = s->posed.threads,
+                                 .ranks = s->posed.rows.ranks};
 
-    rc_sums_add(&rows, sum, &most);
-    if (s->posed.rows.ranks != NULL)
-        rc_ranks_totals(s->posed.rows.ranks, RC_MOST, sum, total, &most);
-    else
-        for (size_t q = 0; q < RC_MOST; q++)
-            total[q] = rc_total_value(&sum[q]);
-    total[RC_MOST] = most;
+    rc_sums_total(&rows, total);
+    total[RC_MOST] = fmax(total[RC_MOST], 0);
 }
 
 void

@@ -220,7 +220,7 @@ contact_radius(const struct rc_ranks *ranks, const struct rc_shape *s, struct rc
     const double along_x = boundary.x ? 0 : 1, along_y = boundary.y ? 0 : 1;
     const double shape = rc_repeats(boundary) == 0 ? 2.5 : 4;
     struct rc_rows rows = rc_rows_of(ranks, s);
-    double total[3] = {0}, second, most = 0, cx, cy;
+    double total[3] = {0}, second, cx, cy;
     struct rc_total sum[3] = {{0}}, r2 = {0};
 
     for (size_t k = 0; k < s->nx * rows.n; k++) {
@@ -229,7 +229,7 @@ contact_radius(const struct rc_ranks *ranks, const struct rc_shape *s, struct rc
         rc_total_add(&sum[1], weight * (double)(k % s->nx) * s->dx);
         rc_total_add(&sum[2], weight * (double)(rows.first + k / s->nx) * s->dy);
     }
-    rc_ranks_totals(ranks, 3, sum, total, &most);
+    rc_ranks_totals(ranks, 3, sum, total, 0, NULL);
     if (!(total[0] > 0))
         return 0;
     cx = total[1] / total[0];

@@ -7,6 +7,8 @@
 
 #include <stdlib.h>
 
+#include "libcontact/ranks/ranks.h"
+
 enum {
     PIECE = 4096 /* values of a sum that needs no compensation */
 };
@@ -18,7 +20,7 @@ sum_up(struct rc_relief *r, rc_sums_work *work, size_t rows, size_t sums, double
 {
     struct rc_sums s;
 
-    if (rc_sums_new(&s, rows, sums, 0, r->threads) != RC_OK)
+    if (rc_sums_new(&s, NULL, rows, sums, 0, r->threads) != RC_OK)
         return rc_err_set(err, "out of memory for the figures of %zu x %zu nodes", r->shape.nx,
                           r->shape.ny);
     rc_sums_rows(&s, work, r, total);

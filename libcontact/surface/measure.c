@@ -262,7 +262,7 @@ rc_measure_contact_slope(const struct rc_ranks *ranks, const struct rc_shape *sh
     size_t nx = shape->nx, right = nx > 1 ? 1 : 0;
     const double per[2] = {1 / shape->dx, 1 / shape->dy};
     struct rc_total sums[2] = {{0}};
-    double beside[2 * RC_ROW_PIECE] = {0}, total[2], most = 0;
+    double beside[2 * RC_ROW_PIECE] = {0}, total[2];
     bool has[2] = {false, false};
     double all[RC_ROW_PIECE];
 
@@ -280,7 +280,7 @@ rc_measure_contact_slope(const struct rc_ranks *ranks, const struct rc_shape *sh
             take_contact(sums, row, below, p == NULL ? all : p + j * nx + first, steps, right, per);
         }
     }
-    rc_ranks_totals(rows.ranks, 2, sums, total, &most);
+    rc_ranks_totals(rows.ranks, 2, sums, total, 0, NULL);
     return sqrt(total[0] / total[1]);
 }
 
@@ -313,7 +313,7 @@ rc_measure_seam(const struct rc_ranks *ranks, const struct rc_shape *shape, cons
     const struct rc_rows rows = rc_rows_of(ranks, shape);
     size_t nx = shape->nx, ny = shape->ny;
     struct rc_total squares[STEPS] = {{0}};
-    double beside[2 * RC_ROW_PIECE] = {0}, sum[STEPS], most = 0;
+    double beside[2 * RC_ROW_PIECE] = {0}, sum[STEPS];
     bool has[2];
 
     for (size_t j = 0; j < rows.n; j++) {
@@ -334,7 +334,7 @@ rc_measure_seam(const struct rc_ranks *ranks, const struct rc_shape *shape, cons
         if (rows.n > 0)
             add_steps(&squares[rows.first > 0 ? INSIDE_Y : ACROSS_Y], before, v + first, n);
     }
-    rc_ranks_totals(rows.ranks, STEPS, squares, sum, &most);
+    rc_ranks_totals(rows.ranks, STEPS, squares, sum, 0, NULL);
     *seam = (struct rc_seam){{NAN, NAN}, {NAN, NAN}};
     if (nx > 1) {
         seam->inside[0] = sqrt(sum[INSIDE_X] / (double)(ny * (nx - 1)));

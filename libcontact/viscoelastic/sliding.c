@@ -716,7 +716,7 @@ rc_sliding_new(const struct rc_shape *shape, const double *h, const struct rc_pr
     struct slide *s;
 
     if (check(shape, problem, law, err) != RC_OK ||
-        (m = rc_model_make(&rc_model_sliding, sizeof *s, shape, err)) == NULL)
+        (m = rc_model_make(&rc_model_sliding, sizeof *s, shape, NULL, err)) == NULL)
         return NULL;
     s = (struct slide *)m;
     m->boundary = problem->boundary;

@@ -885,7 +885,7 @@ rc_yield_new(const struct rc_shape *shape, const double *h, const struct rc_yiel
     struct yield *y;
 
     if (rc_shape_check(shape, err) != RC_OK || rc_yield_solver_check(problem, err) != RC_OK ||
-        (m = rc_model_make(&rc_model_yield, sizeof *y, shape, err)) == NULL)
+        (m = rc_model_make(&rc_model_yield, sizeof *y, shape, problem->contact.ranks, err)) == NULL)
         return NULL;
     y = (struct yield *)m;
     y->problem = *problem;

@@ -1268,7 +1268,7 @@ memory_is_told_without_memory(void **state)
     fault_arm(1, true);
     held = memory_held();
     peak = memory_peak();
-    room = memory_room("");
+    room = memory_room("", 1);
     assert_int_equal(fault_disarm(), 0);
     assert_true(held > 0 && peak >= held);
     assert_true(room.bytes > 0 && isfinite(room.bytes));

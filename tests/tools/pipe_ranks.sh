@@ -162,7 +162,16 @@ alone() {
 }
 claim "the other tools refuse several processes, once" alone
 claim "  with a command that one process runs" alone -o no.rcg rough.rcg
+refuses 2 'start one process, with --threads; rc-pick --crop cuts a smaller map out' "  rc-leak names rc-pick" "$MPIRUN -n 2 rc-leak rough.rcg"
 claim "  one process works" says 'height' $MPIRUN -n 1 rc-info rough.rcg
+# Two processes on a machine have half of its memory each. The map has 1.2 times this memory, and its file is
+# sparse.
+rows=$(awk '/^(MemAvailable|SwapFree):/ { free += $2 } END { printf "%d", 1.2 * 1024 * free / 65536 }' /proc/meminfo)
+printf 'RCG1\nchannel=pressure\nnx=8192\nny=%d\ndx=1e-06\ndy=1e-06\nunit=Pa\ntype=f64\n\n' "$rows" >sparse.rcg
+truncate -s "+$((rows * 65536 + 24))" sparse.rcg
+refuses 1 'for each of 2 processes the ' "a part for which a process has too little of the machine's memory" \
+    "$MPIRUN -n 2 rc-deflect --kernel fft64 --estar 1GPa -o no.rcg sparse.rcg"
+rm sparse.rcg
 rc-synth selfaffine --nx 700 --ny 700 --dx 1um --hurst 0.8 --rms-slope 0.1 --seed 3 |
     rc-pick --set channel=pressure --set unit=Pa -o rough-pressed.rcg
 refuses 1 "cut a part out" "nor is it advised where memory is short" \
@@ -205,6 +214,15 @@ claim "  the message is printed once" test "$(grep -c 'memory allows' refuses.er
 refuses 3 'not converged' "short of the accuracy: written, with its exit status" \
     "$MPIRUN -n 2 rc-solve --estar 1GPa --load 0.1N --tol 1e-30 -o stopped.rcg rough.rcg"
 claim "  the stream is complete" bash -c 'rc-info stopped.rcg >/dev/null; test $? = 3'
+# The launcher signals the other process when the first one ends.
+shorts() {
+    local n
+    for n in $(seq $(before_release && echo 12 || echo 3)); do
+        $MPIRUN -n 2 rc-solve --estar 1GPa --load 1mN --tol 1e-30 -o stopped.rcg small.rcg 2>shorts.err
+        [ $? = 3 ] && ! grep -q 'ended by a signal' shorts.err || { cat shorts.err >&2 && return 1; }
+    done
+}
+claim "  no process complains that it was ended" shorts
 claim "failed runs leave no file" bash -c '! ls no.rcg* 2>/dev/null'
 
 # If processes are ended from outside, the existing file remains and no part of a new one is left.

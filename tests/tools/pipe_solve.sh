@@ -107,8 +107,11 @@ with_address_sanitizer || claim "a map is 8 MiB here" [ "$(($(field peak_memory 
 if ! with_mpi; then
     export OMPI_COMM_WORLD_SIZE=2
     several="rc-solve --quiet --load 10N --estar 114GPa ball.rcg"
-    claim "a build without MPI warns that two processes are two runs" \
-        warns 'started 2 times by a launcher, but built without MPI' env OMPI_COMM_WORLD_RANK=0 $several
-    claim "  the warning is printed once" bash -c "OMPI_COMM_WORLD_RANK=1 $several 2>second.err >/dev/null && [ ! -s second.err ]"
+    for tool in "$several" "rc-info ball.rcg"; do
+        refuses 2 "^${tool%% *}: .* is built without MPI, and a launcher has started it 2 times: start one process" \
+            "a build without MPI refuses two processes: ${tool%% *}" "OMPI_COMM_WORLD_RANK=0 $tool"
+        claim "  the message is printed once" bash -c "OMPI_COMM_WORLD_RANK=1 $tool 2>second.err >/dev/null; [ \$? = 2 ] && [ ! -s second.err ]"
+    done
+    claim "  --help works" says 'Usage' env OMPI_COMM_WORLD_RANK=0 rc-info --help
     unset OMPI_COMM_WORLD_SIZE
 fi

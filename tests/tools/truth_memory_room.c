@@ -77,12 +77,13 @@ test_machine(void **state)
     struct memory_room room;
 
     (void)state;
-    room = memory_room(root);
+    room = memory_room(root, 1);
     assert_true(isinf(room.bytes)); /* there is no file */
     the_machine("2048", "1024");
-    room = memory_room(root);
+    room = memory_room(root, 1);
     assert_true(room.bytes == 3 * mib);
     assert_string_equal(room.why, "the machine has");
+    assert_true(memory_room(root, 4).bytes == 3 * mib / 4); /* four processes share it */
 }
 
 static const char mounts2[] =
@@ -104,20 +105,20 @@ test_version_2(void **state)
     put("/sys/fs/cgroup/user.slice/job/memory.high", "67108864\n");
     put("/sys/fs/cgroup/user.slice/job/memory.current", "33554432\n");
     put("/sys/fs/cgroup/user.slice/job/memory.stat", "anon 1\nfile 99\ninactive_file 1048576\n");
-    room = memory_room(root);
+    room = memory_room(root, 1);
     assert_true(room.bytes == 33 * mib);
     assert_non_null(strstr(room.why, "cgroup"));
     put("/sys/fs/cgroup/user.slice/memory.max", "104857600\n");
     put("/sys/fs/cgroup/user.slice/memory.high", "max\n");
     put("/sys/fs/cgroup/user.slice/memory.current", "94371840\n");
     put("/sys/fs/cgroup/user.slice/memory.stat", "inactive_file 0\n");
-    assert_true(memory_room(root).bytes == 10 * mib);
+    assert_true(memory_room(root, 1).bytes == 10 * mib);
     put("/sys/fs/cgroup/user.slice/memory.current", "104857600\n");
-    assert_true(memory_room(root).bytes == 0);
+    assert_true(memory_room(root, 1).bytes == 0);
     put("/sys/fs/cgroup/user.slice/memory.current", "204857600\n"); /* above a bound set later */
-    assert_true(memory_room(root).bytes == 0);
+    assert_true(memory_room(root, 1).bytes == 0);
     put("/sys/fs/cgroup/user.slice/memory.max", "max\n");
-    assert_true(memory_room(root).bytes == 33 * mib);
+    assert_true(memory_room(root, 1).bytes == 33 * mib);
 }
 
 /* The separate tree of the memory controller (version 1), beside an empty tree of version 2; a soft limit has
@@ -141,7 +142,7 @@ test_version_1(void **state)
     put("/sys/fs/cgroup/memory/a/b/memory.limit_in_bytes", "9223372036854771712\n");
     put("/sys/fs/cgroup/memory/a/b/memory.soft_limit_in_bytes", "5\n");
     put("/sys/fs/cgroup/memory/a/b/memory.usage_in_bytes", "41943040\n");
-    assert_true(memory_room(root).bytes == 12 * mib);
+    assert_true(memory_room(root, 1).bytes == 12 * mib);
 }
 
 /* In a container the tree is mounted from the container's group downwards, and paths do not show this. */
@@ -154,14 +155,14 @@ test_container(void **state)
     put("/proc/self/cgroup", "0::/docker/4f1c/inner\n");
     put("/sys/fs/cgroup/memory.max", "20971520\n");
     put("/sys/fs/cgroup/memory.current", "10485760\n");
-    assert_true(memory_room(root).bytes == 10 * mib);
+    assert_true(memory_room(root, 1).bytes == 10 * mib);
     put("/sys/fs/cgroup/inner/memory.max", "20971520\n");
     put("/sys/fs/cgroup/inner/memory.current", "12582912\n");
-    assert_true(memory_room(root).bytes == 8 * mib);
+    assert_true(memory_room(root, 1).bytes == 8 * mib);
     put("/proc/self/cgroup", "0::/\n"); /* in a separate name space */
-    assert_true(memory_room(root).bytes == 10 * mib);
+    assert_true(memory_room(root, 1).bytes == 10 * mib);
     put("/proc/self/cgroup", "0::/docker/4f1c\n");
-    assert_true(memory_room(root).bytes == 10 * mib);
+    assert_true(memory_room(root, 1).bytes == 10 * mib);
 }
 
 /* A group whose name only begins like that of the mounted group lies outside of it. Then only the limits of
@@ -179,11 +180,11 @@ test_names_that_begin_alike(void **state)
     put("/sys/fs/cgroupb/memory.max", "20971520\n");
     put("/sys/fs/cgroupb/memory.current", "20971520\n");
     put("/proc/self/cgroup", "0::/ab\n");
-    assert_true(memory_room(root).bytes == 10 * mib);
+    assert_true(memory_room(root, 1).bytes == 10 * mib);
     put("/proc/self/cgroup", "0::/ab/c\n");
-    assert_true(memory_room(root).bytes == 10 * mib);
+    assert_true(memory_room(root, 1).bytes == 10 * mib);
     put("/proc/self/cgroup", "0::/a/b\n");
-    assert_true(memory_room(root).bytes == 8 * mib);
+    assert_true(memory_room(root, 1).bytes == 8 * mib);
 }
 
 /* Limits of the process, in a child, so that the test itself is not limited. */
@@ -199,7 +200,7 @@ test_limits(void **state)
         struct rlimit r = {(rlim_t)1 << 40, (rlim_t)1 << 40};
 
         setrlimit(RLIMIT_AS, &r);
-        room = memory_room(root);
+        room = memory_room(root, 1);
         _exit(strstr(room.why, "ulimit -v") != NULL && room.bytes < (double)r.rlim_cur &&
                       room.bytes > 0
                   ? 0

@@ -7,6 +7,7 @@
 
 #include "libcontact/contact.h"
 #include "tools/machine/machine.h"
+#include "ranks.h"
 #include "tool.h"
 
 static const char smaller[] =
@@ -17,10 +18,16 @@ static const char smaller[] =
 void
 tool_budget(struct tool *t)
 {
-    const struct memory_room room = memory_room("");
+    const size_t beside = ranks_beside(t);
+    const struct memory_room room = memory_room("", beside);
     double most = (double)rc_memory_held().held + room.bytes;
 
     t->room.bound = room.why;
+    if (beside > 1) {
+        snprintf(t->room.part, sizeof t->room.part, "for each of %zu processes %s", beside,
+                 room.why);
+        t->room.bound = t->room.part;
+    }
     if (t->memory != 0 && (double)t->memory < most) {
         most = (double)t->memory;
         t->room.bound = "--memory allows";

@@ -26,6 +26,7 @@ struct ranks {
     MPI_Comm comm; /* communicator for the calls of the tool */
     MPI_Comm last; /* only for the last messages: other processes may then be in any call */
     int count, own;
+    int beside;                /* processes on this machine   */
     struct part *parts;        /* work space: one per process */
     struct itimerval patience; /* time of the launcher; 0: unknown */
 };
@@ -80,6 +81,7 @@ void
 ranks_start(struct tool *t)
 {
     static struct ranks r;
+    MPI_Comm machine;
     int given;
 
     if (!launched())
@@ -96,6 +98,9 @@ ranks_start(struct tool *t)
         MPI_Finalize();
         return;
     }
+    MPI_Comm_split_type(r.comm, MPI_COMM_TYPE_SHARED, 0, MPI_INFO_NULL, &machine);
+    MPI_Comm_size(machine, &r.beside);
+    MPI_Comm_free(&machine);
     r.patience = patience();
     t->ranks = &r;
     atexit(finalize); /* also after --help */
@@ -155,6 +160,22 @@ size_t
 ranks_count(const struct tool *t)
 {
     return t->ranks == NULL ? 1 : (size_t)t->ranks->count;
+}
+
+size_t
+ranks_beside(const struct tool *t)
+{
+    return t->ranks == NULL ? 1 : (size_t)t->ranks->beside;
+}
+
+void
+ranks_refuse(struct tool *t)
+{
+    if (ranks_count(t) > 1 && !t->info->shares)
+        tool_usage(
+            t, "%s cannot share its maps among processes: start one process, with --threads%s%s",
+            t->info->name, t->info->alone == NULL ? "" : "; ",
+            t->info->alone == NULL ? "" : t->info->alone);
 }
 
 bool
@@ -410,21 +431,28 @@ ranks_close(struct tool *t, const struct rc_share *share)
 
 #else
 
-/* Warns a user of mpirun, who expects that the processes share the work. The tool continues, because a script
- * may start one process for each case on purpose. */
 void
 ranks_start(struct tool *t)
 {
+    t->ranks = NULL;
+}
+
+void
+ranks_refuse(struct tool *t)
+{
     const char *count = getenv("OMPI_COMM_WORLD_SIZE"), *own = getenv("OMPI_COMM_WORLD_RANK");
 
-    t->ranks = NULL;
     if (count == NULL)
         count = getenv("PMI_SIZE"), own = getenv("PMI_RANK");
-    if (count != NULL && atoi(count) > 1 && (own == NULL || atoi(own) == 0))
-        tool_warn(t,
-                  "started %s times by a launcher, but built without MPI, so that each process "
-                  "does all the work: see contact-mpi(7)",
-                  count);
+    if (count == NULL || atoi(count) <= 1)
+        return;
+    if (own != NULL && atoi(own) != 0) /* the first process prints the message */
+        exit(EXIT_USAGE);
+    tool_usage(
+        t,
+        "%s is built without MPI, and a launcher has started it %s times: start one process, "
+        "or see contact-mpi(7)",
+        t->info->name, count);
 }
 
 #endif

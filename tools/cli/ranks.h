@@ -15,6 +15,8 @@
 
 /* Connects the processes that a launcher of MPI has started; called at the start of a tool. */
 void ranks_start(struct tool *tool);
+/* Ends a tool that a launcher has started several times although its processes cannot share maps. */
+void ranks_refuse(struct tool *tool);
 #ifdef RC_MPI
 
 /* Disconnects the processes; no function of this file may be called afterwards. */
@@ -23,6 +25,8 @@ void ranks_end(struct tool *tool);
 /* The value for the library's options. */
 const struct rc_ranks *ranks_of(const struct tool *tool);
 size_t ranks_count(const struct tool *tool);
+/* Processes on the machine of this one. */
+size_t ranks_beside(const struct tool *tool);
 /* True if this process prints messages and writes files other than maps. */
 bool ranks_speak(const struct tool *tool);
 /* The rows of a map on this process. */
@@ -63,6 +67,7 @@ _Noreturn void ranks_die(struct tool *tool, int status, const char *text,
 #define ranks_end(tool) ((void)(tool))
 #define ranks_of(tool) ((void)(tool), (const struct rc_ranks *)NULL)
 #define ranks_count(tool) ((void)(tool), (size_t)1)
+#define ranks_beside(tool) ((void)(tool), (size_t)1)
 #define ranks_speak(tool) ((void)(tool), true)
 #define ranks_rows(tool, shape, first, n)                                                          \
     ((void)(tool), (void)(*(first) = 0), (void)(*(n) = (shape)->ny))

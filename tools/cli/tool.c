@@ -65,9 +65,7 @@ tool_start(struct tool *t, const struct tool_info *info, int argc, char **argv, 
     memory_keep_maps_apart();
     ranks_start(t);
     options_read(t, argc, argv);
-    if (ranks_count(t) > 1 && !info->shares)
-        tool_usage(t, "%s cannot share its maps among processes: start one process, with --threads",
-                   info->name);
+    ranks_refuse(t);
     if (info->fill != NULL)
         info->fill(t);
     rules_check(t);

@@ -165,8 +165,9 @@ struct tool_info {
      * figures; NULL: none. */
     const char *const *figures;
     const struct rc_figure *own;
-    bool mends;  /* takes keys with values that they cannot have, to correct them */
-    bool shares; /* true: under mpirun its processes share the maps; else they are refused */
+    bool mends;        /* takes keys with values that they cannot have, to correct them */
+    bool shares;       /* true: under mpirun its processes share the maps; else they are refused */
+    const char *alone; /* advice in this refusal; NULL: none */
 };
 
 struct tool {
@@ -194,6 +195,7 @@ struct tool {
         size_t beside;     /* bytes of code and stacks, which the allocator does not count */
         size_t budget;     /* bytes that may be allocated                                  */
         const char *bound; /* what limits it, as in "--memory allows"                      */
+        char part[96];     /* the same, if processes share the machine                     */
         double at;         /* s: the time when the memory of the machine was last read     */
         size_t children;   /* bytes: the largest of tool_memory_beside, with this process  */
         size_t counted;    /* the same, as counted                                         */

@@ -309,13 +309,14 @@ look_at_groups(const char *root, const struct version *v, struct memory_room *ro
 }
 
 struct memory_room
-memory_room(const char *root)
+memory_room(const char *root, size_t shared)
 {
     struct memory_room room = {INFINITY, ""};
 
     look_at_machine(root, &room);
     for (size_t k = 0; k < sizeof versions / sizeof *versions; k++)
         look_at_groups(root, &versions[k], &room);
+    room.bytes /= (double)shared;
     look_at_limits(&room);
     return room;
 }

@@ -30,8 +30,8 @@ struct memory_room {
 
 /* The least of the following. One is the free memory of the machine (swap included). Another is what the
  * control groups of this process still allow (cgroups, versions 1 and 2, up to the outermost). The last is
- * what its own limits of address space and data (ulimit -v, -d) still allow. `root` precedes /proc and /sys:
- * "". */
-struct memory_room memory_room(const char *root);
+ * what its own limits of address space and data (ulimit -v, -d) still allow. `shared` processes share the
+ * first two in equal parts. `root` precedes /proc and /sys: "". */
+struct memory_room memory_room(const char *root, size_t shared);
 
 #endif
