@@ -462,6 +462,7 @@ write_heights(struct tool *t, const struct source *s, const struct rc_wish *wish
     struct rc_grid *g;
     struct pick pick;
     void *reserved;
+    double unit;
 
     if (pick_channel(s, wish, &pick, err) != RC_OK ||
         reserve(t, s, &s->channel[pick.index], &reserved, err) != RC_OK)
@@ -480,11 +481,11 @@ write_heights(struct tool *t, const struct source *s, const struct rc_wish *wish
                   import_names(s->channel, s->n, pick.index, names));
     for (size_t k = 0; k < notes.n; k++)
         tool_warn(t, "%s: %s", t->input.source, notes.text[k]);
+    unit = notes.metres > 0 && strcmp(g->unit, "m") == 0 ? notes.metres : 1;
     if (wish->missing != NULL)
-        take_missing(wish->missing, g,
-                     notes.metres > 0 && strcmp(g->unit, "m") == 0 ? notes.metres : 1);
-    import_judge(t, g, wish);
-    import_judge_marks(t, g, strcmp(g->unit, "m") == 0 && notes.metres > 0 ? notes.metres : 1);
+        take_missing(wish->missing, g, unit);
+    import_judge(t, g, wish, unit);
+    import_judge_marks(t, g, unit);
     if ((wish->even && even_out(t, s, wish, g, &notes, err) != RC_OK) ||
         add_keys(t, s, number, g, err) != RC_OK) {
         rc_grid_free(g);

@@ -13,6 +13,7 @@
 #include "header.h"
 #include "maps.h"
 #include "number_table.h"
+#include "raster.h"
 #include "text.h"
 #include "units.h"
 

@@ -168,6 +168,16 @@ rc_even_heights(const struct rc_even *even, const double *x, const double *z, si
         note_extremes(z, points, v, even->n, notes);
 }
 
+bool
+rc_even_one_way(const double *x, size_t points, size_t stride)
+{
+    double path = 0;
+
+    for (size_t k = 1; k < points; k++)
+        path += fabs(x[k * stride] - x[(k - 1) * stride]);
+    return points > 1 && path > 0 && fabs(x[(points - 1) * stride] - x[0]) >= 0.9 * path;
+}
+
 enum rc_status
 rc_axis_step(const char *name, double *x, size_t n, double *step, struct rc_err *err)
 {

@@ -38,6 +38,13 @@ claim "heights with a range above the longer side cause a warning" \
     rc-import tall.txt
 claim "a slightly smaller range causes none" quiet bash -c "rc-import <(sed 's/10 um/11.1 um/' tall.txt)"
 claim "a given unit causes none" bash -c '! rc-import --z-unit um tall.txt 2>&1 >out.rcg | grep implausible'
+saw() { # HEIGHT: teeth of this height in um, 2 um apart
+    printf '# Width: 8 um\n# Height: 6 um\n# Value units: um\n0 %s 0 %s\n%s 0 %s 0\n0 %s 0 %s\n' "$1" "$1" "$1" "$1" "$1" "$1"
+}
+saw 7 >steep.txt
+claim "an RMS slope of 3.5 causes a warning" warns 'the RMS slope is 3.5 \(74 degrees\), which is implausible' rc-import steep.txt
+saw 5 >flat.txt
+claim "one of 2.5 causes none" quiet rc-import flat.txt
 printf 'x [m] z [um]\n0 1\n1 2\n2 3\n' >long.txt
 claim "the length of a profile is checked alone" warns 'long.txt: the profile is 3 m long, which is implausible: .* --dx gives the spacing$' \
     rc-import long.txt

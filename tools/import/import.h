@@ -16,8 +16,8 @@ enum {
 
 /* ---- file.c ---- */
 
-/* The bytes of a file, or of standard input for "-", which the caller frees; *file describes them. NULL when
- * the file cannot be read or exceeds --memory. */
+/* The bytes of a file, or of standard input for "-", which the caller frees; *file describes them. NULL
+ * when the file cannot be read or exceeds --memory. */
 unsigned char *import_read(struct tool *tool, const char *name, struct rc_file *file,
                            struct rc_err *err);
 /* Skips the first lines of the file, in UTF-16 too. RC_FAIL when there are fewer. */
@@ -34,11 +34,14 @@ enum rc_status import_even(const struct rc_file *file, const struct rc_wish *wis
 
 /* ---- plausible.c ---- */
 
-/* Warns of a map with a side above 1 m or below 10 nm, unless the user gave the spacing. Warns of heights
- * whose range exceeds the longer side, unless the user gave the unit. */
-void import_judge(struct tool *tool, const struct rc_grid *grid, const struct rc_wish *wish);
-/* Warns when the smallest or largest value occurs often and far from all others, or is a number that programs
- * write for missing points. `unit` is the value of 1 of the file in the grid's unit. */
+/* Warns of a map with a side above 1 m or below 10 nm, unless the user gave the spacing. Warns of
+ * heights whose range exceeds the longer side, and of a steep mean slope, unless the user gave the unit;
+ * and of a spacing and heights that are both above 1 mm. `unit` is the value of 1 of the file in the
+ * grid's unit. */
+void import_judge(struct tool *tool, const struct rc_grid *grid, const struct rc_wish *wish,
+                  double unit);
+/* Warns when the smallest or largest value occurs often and far from all others, or is a number that
+ * programs write for missing points. `unit` as above. */
 void import_judge_marks(struct tool *tool, const struct rc_grid *grid, double unit);
 
 /* ---- channel.c ---- */
@@ -48,9 +51,9 @@ struct pick {
     char said[400]; /* information for the user; "": none */
 };
 
-/* Picks the channel that `wanted` names: by its full name, its number from 1, or its first letters; NULL: the
- * topography. `any_unit`: the user gave the unit. RC_FAIL when there is none, or several, which the message
- * names. */
+/* Picks the channel that `wanted` names: by its full name, its number from 1, or its first letters;
+ * NULL: the topography. `any_unit`: the user gave the unit. RC_FAIL when there is none, or several,
+ * which the message names. */
 enum rc_status import_pick(const struct rc_channel *channel, size_t n, const char *wanted,
                            bool any_unit, struct pick *pick, struct rc_err *err);
 

@@ -5,7 +5,10 @@
 #include <math.h>
 #include <string.h>
 
-static const double longest = 1, shortest = 10e-9; /* m, of a side */
+static const double longest = 1, shortest = 10e-9, /* m, of a side */
+    coarse =
+        1e-3,  /* m: a spacing above it, with heights that span more, are those of a file in mm */
+    steep = 3; /* RMS slope in x: 72 degrees on average */
 
 /* Range of the heights. */
 static double
@@ -20,8 +23,43 @@ span_of(const struct rc_grid *g)
     return most - least;
 }
 
+/* RMS slope in x, from neighbours. */
+static double
+slope_of(const struct rc_grid *g)
+{
+    double sum = 0;
+    size_t n = 0;
+
+    for (size_t k = 1; k < g->nx * g->ny; k++) {
+        double d = (g->v[k] - g->v[k - 1]) / g->dx;
+
+        if (k % g->nx == 0 || !isfinite(d))
+            continue;
+        sum += d * d;
+        n++;
+    }
+    return n == 0 ? 0 : sqrt(sum / (double)n);
+}
+
+/* Lengths and heights that are a thousand times too large have plausible slopes. */
+static void
+judge_millimetres(struct tool *t, const struct rc_grid *g, double unit, double span)
+{
+    char spacing[SHOWN_NUMBER], advice[96] = "--dx and --z-unit give the right ones";
+
+    if (!(fmin(g->dx, g->dy) > coarse && span > coarse))
+        return;
+    snprintf(spacing, sizeof spacing, "%.6g", 1e3 * g->dx);
+    if (unit == 1 && g->dx == g->dy)
+        snprintf(advice, sizeof advice, "give --dx %sum --z-unit mm", spacing);
+    tool_warn(t,
+              "%s: the spacing is %s mm and the heights span %.4g mm, which is much for a surface: "
+              "if the file has millimetres where it promises metres, %s",
+              t->input.source, spacing, 1e3 * span, advice);
+}
+
 void
-import_judge(struct tool *t, const struct rc_grid *g, const struct rc_wish *wish)
+import_judge(struct tool *t, const struct rc_grid *g, const struct rc_wish *wish, double unit)
 {
     double x = (double)g->nx * g->dx, y = g->ny > 1 ? (double)g->ny * g->dy : x;
     double span = strcmp(g->unit, "m") == 0 ? span_of(g) : 0;
@@ -41,6 +79,13 @@ import_judge(struct tool *t, const struct rc_grid *g, const struct rc_wish *wish
                   "implausible: if the unit is wrong, give --z-unit for the heights, or --dx for "
                   "the spacing",
                   t->input.source, span, fmax(x, y));
+    else if (isnan(wish->z_unit) && strcmp(g->unit, "m") == 0 && slope_of(g) > steep)
+        tool_warn(t,
+                  "%s: the RMS slope is %.3g (%.0f degrees), which is implausible: if a unit is "
+                  "wrong, give --z-unit for the heights, or --dx for the spacing",
+                  t->input.source, slope_of(g), atan(slope_of(g)) * 180 / 3.14159265358979323846);
+    else if (isnan(wish->dx) && isnan(wish->z_unit) && fmax(x, y) <= longest)
+        judge_millimetres(t, g, unit, span);
 }
 
 /* ---- marks of missing points ---- */

@@ -27,14 +27,20 @@
  *     X Amplitude: 500.0 nm
  *     Z Amplitude: 12.3 nm            of which only the unit counts
  *
+ *     Text File Create Date : ...     an AFM, after which all lines up to the numbers are of the header;
+ * the
+ *     Image Width : 4                 numbers may be in one line
+ *     Real Width : 8.00 um
+ *
  *     \Scan Size: 10 10 um            NanoScope export of one image
  *     \Exported image units: nm
  *
- * Without a known header, lines of other text above the numbers are skipped, and the first row and column may
- * be labels or positions (labels.h).
+ * Without a known header, lines of other text above the numbers are skipped, and the first row and
+ * column may be labels or positions (labels.h).
  *
- * Two columns with a rising first one count as a profile. Three columns with a raster in two of them count as
- * a list of points. Both are refused, unless a header says that they are a matrix.
+ * Two columns of which the first rises, perhaps with small steps back, count as a profile. Three columns
+ * with a raster in two of them count as a list of points. Both are refused, unless a header says that
+ * they are a matrix.
  */
 #include <math.h>
 #include <stdlib.h>
@@ -94,6 +100,18 @@ next_image(struct rc_lines *rest, struct image *image)
     rest->at = rest->end;
 }
 
+/* True if the numbers stand in one line, or in one column, and are as many as the header says: they are
+ * a map, row by row. */
+static bool
+is_one_line(const struct image *m)
+{
+    const struct rc_number_table *t = &m->table;
+    size_t n;
+
+    return m->head.nx > 0 && m->head.ny > 0 && (t->rows == 1 || t->columns == 1) &&
+           rc_size_mul(m->head.nx, m->head.ny, &n, NULL) == RC_OK && n == t->rows * t->columns;
+}
+
 /* Opens the table behind the header of an image. */
 static enum rc_status
 open_behind_head(struct image *m, const struct rc_wish *wish, struct rc_err *err)
@@ -105,6 +123,8 @@ open_behind_head(struct image *m, const struct rc_wish *wish, struct rc_err *err
         said.separator = h->separator;
     if (rc_number_table_open(&m->table, &m->lines, &said, err) != RC_OK)
         return RC_FAIL;
+    if (is_one_line(m))
+        return RC_OK;
     if ((h->nx != 0 && h->nx != m->table.columns) || (h->ny != 0 && h->ny != m->table.rows))
         return rc_err_set(err,
                           "the header promises %zu columns and %zu rows, the file has %zu and %zu",
@@ -170,7 +190,8 @@ open_below_titles(struct matrix *m, const struct rc_titled_table *t)
            !(rc_file_is_utf16(t->file) && t->skipped > 0);
 }
 
-/* Where no header is known and there is no matrix below titles either, the reason is that of the numbers. */
+/* Where no header is known and there is no matrix below titles either, the reason is that of the
+ * numbers. */
 static enum rc_status
 matrix_open(void *found, struct rc_titled_table *table, struct rc_err *err)
 {
@@ -201,9 +222,9 @@ spacing(const struct image *m, const struct rc_wish *wish, double *dx, double *d
     return RC_OK;
 }
 
-/* True if two columns run through a raster. Column `slow` is constant while `fast` changes in one direction,
- * and then makes a step, always in the same direction. Four points of one row are a raster, fewer could be
- * anything. */
+/* True if two columns run through a raster. Column `slow` is constant while `fast` changes in one
+ * direction, and then makes a step, always in the same direction. Four points of one row are a raster,
+ * fewer could be anything. */
 static bool
 is_raster(const double *v, size_t rows, size_t slow, size_t fast)
 {
@@ -223,13 +244,16 @@ is_raster(const double *v, size_t rows, size_t slow, size_t fast)
     return rests && (slow_way != 0 || rows > 3);
 }
 
+/* True if the first of two columns holds positions: it rises, or it runs one way but for small steps
+ * back, which few rows could do by chance. */
 static bool
-is_rising(const double *v, size_t rows)
+has_positions(const double *v, size_t rows)
 {
+    bool rises = rows > 2;
+
     for (size_t j = 1; j < rows; j++)
-        if (!(v[2 * j] > v[2 * j - 2]))
-            return false;
-    return rows > 2;
+        rises = rises && v[2 * j] > v[2 * j - 2];
+    return rises || (rows > 5 && rc_even_one_way(v, rows, 2));
 }
 
 static enum rc_status
@@ -239,7 +263,7 @@ refuse_coordinates(const struct image *m, const double *v, struct rc_err *err)
 
     if (h->nx != 0 || !isnan(h->width) || !isnan(h->pixel) || !isnan(h->step_x))
         return RC_OK;
-    if (m->nx == 2 && is_rising(v, m->ny))
+    if (m->nx == 2 && has_positions(v, m->ny))
         return rc_err_set(err, "two columns with a rising first one are a profile (x, z), no "
                                "matrix: give --format profile, or add a header with a width");
     if (m->nx == 3 && (is_raster(v, m->ny, 0, 1) || is_raster(v, m->ny, 1, 0)))
@@ -343,8 +367,8 @@ add_image(struct matrix *m, size_t k, struct rc_maps *maps, struct rc_err *err)
     if ((k > 0 && open_behind_head(image, wish, err) != RC_OK) ||
         (!image->head.known && rc_labels_find(&image->table, m->titled, wish, l, err) != RC_OK))
         return RC_FAIL;
-    image->nx = image->table.columns - l->columns;
-    image->ny = image->table.rows - l->rows;
+    image->nx = is_one_line(image) ? image->head.nx : image->table.columns - l->columns;
+    image->ny = is_one_line(image) ? image->head.ny : image->table.rows - l->rows;
     map = rc_maps_add(maps, image->head.channel);
     if (rc_number_table_size(&image->table, &n, err) != RC_OK)
         return RC_FAIL;

@@ -18,18 +18,18 @@ static const struct {
     bool anywhere; /* profiles and lists of points have such lines too */
 } keys[] = {
     {"channel|display", TO(channel), false},
-    {"width|x-length|x amplitude", TO(width), false},
-    {"height|y-length|y amplitude", TO(height), false},
+    {"width|real width|x-length|x amplitude", TO(width), false},
+    {"height|real height|y-length|y amplitude", TO(height), false},
     {"value units|data unit|unit data|exported image units", TO(z_unit), false},
     {"pixel size", TO(pixel), false},
     {"height conversion factor (-> m)", TO(factor), false},
-    {"h|y-pixels|ny", TO(ny), false},
-    {"w|x-pixels|nx", TO(nx), false},
+    {"h|y-pixels|ny|image height", TO(ny), false},
+    {"w|x-pixels|nx|image width", TO(nx), false},
     {"x-length", TO(x_length), false},
     {"y-length", TO(y_length), false},
     {"x-unit|unit x", TO(x_unit), true},
     {"y-unit|unit y", TO(y_unit), true},
-    {"z-unit", TO(z_unit), true},
+    {"z-unit|z unit", TO(z_unit), true},
     {"bit2nm", TO(bit), false},
     {"file format", TO(any_line), false},
     {"scale x", TO(x_step), false},
@@ -205,7 +205,8 @@ take_line(struct lines *h, const char *s, size_t n)
         take_entry(h, s + 1, n - 1, &value);
         return true;
     }
-    if (rc_piece_begins((struct rc_piece){s, n}, "wsxm ")) {
+    if (rc_piece_begins((struct rc_piece){s, n}, "wsxm ") ||
+        rc_piece_begins((struct rc_piece){s, n}, "text file create date")) {
         h->any_line = true;
         return true;
     }

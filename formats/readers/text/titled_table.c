@@ -358,6 +358,11 @@ rc_titled_table_left_out(const struct rc_titled_table *t, struct rc_notes *notes
                                      n == 0 ? "" : ", ", quote);
         n++;
     }
+    if (t->numeric != NULL)
+        rc_note(notes,
+                t->words[0] == '\0' ? "a column of words is left out"
+                                    : "the column '%s' holds words and is left out",
+                t->words);
     if (n > 0)
         rc_note(notes, "the column%s %s %s no heights and %s left out", n == 1 ? "" : "s", names,
                 n == 1 ? "holds" : "hold", n == 1 ? "is" : "are");
@@ -365,8 +370,8 @@ rc_titled_table_left_out(const struct rc_titled_table *t, struct rc_notes *notes
 
 /* ---- the table ---- */
 
-/* True if the only comma of a row, as in 1,5, separates columns. It does if one comma separates their titles,
- * and both titles name a column or have a unit in brackets. */
+/* True if the only comma of a row, as in 1,5, separates columns. It does if one comma separates their
+ * titles, and both titles name a column or have a unit in brackets. */
 static bool
 comma_parts_titles(struct rc_piece before, struct rc_piece row)
 {
@@ -440,6 +445,126 @@ find_table(struct rc_titled_table *t, struct rc_piece text, size_t columns, stru
     return RC_OK;
 }
 
+/* ---- columns of words ---- */
+
+enum {
+    FIELDS_MOST = 32
+};
+
+/* Which fields of a row are words. Returns the number of fields; 0 for a row without a word or with
+ * fewer numbers. */
+static size_t
+fields_of(struct rc_piece line, char separator, size_t fewest, bool word[FIELDS_MOST])
+{
+    struct rc_piece field, rest;
+    size_t n = 0, numbers = 0, words = 0;
+    double value;
+
+    line = rc_piece_trim(line);
+    for (; rc_title_next(&line, separator, &field); n++) {
+        bool is_number = rc_piece_number(field, &value, &rest) && rest.n == 0;
+
+        if (n == FIELDS_MOST)
+            return 0;
+        word[n] = !is_number && field.n > 0;
+        numbers += is_number;
+        words += word[n];
+    }
+    return numbers >= fewest && words > 0 ? n : 0;
+}
+
+/* Appends a line without the fields that are words in other lines. */
+static char *
+put_numbers(char *to, struct rc_piece line, char separator, const bool word[FIELDS_MOST])
+{
+    struct rc_piece field;
+    bool first = true;
+
+    for (size_t k = 0; rc_title_next(&line, separator, &field); k++) {
+        if (word[k])
+            continue;
+        if (!first)
+            *to++ = separator;
+        memcpy(to, field.text, field.n);
+        to += field.n;
+        first = false;
+    }
+    return to;
+}
+
+/* Keeps the title of the first column of words, from the line above the first row. */
+static void
+keep_title(struct rc_titled_table *t, struct rc_piece line, char separator,
+           const bool word[FIELDS_MOST])
+{
+    struct rc_piece field = {"", 0};
+
+    for (size_t k = 0; rc_title_next(&line, separator, &field) && !word[k];)
+        k++;
+    rc_piece_shown_to(t->words, field);
+}
+
+/* Copies the text without the columns that hold words in every row; false where there are none, three
+ * rows or more. */
+static bool
+drop_words(struct rc_titled_table *t, struct rc_piece text, char separator)
+{
+    bool word[FIELDS_MOST] = {false}, here[FIELDS_MOST];
+    size_t fields = 0, rows = 0, n;
+    struct rc_piece line, title = {text.text, 0};
+    struct rc_lines lines = rc_piece_lines(text);
+    RC_OWNED char *copy = NULL;
+    char *to;
+
+    while (rc_lines_next(&lines, &line.text, &line.n)) {
+        n = fields_of(line, separator, fields == 0 ? 2 : 1, here);
+        if (fields == 0 && n == 0) {
+            if (lines.number > HEADER_MOST)
+                return false;
+            title = rc_piece_trim(line).n > 0 ? line : title;
+        } else if (fields == 0) {
+            fields = n;
+            memcpy(word, here, sizeof word);
+        } else if (rc_piece_trim(line).n > 0 && (n != fields || memcmp(word, here, n) != 0))
+            return false;
+        rows += n > 0;
+    }
+    if (rows < 3 || (to = copy = malloc(text.n + 1)) == NULL)
+        return false;
+    keep_title(t, title, separator, word);
+    lines = rc_piece_lines(text);
+    while (rc_lines_next(&lines, &line.text, &line.n)) {
+        bool below = line.text >= title.text && rc_piece_trim(line).n > 0;
+
+        if (below)
+            to = put_numbers(to, rc_piece_trim(line), separator, word);
+        else
+            to = (char *)memcpy(to, line.text, line.n) + line.n;
+        if (line.text + line.n < text.text + text.n)
+            *to++ = '\n';
+    }
+    t->numeric = rc_give(&copy);
+    t->numeric[to - t->numeric] = '\0';
+    return true;
+}
+
+/* Finds a table beside columns of words: the text is then t->numeric. */
+static enum rc_status
+find_beside_words(struct rc_titled_table *t, struct rc_piece text)
+{
+    static const char separators[] = ",;\t";
+
+    for (const char *c = separators; *c != '\0'; c++)
+        if (drop_words(t, text, *c)) {
+            if (find_table(t, rc_piece_of(t->numeric), 2, NULL) == RC_OK)
+                return RC_OK;
+            free(t->numeric);
+            t->numeric = NULL;
+            return RC_FAIL;
+        }
+    return RC_FAIL;
+}
+
 static void
 table_close(void *opened)
 {
@@ -451,6 +576,7 @@ table_close(void *opened)
         free(t->as[k].found);
     }
     free(t->own);
+    free(t->numeric);
     free(t->v);
 }
 
@@ -466,7 +592,8 @@ table_of(struct rc_maps *maps, struct rc_err *err)
     t->file = maps->file;
     t->wish = maps->wish;
     t->status = text_of(t, &text, &t->why);
-    if (t->status == RC_OK && find_table(t, text, 2, NULL) != RC_OK)
+    if (t->status == RC_OK && find_table(t, text, 2, NULL) != RC_OK &&
+        find_beside_words(t, text) != RC_OK)
         t->status = find_table(t, text, 1, &t->why);
     return t;
 }

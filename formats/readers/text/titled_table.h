@@ -29,7 +29,9 @@ struct rc_table_kind {
 struct rc_titled_table {
     const struct rc_file *file;
     const struct rc_wish *wish;
-    char *own; /* the text, where it was converted */
+    char *own;            /* the text, where it was converted */
+    char *numeric;        /* the text without its columns of words, where it has some */
+    char words[RC_SHOWN]; /* the title of the first of them */
     struct rc_number_table numbers;
     struct rc_piece title[RC_TITLES_MOST]; /* titles of the columns, from the line before the
                                               first row */
@@ -69,8 +71,8 @@ void *rc_table_as(struct rc_maps *maps, const struct rc_table_kind *kind, enum r
 /* For the kinds. RC_FAIL when the file has no table of numbers: rows of at least two columns, otherwise of
  * one. */
 enum rc_status rc_titled_table_check(const struct rc_titled_table *table, struct rc_err *err);
-/* Reads its values, unless they are read. RC_FAIL names the first row that differs from the first one in its
- * columns. */
+/* Reads its values, unless they are read. RC_FAIL names the first row that differs from the first one in
+ * its columns. */
 enum rc_status rc_titled_table_read(struct rc_titled_table *table, struct rc_err *err);
 /* Of a title without quotes: the unit is the text in brackets, otherwise a word that is a length; empty if
  * there is none. */

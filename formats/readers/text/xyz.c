@@ -2,9 +2,9 @@
 /*
  * Lists of points: columns x, y, z in any order of the points, which must lie on a raster, or in one line.
  * The least x and y come first; a point of the raster that the list leaves out is missing. A line of any
- * direction is a profile, from its end that is nearer to the first point. titled_table.h describes how units,
- * and the roles of columns, are found. Three columns without titles are x, y, z in this order. Titled ones
- * may be more; further heights are channels.
+ * direction is a profile, from its end that is nearer to the first point. titled_table.h describes how
+ * units, and the roles of columns, are found. Three columns without titles are x, y, z in this order.
+ * Titled ones may be more; further heights are channels.
  */
 #include <math.h>
 #include <stdlib.h>
@@ -13,17 +13,12 @@
 #include "titled_table.h"
 #include "formats/format.h"
 
-struct axis {
-    double first, step;
-    size_t n;
-};
-
 struct cloud {
     struct rc_titled_table own; /* the table, with titles only where there is one for each column */
     const struct rc_titled_table *table; /* the same */
     size_t column[2 + RC_MAPS_MOST];     /* columns of x, y and the heights */
     size_t heights;                      /* number of height columns */
-    struct axis x, y;
+    struct rc_raster_axis x, y;
     struct place *place; /* points of a line, sorted; NULL: a raster */
     double *along;       /* their positions */
     struct rc_even even; /* nodes along it */
@@ -50,38 +45,43 @@ by_value(const void *a, const void *b)
     return (x > y) - (x < y);
 }
 
-/* The raster of x (0) or y (1): its values, which may be rounded, lie near places that are evenly apart. */
-static enum rc_status
-find_axis(const struct cloud *c, size_t which, struct axis *axis, struct rc_err *err)
+/* All x (0) or y (1) of the points; NULL with the reason. */
+static double *
+positions_of(const struct cloud *c, size_t which, struct rc_err *err)
 {
     size_t points = c->table->numbers.rows;
-    RC_OWNED double *sorted = malloc(points * sizeof *sorted);
-    double widest = 0, start;
+    RC_OWNED double *at = malloc(points * sizeof *at);
+
+    if (at == NULL)
+        return rc_err_null(err, "out of memory for %zu points", points);
+    for (size_t k = 0; k < points; k++) {
+        at[k] = value_of(c, k, which);
+        if (!isfinite(at[k]))
+            return rc_err_null(err, "point %zu has no %c", k + 1, "xy"[which]);
+    }
+    return rc_give(&at);
+}
+
+static enum rc_status
+find_axis(const struct cloud *c, size_t which, struct rc_raster_axis *axis, struct rc_err *err)
+{
+    size_t points = c->table->numbers.rows;
+    RC_OWNED double *sorted = positions_of(c, which, err);
 
     if (sorted == NULL)
-        return rc_err_set(err, "out of memory for %zu points", points);
-    for (size_t k = 0; k < points; k++) {
-        sorted[k] = value_of(c, k, which);
-        if (!isfinite(sorted[k]))
-            return rc_err_set(err, "point %zu has no %c", k + 1, "xy"[which]);
-    }
+        return RC_FAIL;
     qsort(sorted, points, sizeof *sorted, by_value);
-    for (size_t k = 1; k < points; k++)
-        widest = fmax(widest, sorted[k] - sorted[k - 1]);
-    *axis = (struct axis){.first = sorted[0], .n = 1, .step = 1};
-    for (size_t k = 1; k < points; k++)
-        axis->n += sorted[k] - sorted[k - 1] > 0.01 * widest;
-    if (axis->n > 1)
-        axis->step = (sorted[points - 1] - sorted[0]) / (double)(axis->n - 1);
-    for (size_t k = 0; k < points; k++) {
-        start = (sorted[k] - axis->first) / axis->step;
-        if (!(fabs(start - round(start)) < 0.1))
-            return rc_err_set(err,
-                              "the points are on no raster: their %zu values of %c from %s on are "
-                              "not evenly spaced",
-                              axis->n, "xy"[which], rc_number(axis->first));
-    }
-    return RC_OK;
+    return rc_raster_axis("xy"[which], sorted, points, axis, err);
+}
+
+/* Replaces the reason why there is no raster by that of a raster nearby. Always RC_FAIL. */
+static enum rc_status
+explain(const struct cloud *c, struct rc_err *err)
+{
+    RC_OWNED double *x = positions_of(c, 0, NULL);
+    RC_OWNED double *y = positions_of(c, 1, NULL);
+
+    return x == NULL || y == NULL ? RC_FAIL : rc_raster_explain(x, y, c->table->numbers.rows, err);
 }
 
 /* ---- points in a line ---- */
@@ -231,7 +231,7 @@ cloud_open(void *found, struct rc_titled_table *table, struct rc_err *err)
         return RC_FAIL;
     c->own.v = table->v;
     if (find_axis(c, 0, &c->x, err) != RC_OK || find_axis(c, 1, &c->y, err) != RC_OK)
-        return find_line(c) ? RC_OK : RC_FAIL;
+        return find_line(c) ? RC_OK : explain(c, err);
     points = table->numbers.rows;
     if ((c->x.n < 2 || c->y.n > 4 * points / c->x.n) && !find_line(c))
         return c->x.n < 2 ? rc_err_set(err, "all points have the same x")
@@ -267,6 +267,13 @@ fill_line(const struct cloud *c, const struct rc_map *map, double *v, struct rc_
     return RC_OK;
 }
 
+static void
+note_empty(const struct rc_raster_axis *axis, const char *lines, struct rc_notes *notes)
+{
+    if (axis->empty > 0)
+        rc_note(notes, "%zu of %zu %s have no points and are missing", axis->empty, axis->n, lines);
+}
+
 static enum rc_status
 fill_points(const struct rc_file *file, const struct rc_map *map, double *v, struct rc_err *err)
 {
@@ -277,13 +284,15 @@ fill_points(const struct rc_file *file, const struct rc_map *map, double *v, str
     rc_titled_table_left_out(c->table, map->notes);
     if (c->along != NULL)
         return fill_line(c, map, v, err);
+    note_empty(&c->x, "columns", map->notes);
+    note_empty(&c->y, "rows", map->notes);
     if ((taken = calloc(map->nx, map->ny)) == NULL)
         return rc_err_set(err, "out of memory for %zu points", map->nx * map->ny);
     for (size_t k = 0; k < map->nx * map->ny; k++)
         v[k] = NAN;
     for (size_t k = 0; k < c->table->numbers.rows; k++) {
-        size_t at = (size_t)lround((value_of(c, k, 1) - c->y.first) / c->y.step) * map->nx +
-                    (size_t)lround((value_of(c, k, 0) - c->x.first) / c->x.step);
+        size_t at = rc_raster_node(&c->y, value_of(c, k, 1)) * map->nx +
+                    rc_raster_node(&c->x, value_of(c, k, 0));
         if (taken[at]++ != 0)
             return rc_err_set(err, "point %zu has the same position as another one", k + 1);
         v[at] = value_of(c, k, 2 + map->more);
@@ -331,6 +340,7 @@ runs_straight(const struct cloud *c)
            value_of(c, 0, 1) == value_of(c, last, 1);
 }
 
+/* 4: where the titles name x and y, the refusal names the error. */
 static int
 xyz_score(struct rc_maps *maps)
 {
@@ -340,7 +350,14 @@ xyz_score(struct rc_maps *maps)
 
     if (status == RC_OK)
         return named ? 80 : c->table->numbers.rows > 3 && runs_straight(c) ? 60 : 0;
-    return named && c != NULL && c->table->numbers.columns == 3 ? 50 : 0;
+    if (c == NULL || c->table == NULL || c->table->numbers.columns < 3)
+        return 0;
+    if (named && c->table->numbers.columns == 3)
+        return 50;
+    return rc_titled_table_column(c->table, RC_ROLE_X) < c->table->numbers.columns &&
+                   rc_titled_table_column(c->table, RC_ROLE_Y) < c->table->numbers.columns
+               ? 4
+               : 0;
 }
 
 const struct rc_format rc_format_xyz = {
