@@ -169,6 +169,21 @@ rc_piece_metres(struct rc_piece piece)
     return rc_length_unit(piece.text, piece.n, &metres) ? metres : NAN;
 }
 
+double
+rc_piece_metres_in_capitals(struct rc_piece piece)
+{
+    static const struct {
+        const char *name;
+        double metres;
+    } units[] = {{"M", 1},     {"MM", 1e-3},  {"UM", 1e-6},
+                 {"NM", 1e-9}, {"PM", 1e-12}, {"IN", 25.4e-3}};
+
+    for (size_t k = 0; k < sizeof units / sizeof *units; k++)
+        if (rc_piece_is(piece, units[k].name))
+            return units[k].metres;
+    return rc_piece_metres(piece);
+}
+
 const char *
 rc_piece_shown_to(char to[RC_SHOWN], struct rc_piece piece)
 {

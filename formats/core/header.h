@@ -41,6 +41,8 @@ bool rc_piece_infinite(struct rc_piece piece, double *value);
 
 /* Metres in one unit of the length that the piece names; NAN for another word. */
 double rc_piece_metres(struct rc_piece piece);
+/* The same for files that write units in capitals: "MM" is mm, not Mm. */
+double rc_piece_metres_in_capitals(struct rc_piece piece);
 /* Makes a text safe to quote in a message, as rc_text_shown does. */
 const char *rc_piece_shown_to(char to[RC_SHOWN], struct rc_piece piece);
 #define rc_piece_shown(piece) rc_piece_shown_to((char[RC_SHOWN]){""}, piece)

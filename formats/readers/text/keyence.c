@@ -13,8 +13,8 @@
  *     "Height"
  *     "12.345","","12.347",...
  *
- * Keys are therefore not used: the size must be in two successive rows. Empty quotes are a missing point. The
- * micro sign comes in UTF-8, Latin-1, Shift-JIS, GBK and CP949.
+ * Keys are therefore not used: the size must be in two successive rows. Empty quotes are a missing
+ * point. The micro sign comes in UTF-8, Latin-1, Shift-JIS, GBK and CP949.
  *
  * Written after other programs that read and write such files (kcsv2bcr and others).
  */

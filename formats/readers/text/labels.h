@@ -6,8 +6,8 @@
  *     0,1.02,-1.28,...       0.0,1.02,-1.28,...         "1",1.02,-1.28
  *
  * Labels count in steps of 1. Positions rise or fall evenly in both, where the corner is empty, text, 0 or
- * the number of columns. Where only one of the two counts, it has at least eight numbers or is beside heights
- * that are not whole numbers. Both count where neither begins with 0 or 1. A plane is neither.
+ * the number of columns. Where only one of the two counts, it has at least eight numbers or is beside
+ * heights that are not whole numbers. Both count where neither begins with 0 or 1. A plane is neither.
  */
 #ifndef RC_LABELS_H
 #define RC_LABELS_H

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
- * SMD is the file of software measurement standards (ISO 5436-2:2001). It has records of text, each ended by
- * the byte 3,
+ * SMD is the file of software measurement standards (ISO 5436-2:2001). It has records of text, each
+ * ended by the byte 3,
  *
  *     ISO 5436 - 2 - 2001         revision
  *     PRF 0 line                  a profile, its number and name
@@ -105,22 +105,6 @@ next_record(struct rc_piece *rest, struct rc_piece *record)
     return true;
 }
 
-/* "MM" is mm. */
-static double
-metres_of(struct rc_piece unit)
-{
-    static const struct {
-        const char *name;
-        double metres;
-    } units[] = {{"M", 1},     {"MM", 1e-3},  {"UM", 1e-6},
-                 {"NM", 1e-9}, {"PM", 1e-12}, {"IN", 25.4e-3}};
-
-    for (size_t k = 0; k < sizeof units / sizeof *units; k++)
-        if (rc_piece_is(unit, units[k].name))
-            return units[k].metres;
-    return rc_piece_metres(unit);
-}
-
 static enum rc_status
 fill_heights(const struct rc_file *file, const struct rc_map *map, double *v, struct rc_err *err)
 {
@@ -158,16 +142,18 @@ smd_find(const struct rc_file *file, struct rc_maps *maps, struct rc_err *err)
     if (s.heights != s.points || map->nx > data.n / 2 + 1)
         return rc_err_set(err, "the header promises %zu positions and %g heights, in %zu bytes",
                           map->nx, s.heights, data.n);
-    if (isnan(metres_of(s.x_unit)) || isnan(metres_of(s.z_unit)))
-        return rc_err_set(err, "'%s' is not a unit of length",
-                          rc_piece_shown(isnan(metres_of(s.x_unit)) ? s.x_unit : s.z_unit));
+    if (isnan(rc_piece_metres_in_capitals(s.x_unit)) ||
+        isnan(rc_piece_metres_in_capitals(s.z_unit)))
+        return rc_err_set(
+            err, "'%s' is not a unit of length",
+            rc_piece_shown(isnan(rc_piece_metres_in_capitals(s.x_unit)) ? s.x_unit : s.z_unit));
     map->ny = 1;
     map->at = (size_t)(data.text - (const char *)file->data);
     map->more = data.n;
     map->fill = fill_heights;
-    map->dx = s.step * metres_of(s.x_unit);
+    map->dx = s.step * rc_piece_metres_in_capitals(s.x_unit);
     map->scale = s.scale;
-    map->si = metres_of(s.z_unit);
+    map->si = rc_piece_metres_in_capitals(s.z_unit);
     strcpy(map->unit, "m");
     rc_maps_key(maps, "file.title", s.name);
     return RC_OK;

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
  * Wyko (Veeco, Bruker) as text: `Wyko ASCII Data File Format 0`, two flags, then names and values between
- * tabs. Then come the blocks of an OPD file, one a line: name, type, length, value. The numbers of a block of
- * heights follow it, a column of the map in each line, the lowest first, as in the binary file:
+ * tabs. Then come the blocks of an OPD file, one a line: name, type, length, value. The numbers of a
+ * block of heights follow it, a column of the map in each line, the lowest first, as in the binary file:
  *
  *     Wyko ASCII Data File Format 0 <tab> 0 <tab> 1
  *     X Size <tab> 640
@@ -15,7 +15,8 @@
  * Numbers are in units of the wavelength over Mult, or, where the first flag is 1, nanometres. `Bad` is
  * missing. Other files have a point a line instead, x and y in millimetres and z in nanometres, column by
  * column. The layout is the one that Gwyddion and SurfaceTopography read. Gwyddion multiplies by Mult since
- * a version between 2.50 and 2.71, in nanometres too. Before, it divided by Mult, as SurfaceTopography does.
+ * a version between 2.50 and 2.71, in nanometres too. Before, it divided by Mult, as SurfaceTopography
+ * does.
  */
 #include <math.h>
 #include <string.h>

@@ -12,8 +12,8 @@
  *
  * Format 1: then lines of column, row and micrometres, or `No Data`, up to `#`. Format 2: intensities up to
  * `#`, and phases up to `#`, row by row. Phases are whole numbers of S O wavelength / R, where R is 4096,
- * 32768 or 131072 by the phase resolution. They are missing from 2147483640 on. The first row is the top one,
- * as in MetroPro's binary files.
+ * 32768 or 131072 by the phase resolution. They are missing from 2147483640 on. The first row is the top
+ * one, as in MetroPro's binary files.
  *
  * Written after other programs that read and write such files (prysm and others).
  */

@@ -59,6 +59,8 @@ const struct made_file made_files[] = {
     {"FRT 1.01", "frt", "a.frt", make_frt, 1, HAS_MISSING, 1e-9, 0},
     {"TrueMap", "tmd", "a.tmd", make_tmd, 0, HAS_MISSING, 1e-6, 0},
     {"GelSight", "tmd", "a.tmd", make_tmd, 1, HAS_MISSING, 1e-3, 0},
+    {"STL", "stl", "a.stl", make_stl, 0, 0, 1e-3, 0},
+    {"STL text", "stl", "a.stl", make_stl, 1, IS_TEXT, 1e-3, 0},
     {"Surfer text", "grd", "a.grd", make_grd, 0, HAS_MISSING | NO_SPACING | NO_UNIT | IS_TEXT, 1e-9,
      0},
     {"Surfer 6", "grd", "a.grd", make_grd, 1, HAS_MISSING | NO_SPACING | NO_UNIT, 1e-9, 0},

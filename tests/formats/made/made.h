@@ -97,7 +97,7 @@ made_maker make_nanoscope, make_nid, make_gwy, make_gsf, make_ibw, make_mi, make
     make_mdt, make_createc, make_iso28600;
 /* others.c */
 made_maker make_bcr, make_frt, make_tmd, make_grd, make_esri, make_npy, make_opdx, make_vk4,
-    make_vk6, make_xyz;
+    make_vk6, make_xyz, make_stl;
 
 /* arrays.c */
 made_maker make_mat, make_nrrd;

@@ -124,6 +124,58 @@ make_esri(struct bytes *m, int variant)
                                "DY 1.29\r\n 10 -20 30 40\r\n-9999 -60");
 }
 
+/* Corner (i, j) of a triangle in mm. */
+static void
+stl_corner(struct bytes *m, int variant, size_t i, size_t j)
+{
+    double z = value_of(j * NX + i, true), x = 1.1e-3 * (double)i,
+           y = 1.29e-3 * (double)(NY - 1 - j);
+    char text[80];
+
+    if (variant == 0) {
+        add_raw(m, RC_RAW_F32, x);
+        add_raw(m, RC_RAW_F32, y);
+        add_raw(m, RC_RAW_F32, z);
+        return;
+    }
+    snprintf(text, sizeof text, "   vertex %.4f %.5f %g\r\n", x, y, z);
+    add_text(m, text);
+}
+
+/* A triangle over a cell, counterclockwise from above, with a normal of 0. */
+static void
+stl_triangle(struct bytes *m, int variant, size_t i, size_t j, bool upper)
+{
+    if (variant == 0)
+        add_zeros(m, 12);
+    else
+        add_text(m, " facet normal 0 0 0\r\n  outer loop\r\n");
+    stl_corner(m, variant, i, j);
+    stl_corner(m, variant, upper ? i + 1 : i, j + 1);
+    stl_corner(m, variant, i + 1, upper ? j : j + 1);
+    if (variant == 0)
+        add_zeros(m, 2);
+    else
+        add_text(m, "  endloop\r\n endfacet\r\n");
+}
+
+/* 0: binary, 1: text */
+void
+make_stl(struct bytes *m, int variant)
+{
+    if (variant == 0) {
+        add_zeros(m, 80);
+        add_raw(m, RC_RAW_U32, 4);
+    } else
+        add_text(m, "solid sheet\r\n");
+    for (size_t i = 0; i + 1 < NX; i++) {
+        stl_triangle(m, variant, i, 0, false);
+        stl_triangle(m, variant, i, 0, true);
+    }
+    if (variant == 1)
+        add_text(m, "endsolid sheet\r\n");
+}
+
 /* Variants 0 to 9 differ in the type. 10: the first transposed; 11: version 2 of the header, big */
 void
 make_npy(struct bytes *m, int variant)
