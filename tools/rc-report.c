@@ -22,8 +22,10 @@ static struct args {
     double outliers, nu;
     struct numbers noise;
     bool mirror;
-    const char *title;
-} args = {.physics = PHYSICS_NONE, .effects = SCENE_NOTHING, .outliers = NAN, .nu = NAN};
+    const char *title, *relaxation, *travel;
+    size_t passes;
+} args = {
+    .physics = PHYSICS_NONE, .effects = SCENE_NOTHING, .outliers = NAN, .nu = NAN, .passes = 1};
 
 #define AT(field) .at = offsetof(struct args, field)
 /* clang-format off */
@@ -44,6 +46,16 @@ static const struct opt opts[] = {
      .help = "noise of the measurement: the figures of the contact get bars, as by rc-cost"},
     {.title = "data of the effects"},
     {.group = scene_options, AT(effects)},
+    {.name = "relaxation", .type = OPT_TEXT, AT(relaxation), .result = true, .arg = "EINF,E1:TAU1,...|FILE",
+     .against = RULES({.with = "E1 MODULUS", .because = "the moduli of body 1 are those of --relaxation"},
+                      {.with = "estar", .because = "body 1 needs its Poisson's ratio"}),
+     .help = "creep: the relaxation modulus of body 1, instead of --E1; with --time"},
+    {.name = "travel", .type = OPT_TEXT, AT(travel), .result = true, .arg = "LIST",
+     .needs = RULES({.with = "radius|cylinder", .because = "nothing travels"}),
+     .help = "travel: positions of the contact along x, from the middle of the map"},
+    {.name = "passes", .type = OPT_COUNT, AT(passes), .min = 1, .max = 1e6, .result = true, .arg = "N",
+     .needs = RULES({.with = "travel"}, {.with = "yield", .because = "an elastic body does not change from pass to pass"}),
+     .help = "travel: go through the positions N times, with --yield in the volume"},
     {.title = "output"},
     {.name = "title", .type = OPT_TEXT, AT(title), .arg = "TEXT",
      .help = "title of the page (default: the name of the file)"},
@@ -66,7 +78,8 @@ static const struct tool_info info = {
 };
 
 enum {
-    WORDS = 512 /* more than a command has words or a table columns */
+    WORDS = 512, /* more than a command has words or a table columns */
+    CELL = 128   /* a name, a number or a unit */
 };
 
 struct run {
@@ -83,6 +96,12 @@ struct run {
     size_t contacts;
     const char *scene[WORDS]; /* options of rc-scene: the last load, the bodies, data of effects */
     size_t scenes;
+    const char *given[WORDS]; /* all options that change results */
+    size_t givens;
+    char times[4 * RC_NUMBER_SIZE]; /* of a creep curve */
+    char stress[8192];              /* the report of the stresses below all of the map */
+    double yield;                   /* the given yield stress; NAN: none */
+    const char *shown;              /* the file of the part that is written */
     struct text {
         char *text;
         size_t size;
@@ -194,8 +213,12 @@ show_picture(struct run *run, FILE *in, const char *caption, const char *unused)
     FILE *out = run->page.file;
     unsigned char bytes[3];
     char four[5];
+    const int first = getc(in);
 
     (void)unused;
+    if (first == EOF) /* of an effect that was not computed */
+        return;
+    (void)ungetc(first, in);
     fprintf(out, "<figure><img alt=\"%s\" src=\"data:image/png;base64,", caption);
     for (size_t n; (n = fread(bytes, 1, sizeof bytes, in)) > 0;)
         fputs(rc_base64(four, bytes, n), out);
@@ -227,13 +250,137 @@ show_lines(struct run *run, FILE *in, const char *from, const char *to)
     fputs("</pre>\n", run->page.file);
 }
 
-/* Shows these columns of a report, its numbers with four digits. */
+/* ---- tables of reports ---- */
+
+/* A value of a report with its unit, in four digits; what is no number, as it is. A length below 1 fm is only
+ * rounding. */
+static void
+put_value(FILE *out, const char *text, const char *unit)
+{
+    char *end;
+    const double value = strtod(text, &end);
+    const double whole = value == 0 || strcmp(unit, "m") != 0 || fabs(value) >= 1e-15 ? value : 0;
+
+    if (strcmp(text, "NaN") == 0 || *text == '\0')
+        putc('-', out);
+    else if (strcmp(text, "true") == 0 || strcmp(text, "false") == 0)
+        fputs(*text == 't' ? "yes" : "no", out);
+    else if (end == text || *end != '\0')
+        put_text(out, text);
+    else if (strcmp(unit, "m2") == 0)
+        fputs(shown_area(value), out);
+    else
+        fprintf(out, "%s%s", shown_number(whole, 4, unit), unit);
+}
+
+/* A cell of a line, which the next one follows: ends it and returns the rest. */
+static char *
+end_cell(char *cell)
+{
+    char *rest = cell + strcspn(cell, "\t\n");
+
+    if (*rest != '\0')
+        *rest++ = '\0';
+    return rest;
+}
+
+/* Writes the cell of a column in the last row of a report to `text`, and its unit to `unit`. False: the report
+ * is empty or has no such column. */
+static bool
+last_cell(struct run *run, const char *file, const char *column, char text[CELL], char unit[CELL])
+{
+    FILE *in = open_part(run, file);
+    RC_OWNED char *line = NULL;
+    size_t room = 0, at = SIZE_MAX;
+    const size_t name = strlen(column);
+
+    *text = '\0';
+    for (size_t row = 0; getline(&line, &room, in) > 0; row++) {
+        char *cell = line, *rest;
+
+        for (size_t k = 0; *cell != '\0'; k++, cell = rest) {
+            rest = end_cell(cell);
+            if (row == 0 && strncmp(cell, column, name) == 0 &&
+                (cell[name] == '/' || cell[name] == '\0')) {
+                at = k;
+                snprintf(unit, CELL, "%s", cell[name] == '/' ? cell + name + 1 : "");
+            }
+            if (row > 0 && k == at)
+                snprintf(text, CELL, "%s", cell);
+        }
+    }
+    fclose(in);
+    return at != SIZE_MAX && *text != '\0';
+}
+
+static double
+last_number(struct run *run, const char *file, const char *column)
+{
+    char text[CELL], unit[CELL];
+
+    return last_cell(run, file, column, text, unit) ? strtod(text, NULL) : NAN;
+}
+
+static void
+put_last(struct run *run, const char *file, const char *column)
+{
+    char text[CELL], unit[CELL];
+
+    if (last_cell(run, file, column, text, unit))
+        put_value(run->page.file, text, unit);
+    else
+        fputs("unknown", run->page.file);
+}
+
+static void
+put_title(FILE *out, const char *column)
+{
+    const struct rc_figure *f = report_figure(column);
+
+    if (f != NULL && f->title != NULL)
+        put_text(out, f->title);
+    else
+        for (const char *c = column; *c != '\0'; c++)
+            putc(*c == '_' ? ' ' : *c, out);
+}
+
+/* Shows these figures of the last row of a report, one below the other. */
+static void
+show_figures(struct run *run, FILE *in, const char *columns, const char *unused)
+{
+    FILE *out = run->page.file;
+    char word[CELL], text[CELL], unit[CELL];
+
+    (void)unused;
+    if (getc(in) == EOF) {
+        fputs("<p>This was not computed: see the messages under Accuracy.</p>\n", out);
+        return;
+    }
+    fputs("<table>\n", out);
+    for (const char *at = columns; *at != '\0'; at += strspn(at, " ")) {
+        const size_t n = strcspn(at, " ");
+
+        snprintf(word, sizeof word, "%.*s", (int)n, at);
+        at += n;
+        if (!last_cell(run, run->shown, word, text, unit) || strcmp(text, "NaN") == 0)
+            continue;
+        fputs("<tr><th>", out);
+        put_title(out, word);
+        fputs("</th><td>", out);
+        put_value(out, text, unit);
+        fputs("</td></tr>\n", out);
+    }
+    fputs("</table>\n", out);
+}
+
+/* Shows these columns of a report, if its last row has a value. */
 static void
 show_table(struct run *run, FILE *in, const char *columns, const char *unused)
 {
     FILE *out = run->page.file;
+    char unit[WORDS][CELL], text[CELL], other[CELL];
     bool wanted[WORDS] = {false};
-    char *line = NULL, *end;
+    char *line = NULL, *rest;
     size_t room = 0;
 
     (void)unused;
@@ -242,26 +389,26 @@ show_table(struct run *run, FILE *in, const char *columns, const char *unused)
         char *cell = line;
 
         fputs("<tr>", out);
-        for (size_t k = 0, n; k < WORDS && *cell != '\0'; k++, cell += n + 1) {
-            double value = strtod(cell, &end);
-
-            n = strcspn(cell, "\t\n");
-            cell[n] = '\0';
+        for (size_t k = 0; k < WORDS && *cell != '\0'; k++, cell = rest) {
+            rest = end_cell(cell);
             if (row == 0) {
-                char name[64];
+                const size_t n = strcspn(cell, "/");
+                char name[CELL];
 
-                snprintf(name, sizeof name, " %.*s ", (int)strcspn(cell, "/"), cell);
-                wanted[k] = strstr(columns, name) != NULL;
+                snprintf(name, sizeof name, " %.*s ", (int)n, cell);
+                snprintf(unit[k], CELL, "%s", cell[n] == '/' ? cell + n + 1 : "");
+                cell[n] = '\0';
+                wanted[k] = strstr(columns, name) != NULL &&
+                            last_cell(run, run->shown, cell, text, other) &&
+                            strcmp(text, "NaN") != 0;
             }
             if (!wanted[k])
                 continue;
-            for (char *c = cell; row == 0 && (c = strchr(c, '_')) != NULL;)
-                *c = ' ';
             fputs(row == 0 ? "<th>" : "<td>", out);
-            if (row > 0 && n > 0 && end == cell + n)
-                fprintf(out, "%.4g", value);
+            if (row > 0)
+                put_value(out, cell, unit[k]);
             else
-                put_text(out, cell);
+                put_title(out, cell);
             fputs(row == 0 ? "</th>" : "</td>", out);
         }
         fputs("</tr>\n", out);
@@ -360,6 +507,122 @@ show_bodies(struct run *run, FILE *in, const char *a, const char *b)
             : p->boundary.y              ? "repeats along y"
                                          : "ends at its edges",
             run->assumed ? " No elasticity was given: these are values of steel on steel." : "");
+}
+
+/* The first paragraph of a contact in words: area, pressure, what yields, the error. */
+static void
+put_contact(struct run *run)
+{
+    static const char loads[] = "loads.tsv";
+    const struct physics *p = &args.physics;
+    FILE *out = run->page.file;
+    const double bound = last_number(run, loads, "plastic_area"),
+                 area = last_number(run, loads, "contact_area");
+    const double stress = json_real(json_member(run->stress, "largest.mises.value")),
+                 depth = json_real(json_member(run->stress, "largest.mises.depth"));
+    const double fraction = last_number(run, loads, "contact_fraction");
+
+    fputs("Under a load of ", out);
+    put_last(run, loads, "load");
+    fputs(", a mean pressure of ", out);
+    put_last(run, loads, "mean_pressure");
+    fprintf(out, ", the bodies touch on %.3g %% of the map, ", 100 * fraction);
+    put_last(run, loads, "contact_area");
+    fputs(". The largest pressure is ", out);
+    put_last(run, loads, "max_pressure");
+    if (isfinite(p->hardness) && bound > 0)
+        fprintf(out, ": the hardness, at which %.3g %% of the contact yields. ",
+                100 * bound / area);
+    else if (isfinite(p->hardness))
+        fputs(", below the hardness: nothing yields at the surface. ", out);
+    else
+        fputs("; the bodies are elastic, and no hardness limits it. ", out);
+    if (!isnan(stress)) {
+        fprintf(out, "Below it the largest Mises stress is %sPa", shown_number(stress, 4, "Pa"));
+        if (depth > 0)
+            fprintf(out, ", %sm deep", shown_number(depth, 3, "m"));
+        if (!(run->yield > 0))
+            fputs(": a material with a lower yield stress yields there. ", out);
+        else
+            fprintf(out, ", %s the yield stress of %s: %s. ",
+                    stress > run->yield ? "above" : "below", shown_in_unit(run->yield, "Pa"),
+                    stress > run->yield ? "the volume yields, which these figures do not include"
+                                        : "the volume stays elastic");
+    }
+    fprintf(out, "The estimated error of the pressure is %.2g %%",
+            100 * last_number(run, loads, "pressure_error_estimate"));
+    if (!isnan(last_number(run, loads, "contact_area_error_estimate")))
+        fprintf(out, ", that of the area %.2g %%",
+                100 * last_number(run, loads, "contact_area_error_estimate"));
+    fputs(".\n", out);
+}
+
+/* What limits the trust in the contact, each in some words. */
+static void
+put_limits(struct run *run)
+{
+    static const char loads[] = "loads.tsv";
+    const double nodes = last_number(run, loads, "contact_nodes"),
+                 patch = last_number(run, loads, "nodes_per_patch"),
+                 edge = last_number(run, loads, "edge_load_fraction"),
+                 slope = last_number(run, loads, "rms_slope");
+    char text[CELL], unit[CELL];
+    const struct {
+        bool holds;
+        const char *format;
+        double value;
+    } limit[] = {
+        {last_cell(run, loads, "converged", text, unit) && strcmp(text, "false") == 0,
+         "the solver stopped before its tolerance", 0},
+        {nodes < 100, "only %.0f nodes touch, so that the grid decides", nodes},
+        {nodes >= 100 && patch < 4, "a contact patch has only %.2g nodes, so that the grid decides",
+         patch},
+        {rc_repeats(args.physics.boundary) == 0 && edge > 0.01,
+         "the edge of the map carries %.2g %% of the load, so that a larger map has another result",
+         100 * edge},
+        {slope > 0.3,
+         "the RMS slope where the bodies touch is %.2g, beyond the theory of small slopes", slope},
+        {last_number(run, loads, "max_pressure") > args.physics.surface_estar / 10,
+         "the largest pressure is beyond a tenth of E*, where strains are not small", 0},
+        {run->assumed, "no elasticity was given, so that the values are those of steel on steel",
+         0},
+    };
+    FILE *out = run->page.file;
+    size_t n = 0;
+
+    for (size_t k = 0; k < sizeof limit / sizeof *limit; k++)
+        if (limit[k].holds) {
+            fputs(n++ == 0 ? "What limits the trust in these figures: " : "; ", out);
+            fprintf(out, limit[k].format, limit[k].value);
+        }
+    if (n == 0)
+        fputs(args.noise.n > 0
+                  ? "The checks of the grid, the edges and the slopes found nothing that limits "
+                    "these figures; the bars under Accuracy are those of the measurement"
+                  : "The checks of the grid, the edges and the slopes found nothing that limits "
+                    "these figures; --noise adds bars for the measurement",
+              out);
+    fputs(".\n", out);
+}
+
+static void show_verdict(struct run *run, FILE *in, const char *a, const char *b);
+
+/* The limits of all tools, as README has them. */
+static void
+show_limits(struct run *run, FILE *in, const char *a, const char *b)
+{
+    (void)in, (void)a, (void)b;
+    fputs("<ul>\n"
+          "<li>Bodies are half-spaces with small slopes and small strains: thin bodies do not "
+          "bend, and bodies "
+          "have no side edges.</li>\n"
+          "<li>No fluid film carries load. Temperatures do not change the contact, and metals do "
+          "not creep. "
+          "Wear depends on the sliding distance alone.</li>\n"
+          "<li>You choose the filters, the form and the threshold of spikes. A scan too coarse for "
+          "its contact "
+          "gets a warning; nothing is corrected behind your back.</li>\n</ul>\n",
+          run->page.file);
 }
 
 static void
@@ -462,6 +725,16 @@ has_noise(const struct run *run)
 }
 
 static bool
+was_given(const struct run *run, const char *name, size_t n)
+{
+    for (size_t k = 0; k < run->givens; k++)
+        if (strncmp(run->given[k], "--", 2) == 0 && strlen(run->given[k]) == n + 2 &&
+            strncmp(run->given[k] + 2, name, n) == 0)
+            return true;
+    return false;
+}
+
+static bool
 has_several_loads(const struct run *run)
 {
     return run->loads > 1;
@@ -476,6 +749,9 @@ static const struct part {
     const char *a, *b;
     bool (*wanted)(const struct run *run); /* NULL: always */
     bool may_fail;                         /* its file is then empty */
+    /* of an effect: options that must be given; an empty file of its section shows nothing */
+    const char *needs;
+    const char *says, *figure; /* a sentence of the first paragraph about a figure of the file */
 } parts[] = {
     {.command = "rc-import ORIGINAL", .file = "measured.rcg", .wanted = is_measured},
     {.command = "rc-detrend PREPARED", .file = "surface.rcg"},
@@ -506,8 +782,9 @@ static const struct part {
      .show = show_lines,
      .a = "profile",
      .b = "keys"},
-    {.heading = "Under load", .show = show_bodies},
-    {.command = "rc-solve CONTACT --output pressure --report loads.tsv surface.rcg",
+    {.heading = "Under load", .show = show_verdict},
+    {.show = show_bodies},
+    {.command = "rc-solve CONTACT --output OUTPUT --report loads.tsv surface.rcg",
      .file = "contact.rcg"},
     {.command = "rc-pick --case LAST contact.rcg", .file = "last.rcg"},
     {.command = "rc-render --quiet --width 800 last.rcg",
@@ -524,12 +801,146 @@ static const struct part {
      .show = show_picture,
      .a = "Real contact area, as a share of the map, against the mean pressure",
      .wanted = has_several_loads},
-    {.command = "rc-stress NU --section y=0 --depths auto --components mises last.rcg",
+    {.command = "rc-stress NU --section y=0 --depths auto --components mises "
+                "last.rcg",
      .file = "section.rcg"},
     {.command = "rc-render --quiet --log --width 800 section.rcg",
      .file = "section.png",
      .show = show_picture,
      .a = "Mises stress below the middle of the map, under the last load"},
+    {.command =
+         "rc-stress NU --depths auto --components mises --report stress.json last.rcg -o /dev/null",
+     .file = "stress.json"},
+    {.heading = "Travel",
+     .needs = "travel",
+     .command =
+         "rc-solve BARE @yield @travel @passes --output pressure --report travel.tsv surface.rcg",
+     .file = "travel.rcg"},
+    {.needs = "travel",
+     .file = "travel.tsv",
+     .show = show_table,
+     .a =
+         " position pass height max_pressure contact_fraction strain_gain plastic_depth converged ",
+     .says = "After the last pass the body has shaken down: %s.",
+     .figure = "shakedown"},
+    {.needs = "travel",
+     .command =
+         "rc-render --quiet --curve position:max_pressure --subtitle= --width 800 travel.tsv",
+     .file = "travel.png",
+     .show = show_picture,
+     .a = "Largest pressure at each position"},
+    {.heading = "Creep",
+     .needs = "relaxation time",
+     .command =
+         "rc-solve SOFT @relaxation --time TIMES --output pressure --report creep.tsv surface.rcg",
+     .file = "creep.rcg"},
+    {.needs = "relaxation time",
+     .file = "creep.tsv",
+     .show = show_table,
+     .a = " time contact_fraction max_pressure indentation mean_gap pressure_error_estimate "
+          "converged ",
+     .says = "By creep the share of the map in contact becomes %s in the given time.",
+     .figure = "contact_fraction"},
+    {.needs = "relaxation time",
+     .command = "rc-render --quiet --curve time:contact_fraction --log x --y-unit % --subtitle= "
+                "--width 800 creep.tsv",
+     .file = "creep.png",
+     .show = show_picture,
+     .a = "Real contact area, as a share of the map, against time"},
+    {.heading = "Friction",
+     .needs = "mu tangential",
+     .command =
+         "rc-slip @mu @tangential COUPLING --output pressure,state --report slip.tsv last.rcg",
+     .file = "slip.rcg"},
+    {.needs = "mu tangential",
+     .file = "slip.tsv",
+     .show = show_figures,
+     .a = "tangential_x limit displacement_x stick_fraction largest_slip tangential_stiffness "
+          "dissipated_energy "
+          "traction_error_estimate converged",
+     .says = "The tangential force leaves a share of %s of the contact sticking.",
+     .figure = "stick_fraction"},
+    {.needs = "mu tangential",
+     .command = "rc-render --quiet --channel state --width 800 slip.rcg",
+     .file = "slip.png",
+     .show = show_picture,
+     .a = "Where the contact sticks, and where it slips"},
+    {.heading = "Wear",
+     .needs = "coefficient distance",
+     .command = "rc-wear @coefficient @distance --report wear.tsv --steps steps.tsv last.rcg",
+     .file = "wear.rcg"},
+    {.needs = "coefficient distance",
+     .file = "wear.tsv",
+     .show = show_figures,
+     .a = "distance wear_volume wear_volume_1 wear_volume_2 max_wear_depth mean_wear_depth "
+          "contact_fraction "
+          "max_pressure approach wear_error_estimate converged",
+     .says = "At the end of the sliding distance the largest worn depth is %s.",
+     .figure = "max_wear_depth"},
+    {.needs = "coefficient distance",
+     .command = "rc-render --quiet --curve distance:max_pressure --log xy --subtitle= --width 800 "
+                "steps.tsv",
+     .file = "wear.png",
+     .show = show_picture,
+     .a = "Largest pressure against the sliding distance"},
+    {.heading = "Heat",
+     .needs = "mu speed conductivity diffusivity",
+     .command =
+         "rc-heat @mu @speed @conductivity @diffusivity @moving @time --report heat.tsv last.rcg",
+     .file = "heat.rcg"},
+    {.needs = "mu speed conductivity diffusivity",
+     .file = "heat.tsv",
+     .show = show_figures,
+     .a = "speed heat_power share_1 max_temperature max_x max_y mean_temperature "
+          "temperature_error_estimate "
+          "steady_time converged",
+     .says = "Friction heats the contact by up to %s.",
+     .figure = "max_temperature"},
+    {.needs = "mu speed conductivity diffusivity",
+     .command = "rc-render --quiet --channel temperature-1 --width 800 heat.rcg",
+     .file = "heat.png",
+     .show = show_picture,
+     .a = "Temperature of the surface of body 1, above that of the bodies"},
+    {.heading = "Leak",
+     .needs = "pressure-drop",
+     .command = "rc-leak FLUID --report leak.tsv last.rcg",
+     .file = "leak.rcg"},
+    {.needs = "pressure-drop",
+     .file = "leak.tsv",
+     .show = show_figures,
+     .a = "percolates flow_rate flow_conductance flow_factor mean_gap critical_gap critical_x "
+          "critical_y "
+          "throat_nodes discretization_error_estimate",
+     .says = "A fluid gets through the gap: %s.",
+     .figure = "percolates"},
+    {.needs = "pressure-drop",
+     .command = "rc-render --quiet --channel channel --width 800 leak.rcg",
+     .file = "leak.png",
+     .show = show_picture,
+     .a = "Where the fluid flows, and where it stands"},
+    {.heading = "Fatigue",
+     .needs = "bending-limit torsion-limit",
+     .command = "rc-fatigue NU @bending-limit @torsion-limit --pass x --depths auto --report "
+                "fatigue.tsv last.rcg",
+     .file = "fatigue.rcg"},
+    {.needs = "bending-limit torsion-limit",
+     .file = "fatigue.tsv",
+     .show = show_figures,
+     .a = "safety crossland crossland_depth dangvan dangvan_depth amplitude amplitude_depth "
+          "sampling_error_estimate converged",
+     .says = "When the contact passes along x, the safety factor against fatigue is %s.",
+     .figure = "safety"},
+    {.heading = "Shakedown",
+     .needs = "yield",
+     .command = "rc-fatigue NU --criteria shakedown @yield --pass x --depths auto --report "
+                "shakedown.tsv last.rcg",
+     .file = "shakedown.rcg"},
+    {.needs = "yield",
+     .file = "shakedown.tsv",
+     .show = show_figures,
+     .a = "shakedown shakedown_x shakedown_y shakedown_depth shakedown_error_estimate",
+     .says = "The index of elastic shakedown is %s; above 1 the body yields again at each pass.",
+     .figure = "shakedown"},
     {.heading = "Effects",
      .command = "rc-scene --quiet SCENE surface.rcg",
      .file = "effects.txt",
@@ -548,11 +959,68 @@ static const struct part {
      .show = show_bars,
      .wanted = has_noise},
     {.show = show_messages},
+    {.heading = "Limits", .show = show_limits},
     {.heading = "Origin", .file = "parameters.txt", .show = show_lines, .a = "keys"},
     {.heading = "Commands", .show = show_commands},
 };
 
+static bool
+is_wanted(const struct run *run, const struct part *part)
+{
+    if (part->wanted != NULL && !part->wanted(run))
+        return false;
+    for (const char *at = part->needs; at != NULL && *at != '\0'; at += strspn(at, " ")) {
+        const size_t n = strcspn(at, " ");
+
+        if (!was_given(run, at, n))
+            return false;
+        at += n;
+    }
+    return true;
+}
+
+/* True if the page has a section of an effect that reads the gap and the heights of the contact. */
+static bool
+has_readers(const struct run *run)
+{
+    for (size_t k = 0; k < sizeof parts / sizeof *parts; k++)
+        if (parts[k].needs != NULL && parts[k].command != NULL && is_wanted(run, &parts[k]) &&
+            strstr(parts[k].command, "last.rcg") != NULL)
+            return true;
+    return false;
+}
+
+static void
+show_verdict(struct run *run, FILE *in, const char *a, const char *b)
+{
+    FILE *out = run->page.file;
+    char text[CELL], unit[CELL];
+
+    (void)in, (void)a, (void)b;
+    fputs("<p id=\"verdict\">", out);
+    put_contact(run);
+    for (size_t k = 0; k < sizeof parts / sizeof *parts; k++) {
+        const char *says = parts[k].says, *at = says == NULL ? NULL : strstr(says, "%s");
+
+        if (at == NULL || !is_wanted(run, &parts[k]) ||
+            !last_cell(run, parts[k].file, parts[k].figure, text, unit) || strcmp(text, "NaN") == 0)
+            continue;
+        fprintf(out, "%.*s", (int)(at - says), says);
+        put_value(out, text, unit);
+        fprintf(out, "%s\n", at + 2);
+    }
+    put_limits(run);
+    fputs("</p>\n", out);
+}
+
 /* ---- commands ---- */
+
+static bool
+is_load(const char *word)
+{
+    return strcmp(word, "--load") == 0 || strcmp(word, "--mean-pressure") == 0 ||
+           strcmp(word, "--approach") == 0;
+}
 
 struct command {
     const char *word[WORDS + 1];
@@ -582,7 +1050,36 @@ add_preparation(const struct run *run, struct command *c)
     add(c, run->stream ? run->path : "measured.rcg", NULL);
 }
 
-/* Adds a word of a command. ORIGINAL, PREPARED and the like are replaced by files and options. */
+/* Adds an option with its values, if it was given. */
+static void
+add_given(const struct run *run, struct command *c, const char *name)
+{
+    for (size_t k = 0; k < run->givens; k++)
+        if (strncmp(run->given[k], "--", 2) == 0 && strcmp(run->given[k] + 2, name) == 0) {
+            add(c, run->given[k++], NULL);
+            while (k < run->givens && strncmp(run->given[k], "--", 2) != 0)
+                add(c, run->given[k++], NULL);
+            return;
+        }
+}
+
+/* Adds the contact under the last load without a hardness, `soft`: and without the modulus of body 1. */
+static void
+add_last_contact(const struct run *run, struct command *c, bool soft)
+{
+    bool in = true;
+
+    for (size_t k = 0; k < run->contacts; k++) {
+        const char *word = run->contact[k];
+
+        if (strncmp(word, "--", 2) == 0)
+            in = strcmp(word, "--hardness") != 0 && !(soft && strcmp(word, "--E1") == 0);
+        if (in)
+            add(c, k > 0 && is_load(run->contact[k - 1]) ? run->load : word, NULL);
+    }
+}
+
+/* Adds a word of a command. @NAME is this option, if it was given. ORIGINAL, PREPARED and the like are replaced by files and options. */
 static void
 expand(const struct run *run, struct command *c, const char *word)
 {
@@ -594,6 +1091,23 @@ expand(const struct run *run, struct command *c, const char *word)
         add(c, run->last, NULL);
     else if (strcmp(word, "NOISE") == 0)
         add(c, run->noise, NULL);
+    else if (strcmp(word, "OUTPUT") == 0)
+        add(c, has_readers(run) ? "pressure,gap,height" : "pressure", NULL);
+    else if (strcmp(word, "COUPLING") == 0 && !isfinite(args.physics.hardness))
+        return; /* rc-slip solves further loads of elastic bodies only */
+    else if (strcmp(word, "COUPLING") == 0)
+        add(c, "--coupling", "none");
+    else if (strcmp(word, "FLUID") == 0 && !was_given(run, "viscosity", strlen("viscosity")))
+        return; /* the flow rate depends on both */
+    else if (strcmp(word, "FLUID") == 0) {
+        add_given(run, c, "pressure-drop");
+        add_given(run, c, "viscosity");
+    } else if (strcmp(word, "TIMES") == 0)
+        add(c, run->times, NULL);
+    else if (strcmp(word, "BARE") == 0 || strcmp(word, "SOFT") == 0)
+        add_last_contact(run, c, *word == 'S');
+    else if (*word == '@')
+        add_given(run, c, word + 1);
     else if (strcmp(word, "CONTACT") == 0)
         for (size_t k = 0; k < run->contacts; k++)
             add(c, run->contact[k], NULL);
@@ -654,14 +1168,26 @@ take_messages(struct run *run, const char *name, enum process_end end, struct pr
 }
 
 static void
+leave_empty(struct run *run, const char *name)
+{
+    char path[WHOLE_PATH];
+    FILE *empty;
+
+    snprintf(path, sizeof path, "%s/%s", folder, name);
+    empty = fopen(path, "wb");
+    if (empty == NULL || fclose(empty) != 0)
+        tool_die(&run->t, "%s: %s", path, strerror(errno));
+}
+
+/* Runs the command of a part. False: it failed, which it may. */
+static bool
 run_part(struct run *run, const struct part *part)
 {
     struct process p = {
         .in = run->nothing, .out = run->nothing, .folder = folder, .allowed = INFINITY};
     struct command c = {.n = 0};
-    char *words = strdup(part->command), *rest = words, path[WHOLE_PATH];
+    char *words = strdup(part->command), *rest = words;
     enum process_end end;
-    FILE *empty;
 
     if (words == NULL)
         tool_die(&run->t, "out of memory");
@@ -678,14 +1204,11 @@ run_part(struct run *run, const struct part *part)
     }
     p.doing = c.word[0];
     end = process_run(&run->t, c.word, &p);
-    take_messages(run, c.word[0], end, &p, part->may_fail);
-    if (end == PROCESS_FAILED) {
-        snprintf(path, sizeof path, "%s/%s", folder, part->file);
-        empty = fopen(path, "wb");
-        if (empty == NULL || fclose(empty) != 0)
-            tool_die(&run->t, "%s: %s", path, strerror(errno));
-    }
+    take_messages(run, c.word[0], end, &p, part->may_fail || part->needs != NULL);
+    if (end == PROCESS_FAILED)
+        leave_empty(run, part->file);
     free(words);
+    return end != PROCESS_FAILED;
 }
 
 /* ---- the command line ---- */
@@ -727,7 +1250,7 @@ divide_words(struct run *run)
     const char *all[WORDS / 2];
     const struct numbers *steps = physics_steps(&args.physics);
     const size_t n = tool_result_words(&run->t, all, WORDS / 2);
-    bool of_scene = false, of_load = false;
+    bool of_scene = false, of_load = false, of_page = false, softens = false, modulus = false;
 
     snprintf(run->load, sizeof run->load, "%s%s", rc_number(steps->v[steps->n - 1]),
              steps->per_metre ? "N/m" : "");
@@ -736,13 +1259,49 @@ divide_words(struct run *run)
     for (size_t k = 0; k < n; k++) {
         const bool name = strncmp(all[k], "--", 2) == 0, value = of_load && !name;
         if (name) {
-            of_scene = is_option(scene_options, all[k]);
-            of_load = strcmp(all[k], "--load") == 0 || strcmp(all[k], "--mean-pressure") == 0 ||
-                      strcmp(all[k], "--approach") == 0;
+            of_page = strcmp(all[k], "--travel") == 0 || strcmp(all[k], "--passes") == 0;
+            softens = strcmp(all[k], "--relaxation") == 0;
+            modulus = args.relaxation != NULL && strcmp(all[k], "--E1") == 0;
+            of_scene = of_page || softens || is_option(scene_options, all[k]);
+            of_load = is_load(all[k]);
         }
+        run->given[run->givens++] = all[k];
         if (!of_scene)
             run->contact[run->contacts++] = all[k];
-        run->scene[run->scenes++] = value ? run->load : all[k];
+        if (!of_page && !modulus)
+            run->scene[run->scenes++] = value ? run->load : all[k];
+    }
+}
+
+/* The data of the sections: the modulus of a viscoelastic body 1 at once, times, the yield stress. */
+static void
+check_effects(struct run *run)
+{
+    struct tool *t = &run->t;
+    const double time = args.effects.time;
+    struct numbers yield;
+
+    run->yield = NAN;
+    if (args.effects.yield != NULL &&
+        unit_numbers(args.effects.yield, UNIT_PA, &yield, NULL) == RC_OK) {
+        run->yield = yield.v[0];
+        free(yield.v);
+    }
+    if (args.relaxation != NULL) {
+        struct relaxation_law law;
+        char modulus[RC_NUMBER_SIZE];
+
+        if (relaxation_law_read(&law, args.relaxation, 1, &t->err) != RC_OK)
+            tool_usage(t, "--relaxation %s: %s", args.relaxation, t->err.text);
+        rc_number_text(modulus, 1 / law.material->instant); /* a compliance */
+        rc_relaxation_free(law.material);
+        assume(t, "E1", modulus);
+        if (!isnan(time)) {
+            char first[RC_NUMBER_SIZE];
+
+            rc_number_text(first, time / 1000);
+            snprintf(run->times, sizeof run->times, "%s:%s:log:7", first, rc_number(time));
+        }
     }
 }
 
@@ -767,6 +1326,7 @@ check_contact(struct run *run)
         args.physics.repeats.periodic = "";
         run->contact[run->contacts++] = "--periodic";
     }
+    check_effects(run);
     t->quiet = true; /* rc-solve gives these warnings */
     physics_check(t, &args.physics);
     t->quiet = quiet;
@@ -839,6 +1399,38 @@ demand_one_map(struct run *run)
     fclose(in);
 }
 
+/* Reads the start of a file of the folder. */
+static void
+read_text(struct run *run, const char *name, char *text, size_t size)
+{
+    FILE *in = open_part(run, name);
+
+    text[fread(text, 1, size - 1, in)] = '\0';
+    fclose(in);
+}
+
+static void
+run_parts(struct run *run)
+{
+    bool fails = false; /* a command of this section */
+
+    for (size_t k = 0; k < sizeof parts / sizeof *parts; k++) {
+        const struct part *part = &parts[k];
+
+        if (part->heading != NULL)
+            fails = false;
+        if (!is_wanted(run, part))
+            continue;
+        if (fails)
+            leave_empty(run, part->file);
+        else if (part->command != NULL)
+            fails = !run_part(run, part);
+        if (part->command != NULL && strcmp(part->file, "surface.rcg") == 0)
+            demand_one_map(run);
+    }
+    read_text(run, "stress.json", run->stress, sizeof run->stress);
+}
+
 static void
 write_page(struct run *run)
 {
@@ -863,10 +1455,13 @@ write_page(struct run *run)
     for (size_t k = 0; k < sizeof parts / sizeof *parts; k++) {
         const struct part *part = &parts[k];
 
-        if (part->heading != NULL && (part->wanted == NULL || part->wanted(run)))
-            fprintf(out, "<h2>%s</h2>\n", part->heading);
-        if (part->show == NULL || (part->wanted != NULL && !part->wanted(run)))
+        if (!is_wanted(run, part))
             continue;
+        if (part->heading != NULL)
+            fprintf(out, "<h2>%s</h2>\n", part->heading);
+        if (part->show == NULL)
+            continue;
+        run->shown = part->file;
         in = part->file == NULL ? NULL : open_part(run, part->file);
         part->show(run, in, part->a, part->b);
         if (in != NULL)
@@ -904,12 +1499,7 @@ main(int argc, char **argv)
     open_text(&run, &run.page);
     make_folder(t);
     tool_catch_signals();
-    for (size_t k = 0; k < sizeof parts / sizeof *parts; k++)
-        if (parts[k].command != NULL && (parts[k].wanted == NULL || parts[k].wanted(&run))) {
-            run_part(&run, &parts[k]);
-            if (strcmp(parts[k].file, "surface.rcg") == 0)
-                demand_one_map(&run);
-        }
+    run_parts(&run);
     close_text(&run, &run.commands);
     close_text(&run, &run.said);
     write_page(&run);

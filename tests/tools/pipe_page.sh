@@ -20,7 +20,7 @@ claim "report.sh makes a page from a file" warns 'rc-report: no elasticity was g
 claim "  no other file is left" test "$(ls page) $(ls tmp | wc -l)" = "brass.html 0"
 claim "  it is HTML with all pictures inside" parsed '^6 pictures: brass.txt: brass.txt$' page/brass.html
 claim "  it has units, metadata, parameters, loads and messages" bash -c '
-    for words in "nodes, dx 5 um" "Sq  *[0-9.]* nm" "S10z " "Rsm " "Hurst " "source=brass.txt" "<td>true</td>" "pressure error estimate" \
+    for words in "nodes, dx 5 um" "Sq  *[0-9.]* nm" "S10z " "Rsm " "Hurst " "source=brass.txt" "<td>yes</td>" "Error of the pressure" \
         "largest patch" "rc-solve: brass.txt, case 1.*the grid does not resolve it" "values of steel on steel"; do
         grep -q "$words" page/brass.html || { echo "$words" >&2; exit 1; }
     done'
@@ -85,6 +85,65 @@ claim "  and the data that other effects need" grep -q 'Data are missing for: .*
 claim "  rc-solve does not get them" bash -c '! grep "^rc-solve.*--yield" steel.html | grep -v "<pre>"'
 rc-report --quiet --load 1N --E1 rigid --layer 5um,3GPa,0.4 --E2 rigid -o layers.html steel.rcg
 claim "layers on a rigid body 1: no verdicts" lacks '<h2>Effects' layers.html
+
+# ---- sections of effects, and the first paragraph: a ball of 3 mm on a flat, Hertz ----
+
+# figure FILE TITLE: the value of a row of a table, without its unit, in SI
+figure() {
+    sed -n "s/.*<th>$2<\/th><td>\([^<]*\)<.*/\1/p" "$1" | head -n 1 |
+        awk '{ split("p n u m k M G", prefix); split("1e-12 1e-9 1e-6 1e-3 1e3 1e6 1e9", size)
+            for (k in prefix) if (index($2, prefix[k]) == 1 && length($2) > 1 && $2 != "m3" && $2 != "m/s") $1 *= size[k]
+            printf "%.17g\n", $1 }'
+}
+said() { sed -n '/<p id="verdict">/,/<\/p>/p' "$1" | tr '\n' ' '; }
+effects='--load 20N --E1 210GPa --nu1 0.3 --E2 210GPa --nu2 0.3 --mu 0.3 --tangential 3N --coefficient 1e-8mm3/Nm --distance 1m
+    --speed 2m/s --conductivity 40,40 --diffusivity 1.2e-5,1.2e-5 --pressure-drop 1e5 --bending-limit 500MPa --torsion-limit 300MPa --yield 3GPa'
+claim "a page has sections of the effects whose data are given" bash -c "rc-report --quiet $(echo $effects) -o effects-of.html steel.rcg"
+claim "  in their order" test "$(sed -n 's/<h2>\(.*\)<\/h2>/\1/p' effects-of.html | tr '\n' ,)" = \
+    "The surface,Heights and wavelengths,Profiles along x,Under load,Friction,Wear,Heat,Leak,Fatigue,Shakedown,Effects,Accuracy,Limits,Origin,Commands,"
+claim "  a page without data has none" bash -c '! grep -E "<h2>(Travel|Creep|Friction|Wear|Heat|Leak|Fatigue|Shakedown)<" once.html'
+near "$(figure effects-of.html 'Part of the contact that sticks')" "$(awk 'BEGIN { print (1 - 3 / 6) ^ (2 / 3) }')" 0.05 \
+    "  friction: the part that sticks is Cattaneo's, to a row of nodes"
+near "$(figure effects-of.html 'Worn volume')" 2e-16 1e-3 "  wear: the volume is Archard's"
+near "$(figure effects-of.html 'Heat')" 12 1e-3 "  heat: the power of friction"
+claim "  leak: fluid flows around a ball" says 'A fluid gets through the gap: yes' said effects-of.html
+# Hills and Ashelby: a ball that passes without friction shakes down elastically up to p0 = 4.7 k
+near "$(figure effects-of.html 'Index of shakedown')" "$(awk -v p="$p0" 'BEGIN { print p / (4.7 * 3e9 / sqrt(3)) }')" 0.1 "  shakedown: the index is that of a ball on a half-space"
+area=$(awk 'BEGIN { pi = atan2(0, -1); print pi * (0.75 * 20 * 3e-3 / (210e9 / 1.82)) ^ (2 / 3) * 1e6 }') # mm2
+near "$(said effects-of.html | sed 's/.*% of the map, \([0-9.]*\) mm2.*/\1/')" "$area" 0.03 "the first paragraph has the area of the contact"
+near "$(said effects-of.html | sed 's/.*The largest pressure is \([0-9.]*\) GPa.*/\1e9/')" "$p0" 0.03 "  the largest pressure"
+near "$(said effects-of.html | sed 's/.*the largest Mises stress is \([0-9.]*\) GPa.*/\1e9/')" "$(awk -v p="$p0" 'BEGIN { print 0.62 * p }')" 0.03 "  the largest Mises stress"
+claim "  below the yield stress" says 'below the yield stress of 3 GPa: the volume stays elastic' said effects-of.html
+rc-report --quiet --load 20N --E1 210GPa --nu1 0.3 --E2 210GPa --nu2 0.3 --yield 500MPa -o yields.html steel.rcg
+claim "  above it" says 'above the yield stress of 500 MPa: the volume yields' said yields.html
+claim "  what yields at a hardness" says '1.5 GPa: the hardness, at which [0-9.]* % of the contact yields' said steel.html
+claim "  the error" says 'The estimated error of the pressure is 0.0[0-9]* %' said steel.html
+claim "  and what limits the trust" says 'What limits .*: the edge of the map carries [0-9.]* % of the load.*; no elasticity was given' said page/brass.html
+claim "  or that the checks found nothing" says 'found nothing that limits these figures; --noise adds bars' said effects-of.html
+sed -n '/^Limits:/,/^## /s/^\(- \|  \)//p' "$RC_SOURCE/README.md" | tr -s ' \n' ' ' >readme.txt
+claim "the page has the limits of README" test "$(cat readme.txt)" = "$(sed -n '/<h2>Limits/,/<\/ul>/s/<li>\(.*\)<\/li>/\1/p' effects-of.html | tr '\n' ' ')"
+rc-report --quiet --load 20N --relaxation 2GPa,100GPa:1s --nu1 0.3 --E2 rigid --time 100s --travel=-10um,0,10um --radius 3mm -o soft.html steel.rcg
+claim "travel and creep have sections" test "$(grep -c -E '<h2>(Travel|Creep)<' soft.html)" = 2
+rc-synth sphere --radius 3mm --nx 64 --dx 8um -o wide.rcg
+rc-report --quiet --load 20N --relaxation 20GPa,180GPa:1s --nu1 0.3 --E2 rigid --time 100s -o creep.html wide.rcg
+# Lee and Radok: a constant load has the area of the relaxed modulus in the end
+near "$(said creep.html | sed 's/.*in contact becomes \([0-9.]*\) .*/\1/')" \
+    "$(awk 'BEGIN { pi = atan2(0, -1); print pi * (0.75 * 20 * 3e-3 / (20e9 / 0.91)) ^ (2 / 3) / (64 * 8e-6) ^ 2 }')" 0.03 "  creep ends at the area of the relaxed modulus"
+near "$(said creep.html | sed 's/.*touch on \([0-9.]*\) %.*/\1e-2/')" \
+    "$(awk 'BEGIN { pi = atan2(0, -1); print pi * (0.75 * 20 * 3e-3 / (200e9 / 0.91)) ^ (2 / 3) / (64 * 8e-6) ^ 2 }')" 0.05 "  and begins at that of the modulus at once"
+rc-synth wave --amplitude 1e-15 --wavelength 96um --nx 96 --dx 4um -o flat.rcg
+rc-report --quiet --load 20N --E1 210GPa --nu1 0.3 --E2 rigid --radius 3mm --travel=-20um,0,20um -o travel.html flat.rcg
+p1=$(awk 'BEGIN { pi = atan2(0, -1); print (6 * 20 * (210e9 / 0.91) ^ 2 / (pi ^ 3 * 9e-6)) ^ (1 / 3) / 1e9 }')
+claim "  travel: the pressure on a flat is Hertz's at each place" awk -v p="$p1" '
+    /<h2>Travel/ { on = 1 } /<h2>Effects/ { on = 0 }
+    on && /<tr><td>/ { sub(/.*<tr><td>/, ""); n += $1 > 0.98 * p && $1 < 1.02 * p && $2 ~ /^GPa/ } END { exit n != 3 }' travel.html
+# a wave that is pressed flat has a gap of rounding alone
+rc-synth wave --amplitude 0.1um --wavelength 64um --nx 32 --dx 2um -o wave.rcg
+rc-report --quiet --mean-pressure 1GPa --periodic --relaxation 2GPa,100GPa:1s --nu1 0.3 --E2 rigid --time 100s -o wave.html wave.rcg
+claim "a length below rounding is 0" bash -c '[ "$(sed -n "/<h2>Creep/,/<h2>Effects/p" wave.html | grep -c "<td>0 m</td>")" -ge 3 ] && lacks "e-[12][0-9] m<" wave.html'
+claim "a section whose tool refuses the problem says so, and the page is written" bash -c '
+    rc-report --quiet --load 20N --estar 100GPa --mu 0.3 --tangential 30N -o refused.html steel.rcg 2>refused.txt; [ $? = 0 ] && [ -s refused.txt ] &&
+    grep -A 1 "<h2>Friction" refused.html | grep -q "This was not computed"'
 
 rc-synth sphere --nx 33 --dx 1um --radius 1mm -o ball.rcg
 rc-report --quiet --load 0.1N --estar 114GPa -o ball.html ball.rcg

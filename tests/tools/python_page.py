@@ -4,7 +4,7 @@ import base64
 import sys
 import xml.etree.ElementTree
 
-KNOWN = set('html head meta title style body h1 h2 p pre figure img figcaption table tr th td'.split())
+KNOWN = set('html head meta title style body h1 h2 p pre figure img figcaption table tr th td ul li'.split())
 root = xml.etree.ElementTree.parse(sys.argv[1]).getroot()  # refuses a tag without its end, and a bare < or &
 pictures = 0
 for e in root.iter():

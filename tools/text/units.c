@@ -593,6 +593,8 @@ unit_decimal_comma(const char *text)
     part = strspn(s + whole + 1, digits);
     if (part == 0 || s[whole + 1 + part] != '\0')
         return false;
+    if (part > 3 && strcmp(s + whole + 1 + part - 3, "000") == 0)
+        return false; /* a list of large numbers, not digits after a comma */
     a = strtod(s, NULL);
     b = strtod(s + whole + 1, NULL);
     return a > 0 && b > 0 && a < 10 * b && b < 10 * a;
