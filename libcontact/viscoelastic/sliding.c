@@ -427,16 +427,17 @@ step(struct rc_model *m, struct rc_err *err)
 }
 
 /* The coefficients of friction by the slopes of u = K p, and by the slopes of h. The first one is a
- * quadratic form of p. *steep is the largest difference in contact between its derivative and the
- * coefficient: times the relative L1 error of p it bounds the error of the coefficient to first order. */
+ * quadratic form of p. *steep is half the range of its derivative in contact: the load is exact, so that a
+ * constant of the derivative counts for nothing, and *steep times the relative L1 error of p bounds the error
+ * of the coefficient to first order. */
 static void
 find_friction(struct slide *s, double load, double friction[2], double *steep)
 {
     const double *p = rc_elastic_pressure(s->base.inner);
     const bool open = rc_has_mean(s->problem.boundary);
     struct rc_total sum[2] = {{0}};
+    double low = INFINITY, high = -INFINITY;
 
-    *steep = 0;
     for (int q = 1; q >= 0; q--) {
         const double sign = q == 0 && open ? 1 : copysign(1, s->base.to.at[RC_SPEED]);
         if (q == 0)
@@ -448,9 +449,12 @@ find_friction(struct slide *s, double load, double friction[2], double *steep)
             rc_total_add(&sum[q], -p[k] * s->room[k]);
         friction[q] = sign * rc_total_value(&sum[q]) * s->turned.dx * s->turned.dy / load;
         for (size_t k = 0; q == 0 && k < s->n; k++)
-            if (p[k] > 0)
-                *steep = fmax(*steep, fabs(2 * sign * s->room[k] + friction[0]));
+            if (p[k] > 0) {
+                low = fmin(low, s->room[k]);
+                high = fmax(high, s->room[k]);
+            }
     }
+    *steep = high > low ? high - low : 0;
 }
 
 /* The power of all waves of the pressure: v qx 2/|q| Im J |p|^2. */
