@@ -83,6 +83,9 @@ claim "one line tells it" warns 'B is shifted by -5.000 and -7.000 nodes and tur
 claim "a table has a row" bash -c 'rc-add --subtract --align --report align.tsv later.rcg new.rcg -o c.rcg && [ $(wc -l <align.tsv) = 2 ] && says "volume_error/m3" cat align.tsv'
 refuses 2 '--align has no effect without --subtract' "no alignment of a sum" "rc-add --align later.rcg new.rcg"
 refuses 1 'an alignment needs 16 a side' "too small a map" "rc-pick --crop 0,0,12,12 new.rcg | rc-add --subtract --align later.rcg -"
+unrelated() { for seed in 6 7 8; do rc-synth selfaffine --nx 96 --dx 1um --hurst 0.7 --rms-height 0.3um --seed $seed -o other.rcg
+    rc-add --subtract --align later.rcg other.rcg -o c.rcg 2>err; [ $? = 1 ] && grep -q 'the two maps do not fit on each other' err || return 1; done; }
+claim "scans of two surfaces do not fit on each other" unrelated
 refuses 1 'bring them together by rc-pick --resample' "other spacings" "rc-pick --resample 2um new.rcg | rc-add --subtract --align later.rcg -"
 
 # ---- cut, missing, periodic ----
