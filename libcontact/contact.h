@@ -764,7 +764,7 @@ struct rc_friction_increment {
     /* estimated relative L1 error of the tractions, of this increment alone */
     double traction_error;
     size_t steps;
-    /* so far, in equivalents of a single map in double precision */
+    /* so far, of all solutions, in equivalents of a single map in double precision */
     double convolutions;
     /* traction_error <= tol */
     bool converged;

@@ -902,30 +902,51 @@ rc_discs_begin(struct rc_discs *d)
 /* ---- memory ---- */
 
 enum {
-    MAPS = 11, /* number of maps of doubles */
+    OWN = 4, /* maps of doubles that are needed after the last step */
+    WORK = 7,
     SINGLE = 5
 };
 
-/* All maps lie in two blocks. */
-static bool
-allocate(struct rc_discs *d)
+static void
+set_pair(double *to[2], double *map, size_t n)
 {
-    double *map = rc_store_zeros(&d->own, MAPS * d->n, sizeof *map);
+    to[0] = map;
+    to[1] = map + n;
+}
+
+/* The maps of a problem lie in one block. */
+static enum rc_status
+allocate_own(struct rc_discs *d, struct rc_err *err)
+{
+    double *map = rc_store_zeros(&d->own, OWN * d->n, sizeof *map);
+
+    d->face = rc_store_zeros(&d->own, d->n, 1);
+    if (d->own.failed)
+        return rc_err_set(err, "out of memory for the friction of %zu x %zu nodes", d->nx, d->ny);
+    set_pair(d->q, map, d->n);
+    set_pair(d->u, map + 2 * d->n, d->n);
+    return RC_OK;
+}
+
+/* Those of the iteration lie in two blocks. */
+static enum rc_status
+allocate_work(struct rc_discs *d, struct rc_err *err)
+{
+    double *map = rc_store_zeros(&d->own, WORK * d->n, sizeof *map);
     float *single = rc_store_take(&d->own, SINGLE * d->n, sizeof *single);
 
-    d->face = rc_store_take(&d->own, d->n, 1);
     if (rc_sums_new(&d->rows, NULL, d->ny, SUMS, MOSTS, d->threads) != RC_OK || d->own.failed)
-        return false;
+        return rc_err_set(err, "out of memory for the friction of %zu x %zu nodes", d->nx, d->ny);
     d->g = map;
+    set_pair(d->w, map + d->n, d->n);
+    set_pair(d->way.d, map + 3 * d->n, d->n);
+    set_pair(d->way.h, map + 5 * d->n, d->n);
     d->curve = single;
     for (size_t c = 0; c < 2; c++) {
-        double **const pairs[] = {d->w, d->q, d->u, d->way.d, d->way.h};
-        for (size_t k = 0; k < 5; k++)
-            pairs[k][c] = map + (1 + 2 * k + c) * d->n;
         d->r[c] = single + (1 + c) * d->n;
         d->z[c] = single + (3 + c) * d->n;
     }
-    return true;
+    return (d->m = rc_extension_new(d->t, err)) == NULL ? RC_FAIL : RC_OK;
 }
 
 struct rc_discs *
@@ -941,10 +962,20 @@ rc_discs_new(struct rc_tangential *t, struct rc_err *err)
                            .n = t->shape.nx * t->shape.ny,
                            .threads = t->threads,
                            .asked.most = 200};
-    if (!allocate(d))
-        return rc_err_null(err, "out of memory for the friction of %zu x %zu nodes", d->nx, d->ny);
-    d->m = rc_extension_new(t, err);
-    return d->m != NULL ? rc_give(&d) : NULL;
+    return allocate_own(d, err) == RC_OK && allocate_work(d, err) == RC_OK ? rc_give(&d) : NULL;
+}
+
+struct rc_discs *
+rc_discs_beside(const struct rc_discs *other, struct rc_err *err)
+{
+    RC_OWN(rc_discs, d) = calloc(1, sizeof *d);
+
+    if (d == NULL)
+        return rc_err_null(err, "out of memory for friction");
+    *d = *other;
+    d->borrows = true;
+    d->own = (struct rc_store){0};
+    return allocate_own(d, err) == RC_OK ? rc_give(&d) : NULL;
 }
 
 void
@@ -952,8 +983,10 @@ rc_discs_free(struct rc_discs *d)
 {
     if (d == NULL)
         return;
-    rc_extension_free(d->m);
-    free(d->rows.row);
+    if (!d->borrows) {
+        rc_extension_free(d->m);
+        free(d->rows.row);
+    }
     rc_store_free(&d->own);
     free(d);
 }

@@ -29,7 +29,8 @@ struct rc_discs {
     struct rc_tangential *t; /* the caller's */
     size_t nx, ny, n;
     int threads;
-    /* Maps. The caller sets g and w, and q to start the iteration from it, before rc_discs_begin. */
+    /* Maps. The caller sets g and w, and q to start the iteration from it, before rc_discs_begin. After
+     * the last step only q, u and face are still needed. */
     double *g, *w[2], *q[2], *u[2]; /* u = T q                                    */
     float *r[2], *z[2];             /* residual along free directions; M r, then the direction */
     float *curve;                   /* D of slipping nodes */
@@ -60,11 +61,15 @@ struct rc_discs {
     } way;
     struct rc_extension *m;
     struct rc_sums rows;
+    bool borrows; /* all but q, u and face belongs to another problem */
     struct rc_store own;
 };
 
 /* Allocates the maps; NULL when memory is short. */
 struct rc_discs *rc_discs_new(struct rc_tangential *t, struct rc_err *err);
+/* A second problem with q, u and faces of its own. All other maps are those of `other`: only one of both can
+ * be solved at a time. */
+struct rc_discs *rc_discs_beside(const struct rc_discs *other, struct rc_err *err);
 void rc_discs_free(struct rc_discs *d); /* NULL is allowed */
 RC_OWNER(rc_discs)
 /* RC_FAIL if a displacement is given on a map that repeats along one axis, and the datum is so near that a

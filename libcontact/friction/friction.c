@@ -33,9 +33,16 @@ struct past {
 
 /* What is given of the present increment. */
 struct now {
-    double *gap, *pushed[2]; /* C p */
+    const double *gap; /* the caller's */
     double load, limit, force[2];
-    bool has_gap;
+    bool enters;     /* nodes come into contact at a known gap, */
+    double entry[2]; /* and have moved by this multiple of it   */
+};
+
+/* The tractions of the present increment. */
+struct work {
+    struct rc_discs *discs;
+    double *pushed[2]; /* C p */
 };
 
 struct rc_friction_solver {
@@ -44,9 +51,12 @@ struct rc_friction_solver {
     int threads;
     struct law law;
     double cell;
-    double unit, length; /* m/Pa; m */
+    double unit, length;             /* m/Pa; m */
+    struct rc_friction_solver *main; /* has the operator and the work; NULL: this solver */
     struct rc_tangential *t;
-    struct rc_discs *discs;
+    struct rc_discs *discs; /* of `work` */
+    double *pushed[2];
+    struct work work[2]; /* of the main solver: its own, and that of the others */
     bool coupled, asked, begun, done, apart;
     bool tried; /* this increment was solved before under another pressure, and starts from these
                    tractions */
@@ -83,14 +93,12 @@ rc_friction_solver_set_pressure(struct rc_friction_solver *s, const double *p, c
     }
     s->now.load = rc_total_value(&load) * s->cell;
     s->now.limit = rc_total_value(&limit) * s->cell;
-    s->now.has_gap = gap != NULL;
-    if (gap != NULL)
-        memcpy(s->now.gap, gap, s->n * sizeof *gap);
+    s->now.gap = gap;
     if (s->coupled && p != NULL)
-        rc_tangential_pressure(s->t, p, s->now.pushed);
+        rc_tangential_pressure(s->t, p, s->pushed);
     else if (s->coupled)
         for (int c = 0; c < 2; c++)
-            memset(s->now.pushed[c], 0, s->n * sizeof(double));
+            memset(s->pushed[c], 0, s->n * sizeof(double));
     s->asked = s->begun = s->done = false;
     return RC_OK;
 }
@@ -145,6 +153,16 @@ rc_friction_solver_set_displacement(struct rc_friction_solver *s, double dx, dou
  * before they touch. */
 static const double grows = 1e-6;
 
+/* The displacement w that node k keeps while it sticks; loaded: it carries a load in this increment. */
+static inline double
+kept_at(const struct rc_friction_solver *s, int c, size_t k, bool loaded)
+{
+    const double w = s->past.origin[c][k] - (s->coupled ? s->pushed[c][k] : 0);
+
+    return s->now.enters && loaded && !s->past.touched[k] ? w - s->now.entry[c] * s->past.gap[k]
+                                                          : w;
+}
+
 /* Sets w and the start: the last tractions, and the change of the force in proportion to g. If the increment
  * was solved under another pressure, it starts from those tractions, with slipping nodes moved to their new
  * circles. Otherwise these nodes would stick at first and slip again one after another. */
@@ -152,23 +170,21 @@ static void
 pose(struct rc_friction_solver *s)
 {
     struct rc_discs *d = s->discs;
-    double more[2] = {0, 0}, entry[2] = {0, 0};
-    bool enter = s->past.has_gap && !d->asked.given && s->now.load > s->past.load * (1 + grows);
+    double more[2] = {0, 0};
 
+    s->now.enters = s->past.has_gap && !d->asked.given && s->now.load > s->past.load * (1 + grows);
     for (int c = 0; c < 2 && !d->asked.given; c++) {
         if (s->now.limit > 0)
             more[c] = (s->now.force[c] - s->past.force[c]) * s->cell / s->now.limit;
-        if (enter)
-            entry[c] = (1 + s->law.shear.kap / 2) * (s->now.force[c] - s->past.force[c]) * s->cell /
-                       (s->now.load - s->past.load) / s->unit;
+        if (s->now.enters)
+            s->now.entry[c] = (1 + s->law.shear.kap / 2) * (s->now.force[c] - s->past.force[c]) *
+                              s->cell / (s->now.load - s->past.load) / s->unit;
     }
 #pragma omp parallel for num_threads(s->threads) schedule(static)
     for (size_t k = 0; k < s->n; k++) {
         const double size = hypot(d->q[0][k], d->q[1][k]);
         for (int c = 0; c < 2; c++) {
-            d->w[c][k] = s->past.origin[c][k] - (s->coupled ? s->now.pushed[c][k] : 0);
-            if (enter && d->g[k] > 0 && !s->past.touched[k])
-                d->w[c][k] -= entry[c] * s->past.gap[k];
+            d->w[c][k] = kept_at(s, c, k, d->g[k] > 0);
             if (!s->tried)
                 d->q[c][k] = s->past.old[c][k] + more[c] * d->g[k];
             else if (d->face[k] == RC_FACE_SLIP && size > 0)
@@ -257,9 +273,11 @@ rc_friction_solver_increment(struct rc_friction_solver *s, struct rc_state *stat
 /* The slip of a node in this increment, in units of `unit`. The slip of a sticking node is 0; its residual is
  * an error. */
 static inline double
-slipped(const struct rc_discs *d, int c, size_t k)
+slipped(const struct rc_friction_solver *s, int c, size_t k)
 {
-    return d->face[k] == RC_FACE_SLIP ? d->u[c][k] - d->w[c][k] - d->delta[c] : 0;
+    const struct rc_discs *d = s->discs;
+
+    return d->face[k] == RC_FACE_SLIP ? d->u[c][k] - kept_at(s, c, k, true) - d->delta[c] : 0;
 }
 
 void
@@ -272,15 +290,14 @@ rc_friction_solver_keep(struct rc_friction_solver *s)
 #pragma omp parallel for num_threads(s->threads) schedule(static)
     for (size_t k = 0; k < s->n; k++) {
         for (int c = 0; c < 2; c++) {
-            s->past.slip[c][k] = s->apart ? 0 : s->past.slip[c][k] + slipped(s->discs, c, k);
-            s->past.origin[c][k] =
-                d->u[c][k] + (s->coupled ? s->now.pushed[c][k] : 0) - d->delta[c];
+            s->past.slip[c][k] = s->apart ? 0 : s->past.slip[c][k] + slipped(s, c, k);
+            s->past.origin[c][k] = d->u[c][k] + (s->coupled ? s->pushed[c][k] : 0) - d->delta[c];
             s->past.old[c][k] = d->q[c][k];
         }
-        s->past.touched[k] = d->g[k] > 0;
+        s->past.touched[k] = d->face[k] != RC_FACE_OFF;
     }
-    s->past.has_gap = s->now.has_gap;
-    if (s->now.has_gap)
+    s->past.has_gap = s->now.gap != NULL;
+    if (s->past.has_gap)
         memcpy(s->past.gap, s->now.gap, s->n * sizeof *s->now.gap);
     s->past.load = s->now.load;
     for (int c = 0; c < 2; c++) {
@@ -297,11 +314,11 @@ rc_friction_solver_keep(struct rc_friction_solver *s)
 /* Where the load falls, the traction of the increment is the mean of its start and its end. Otherwise the
  * traction at the end is used, which is exact under a constant load. */
 static double
-dissipated_at(const struct rc_discs *d, const struct past *past, double load, int c, size_t k)
+dissipated_at(const struct rc_friction_solver *s, int c, size_t k)
 {
-    const double mean = load < past->load ? 0.5 : 1;
+    const double mean = s->now.load < s->past.load ? 0.5 : 1;
 
-    return -(mean * d->q[c][k] + (1 - mean) * past->old[c][k]) * slipped(d, c, k);
+    return -(mean * s->discs->q[c][k] + (1 - mean) * s->past.old[c][k]) * slipped(s, c, k);
 }
 
 static double
@@ -311,7 +328,7 @@ dissipated(const struct rc_friction_solver *s)
 
     for (size_t k = 0; k < s->n; k++)
         for (int c = 0; c < 2; c++)
-            rc_total_add(&sum, dissipated_at(s->discs, &s->past, s->now.load, c, k));
+            rc_total_add(&sum, dissipated_at(s, c, k));
     return rc_total_value(&sum) * s->cell * s->unit;
 }
 
@@ -319,9 +336,7 @@ void
 rc_friction_solver_add_dissipation(const struct rc_friction_solver *s, double *to)
 {
     for (size_t k = 0; k < s->n; k++)
-        to[k] += (dissipated_at(s->discs, &s->past, s->now.load, 0, k) +
-                  dissipated_at(s->discs, &s->past, s->now.load, 1, k)) *
-                 s->unit;
+        to[k] += (dissipated_at(s, 0, k) + dissipated_at(s, 1, k)) * s->unit;
 }
 
 void
@@ -364,15 +379,25 @@ rc_friction_solver_traction(const struct rc_friction_solver *s, int direction)
     return s->discs->q[direction];
 }
 
+const double *
+rc_friction_solver_kept(const struct rc_friction_solver *s, int direction)
+{
+    return s->past.old[direction];
+}
+
+double
+rc_friction_solver_convolutions(const struct rc_friction_solver *s)
+{
+    return s->t->convolutions;
+}
+
 void
 rc_friction_solver_slip(const struct rc_friction_solver *s, int direction, double *to)
 {
     for (size_t k = 0; k < s->n; k++)
-        to[k] =
-            s->apart
-                ? 0
-                : (s->past.slip[direction][k] + (s->done ? slipped(s->discs, direction, k) : 0)) *
-                      s->unit;
+        to[k] = s->apart ? 0
+                         : (s->past.slip[direction][k] + (s->done ? slipped(s, direction, k) : 0)) *
+                               s->unit;
 }
 
 void
@@ -448,21 +473,51 @@ static bool
 allocate(struct rc_friction_solver *s)
 {
     double **maps[] = {&s->past.origin[0], &s->past.origin[1], &s->past.old[0], &s->past.old[1],
-                       &s->past.slip[0],   &s->past.slip[1],   &s->past.gap,    &s->now.gap,
-                       &s->now.pushed[0],  &s->now.pushed[1]};
+                       &s->past.slip[0],   &s->past.slip[1],   &s->past.gap};
 
-    for (size_t k = 0; k < (s->coupled ? 10 : 8); k++)
+    for (size_t k = 0; k < sizeof maps / sizeof *maps; k++)
         *maps[k] = rc_store_zeros(&s->own, s->n, sizeof **maps[k]);
     s->past.touched = rc_store_zeros(&s->own, s->n, 1);
     return !s->own.failed;
+}
+
+static enum rc_status
+no_memory(const struct rc_shape *shape, struct rc_err *err)
+{
+    return rc_err_set(err, "out of memory for the friction of %zu x %zu nodes", shape->nx,
+                      shape->ny);
+}
+
+/* Takes work k of the main solver, and makes it where it is missing. */
+static enum rc_status
+take_work(struct rc_friction_solver *s, size_t k, double tol, size_t most, struct rc_err *err)
+{
+    /* Increments have errors of about 1e-2: the iteration adds little to them. */
+    static const double usual = 1e-4;
+    struct rc_friction_solver *main = s->main == NULL ? s : s->main;
+    struct work *w = &main->work[k];
+
+    if (w->discs == NULL) {
+        w->discs = k == 0 ? rc_discs_new(main->t, err) : rc_discs_beside(main->work->discs, err);
+        if (w->discs == NULL)
+            return RC_FAIL;
+        for (int c = 0; c < 2 && main->coupled; c++)
+            w->pushed[c] = rc_store_zeros(&main->own, main->n, sizeof *w->pushed[c]);
+        if (main->own.failed)
+            return no_memory(&main->shape, err);
+        w->discs->asked.tol = tol > 0 ? tol : usual;
+        if (most > 0)
+            w->discs->asked.most = most;
+    }
+    s->discs = w->discs;
+    memcpy(s->pushed, w->pushed, sizeof s->pushed);
+    return RC_OK;
 }
 
 struct rc_friction_solver *
 rc_friction_solver_new(const struct rc_shape *shape, const struct rc_friction_law *p,
                        struct rc_err *err)
 {
-    /* Increments have errors of about 1e-2: the iteration adds little to them. */
-    static const double usual = 1e-4;
     struct rc_shear shear, inside;
     struct rc_shape unit;
     struct rc_boundary boundary = p->boundary;
@@ -478,24 +533,41 @@ rc_friction_solver_new(const struct rc_shape *shape, const struct rc_friction_la
                                      .law = {shear, p->mu, p->tau_max > 0 ? p->tau_max : INFINITY},
                                      .cell = shape->dx * shape->dy,
                                      .length = sqrt(shape->dx) * sqrt(shape->dy),
-                                     .coupled = shear.beta != 0 && !p->uncoupled};
+                                     .coupled = shear.beta != 0 && !p->uncoupled,
+                                     .apart = true};
     s->unit = s->length / shear.estar;
     unit = (struct rc_shape){shape->nx, shape->ny, shape->dx / s->length, shape->dy / s->length};
     boundary.datum /= s->length;
     inside = (struct rc_shear){1, shear.kap, s->coupled ? shear.beta : 0};
     if (!allocate(s))
-        return rc_err_null(err, "out of memory for the friction of %zu x %zu nodes", shape->nx,
-                           shape->ny);
+        return (void)no_memory(shape, err), NULL;
     s->t = rc_tangential_new(&unit, boundary, &inside, p->threads, err);
-    if (s->t == NULL || (s->discs = rc_discs_new(s->t, err)) == NULL)
+    if (s->t == NULL || take_work(s, 0, p->tol, p->max_steps, err) != RC_OK)
         return NULL;
-    s->discs->asked.tol = p->tol > 0 ? p->tol : usual;
-    if (p->max_steps > 0)
-        s->discs->asked.most = p->max_steps;
-    memset(s->discs->g, 0, s->n * sizeof(double));
-    memset(s->discs->face, RC_FACE_OFF, s->n);
-    s->apart = true;
     return rc_give(&s);
+}
+
+struct rc_friction_solver *
+rc_friction_solver_beside(struct rc_friction_solver *main, double tol, struct rc_err *err)
+{
+    RC_OWN(rc_friction_solver, s) = calloc(1, sizeof *s);
+
+    if (s == NULL)
+        return rc_err_null(err, "out of memory for friction");
+    *s = (struct rc_friction_solver){.shape = main->shape,
+                                     .n = main->n,
+                                     .threads = main->threads,
+                                     .law = main->law,
+                                     .cell = main->cell,
+                                     .unit = main->unit,
+                                     .length = main->length,
+                                     .main = main,
+                                     .t = main->t,
+                                     .coupled = main->coupled,
+                                     .apart = true};
+    if (!allocate(s))
+        return (void)no_memory(&s->shape, err), NULL;
+    return take_work(s, 1, tol, main->discs->asked.most, err) == RC_OK ? rc_give(&s) : NULL;
 }
 
 void
@@ -503,8 +575,10 @@ rc_friction_solver_free(struct rc_friction_solver *s)
 {
     if (s == NULL)
         return;
-    rc_discs_free(s->discs);
-    rc_tangential_free(s->t);
+    for (size_t k = 2; k-- > 0;)
+        rc_discs_free(s->work[k].discs);
+    if (s->main == NULL)
+        rc_tangential_free(s->t);
     rc_store_free(&s->own);
     free(s);
 }

@@ -15,8 +15,14 @@ struct rc_friction_solver;
 struct rc_friction_solver *rc_friction_solver_new(const struct rc_shape *shape,
                                                   const struct rc_friction_law *problem,
                                                   struct rc_err *err);
-/* The pressure of this increment (nx ny Pa, copied; NULL: the bodies are apart) and its gap (nx ny m, copied;
- * NULL: unknown). A node that comes into contact in this increment has moved with its body until then. With
+/* A further history of the same bodies, with a tolerance of its own. It shares the operator and the iteration
+ * with `main`, which is freed after it, and the work of an increment with all others that are made so. Their
+ * increments must therefore be kept one after another: only tractions of kept increments remain. The
+ * increment of `main` remains. */
+struct rc_friction_solver *rc_friction_solver_beside(struct rc_friction_solver *main, double tol,
+                                                     struct rc_err *err);
+/* The pressure of this increment (nx ny Pa, copied; NULL: the bodies are apart) and its gap (nx ny m, used
+ * until the increment is kept; NULL: unknown). A node that comes into contact in this increment has moved with its body until then. With
  * the gap before, this motion is known to first order, and exactly for nu = 0 and force proportional to load
  * (Jaeger 1998; Ciavarella 1998). Without a gap the node keeps its position from before the increment.
  * RC_FAIL when a pressure is negative or not finite. */
@@ -43,7 +49,11 @@ void rc_friction_solver_keep(struct rc_friction_solver *slip);
 /* Tractions, Pa, nx ny, along x (0) or y (1), valid until the next step. Slip since first touch, m, including
  * this increment; it is 0 out of contact. */
 const double *rc_friction_solver_traction(const struct rc_friction_solver *slip, int direction);
+/* The tractions of the last kept increment. */
+const double *rc_friction_solver_kept(const struct rc_friction_solver *slip, int direction);
 void rc_friction_solver_slip(const struct rc_friction_solver *slip, int direction, double *to);
+/* So far, with all solvers beside it, in equivalents of a single map in double precision. */
+double rc_friction_solver_convolutions(const struct rc_friction_solver *slip);
 /* nx ny: 0 where no load is carried, 1 where a node sticks, 2 where it slips. */
 void rc_friction_solver_state(const struct rc_friction_solver *slip, double *to);
 /* Normal displacement due to the tractions, nx ny m, into the bodies; it is 0 for identical bodies.

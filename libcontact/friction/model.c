@@ -10,7 +10,8 @@
  * effect of tractions on the pressure (Goodman 1962), the pressure is found once for each load.
  *
  * Two further solutions may be computed, with half and with a quarter of the increments. They give the error
- * of the increments (increments.c). Both start from the tractions of the solution with all increments.
+ * of the increments (increments.c). Both start from the tractions of the solution with all increments. Only
+ * one solution iterates at a time, so that all share one operator and one iteration.
  */
 #include "friction.h"
 
@@ -26,12 +27,13 @@ enum stage {
     THERE     /* the increment is solved                    */
 };
 
-/* One solution: with all increments, or with half or a quarter of them. */
+/* One solution: with all increments, or with half or a quarter of them. The maps of these two are the same,
+ * because their increments are kept one after another. */
 struct way {
     struct rc_model *inner; /* NULL: takes the pressure of the first way */
     struct rc_friction_solver *slip;
-    double *less, *p, *gap; /* less: heights of the inner model */
-    double *before[2];      /* tractions of the previous pass   */
+    double *less, *p, *gap; /* less: heights of the inner model, the map of all ways */
+    double *before[2];      /* tractions of the previous pass                        */
     bool has_gap, contact_good;
     double tol;              /* tolerance of the tractions, with all passes */
     struct rc_point pressed; /* the point of p, in the axes of the inner model */
@@ -468,6 +470,14 @@ step(struct rc_model *m, struct rc_err *err)
 
 /* ---- the error of the increments ---- */
 
+/* The present tractions of the first way, the kept ones of another way. */
+static const double *
+tractions(const struct friction *f, const struct way *w, int c)
+{
+    return w == f->way ? rc_friction_solver_traction(w->slip, c)
+                       : rc_friction_solver_kept(w->slip, c);
+}
+
 /* The sum over the map of |q_a - q_b - lag|, Pa. b or lag NULL: 0. */
 static double
 distance(const struct friction *f, const struct way *a, const struct way *b, double *const lag[2])
@@ -477,8 +487,7 @@ distance(const struct friction *f, const struct way *a, const struct way *b, dou
     for (size_t k = 0; k < f->n; k++) {
         double d[2];
         for (int c = 0; c < 2; c++)
-            d[c] = rc_friction_solver_traction(a->slip, c)[k] -
-                   (b == NULL ? 0 : rc_friction_solver_traction(b->slip, c)[k]) -
+            d[c] = tractions(f, a, c)[k] - (b == NULL ? 0 : tractions(f, b, c)[k]) -
                    (lag == NULL ? 0 : lag[c][k]);
         sum += hypot(d[0], d[1]);
     }
@@ -513,13 +522,10 @@ increment_error(struct friction *f)
 static double
 all_convolutions(const struct friction *f)
 {
-    struct rc_friction_increment figures;
-    double sum = 0;
+    double sum = rc_friction_solver_convolutions(f->way->slip);
 
-    for (size_t j = 0; j <= f->problem.fewer; j++) {
-        rc_friction_solver_result(f->way[j].slip, &figures);
-        sum += figures.convolutions + f->way[j].convolutions;
-    }
+    for (size_t j = 0; j <= f->problem.fewer; j++)
+        sum += f->way[j].convolutions;
     return sum;
 }
 
@@ -541,8 +547,7 @@ go(struct rc_model *m, struct rc_err *err)
     f->convolutions = all_convolutions(f);
     for (size_t k = 0; k < f->n && f->problem.fewer > 0; k++)
         for (int c = 0; c < 2; c++)
-            f->lag[c][k] = rc_friction_solver_traction(f->way[0].slip, c)[k] -
-                           rc_friction_solver_traction(f->way[1].slip, c)[k];
+            f->lag[c][k] = tractions(f, f->way, c)[k] - tractions(f, f->way + 1, c)[k];
     return next_increment(f, err) == RC_MORE ? RC_OK : refuse(f, err);
 }
 
@@ -725,7 +730,7 @@ release(struct rc_model *m)
 {
     struct friction *f = (struct friction *)m;
 
-    for (size_t j = 0; j <= RC_FEWER; j++) {
+    for (size_t j = RC_FEWER + 1; j-- > 0;) {
         rc_friction_solver_free(f->way[j].slip);
         if (j > 0)
             rc_model_free(f->way[j].inner);
@@ -763,15 +768,17 @@ begin(struct way *w, const double *gap, struct rc_err *err)
 }
 
 static enum rc_status
-make_maps(struct friction *f, struct way *w, struct rc_err *err)
+make_maps(struct friction *f, size_t j, struct rc_err *err)
 {
-    double **maps[] = {&w->p, &w->gap, &w->less, &w->before[0], &w->before[1]};
-    const bool own = w == f->way || f->alternates; /* this way has its own pressure */
+    struct way *w = &f->way[j];
+    const struct way *like = j > 1 ? w - 1 : f->way; /* the way whose maps this one takes */
+    double **maps[] = {&w->p, &w->gap, &w->before[0], &w->before[1], &w->less};
+    double *const from[] = {like->p, like->gap, like->before[0], like->before[1], like->less};
+    /* the first way has all maps, and the second one its own contact */
+    const size_t own = j == 0 ? (f->alternates ? 5 : 2) : j == 1 && f->alternates ? 4 : 0;
 
-    w->p = f->way->p;
-    w->gap = f->way->gap;
-    for (size_t k = 0; k < (f->alternates ? 5 : 2) && own; k++)
-        *maps[k] = rc_store_zeros(&f->base.own, f->n, sizeof **maps[k]);
+    for (size_t k = 0; k < 5; k++)
+        *maps[k] = k < own ? rc_store_zeros(&f->base.own, f->n, sizeof **maps[k]) : from[k];
     return rc_model_room(&f->base, err);
 }
 
@@ -789,8 +796,9 @@ make_way(struct friction *f, size_t j, const double *h, struct rc_err *err)
     w->tol = (slip.tol > 0 ? slip.tol : usual) / (j > 0 ? 10 : 1);
     slip.tol = f->alternates ? w->tol / 2 : w->tol;
     w->approach = NAN;
-    if ((w->slip = rc_friction_solver_new(&f->base.shape, &slip, err)) == NULL ||
-        make_maps(f, w, err) != RC_OK)
+    w->slip = j == 0 ? rc_friction_solver_new(&f->base.shape, &slip, err)
+                     : rc_friction_solver_beside(f->way->slip, slip.tol, err);
+    if (w->slip == NULL || make_maps(f, j, err) != RC_OK)
         return RC_FAIL;
     if (h == NULL)
         return RC_OK;

@@ -758,6 +758,81 @@ test_units_axes_and_threads(void **state)
     check_units_axes_and_threads((struct rc_boundary){.y = true, .datum = 700});
 }
 
+/* Histories that share operator and iteration have the bytes of histories on their own, and the present
+ * increment of the main one survives those of the others. Each further one takes less than a third of the
+ * memory. */
+static void
+test_histories_side_by_side(void **state)
+{
+    enum {
+        MORE = 2
+    };
+    const struct rc_shape shape = {48, 40, 1, 1.1};
+    const size_t n = shape.nx * shape.ny;
+    const struct rc_pair pairs[] = {{.estar = 1}, {.one = {.e = 0.9, .nu = 0.2}}};
+    double *p = pressure_of(&shape, RC_FREE, slip_rough(&shape, 0.1, 6, 4), 0.016), limit = 0;
+    double *slip[2] = {malloc(n * sizeof(double)), malloc(n * sizeof(double))};
+
+    (void)state;
+    for (size_t k = 0; k < n; k++)
+        limit += 0.3 * p[k] * shape.dx * shape.dy;
+    for (size_t pair = 0; pair < 2; pair++) {
+        struct rc_friction_law what = {.pair = pairs[pair], .nu = 0.3, .mu = 0.3, .tol = 1e-5};
+        struct rc_friction_solver *alone[1 + MORE], *beside[1 + MORE];
+        size_t held = rc_memory_held().held, first;
+
+        beside[0] = rc_friction_solver_new(&shape, &what, NULL);
+        first = rc_memory_held().held - held;
+        for (size_t j = 1; j <= MORE; j++)
+            beside[j] = rc_friction_solver_beside(beside[0], 1e-6, NULL);
+        assert_true(rc_memory_held().held - held - first < MORE * first / 3);
+        for (size_t j = 0; j <= MORE; j++) {
+            what.tol = j == 0 ? 1e-5 : 1e-6;
+            alone[j] = rc_friction_solver_new(&shape, &what, NULL);
+        }
+        for (int step = 0; step < 4; step++) {
+            static const double to[4][2] = {{0.5, 0}, {0.3, 0.3}, {0.2, -0.4}, {0, 0}};
+            struct rc_friction_increment f[2];
+            for (size_t j = 0; j <= MORE; j++) {
+                struct rc_friction_solver *both[2] = {alone[j], beside[j]};
+                for (int k = 0; k < 2; k++) {
+                    rc_friction_solver_set_pressure(both[k], p, NULL, NULL);
+                    rc_friction_solver_set_force(both[k], limit * (to[step][0] + 0.05 * (double)j),
+                                                 limit * to[step][1], NULL);
+                    assert_int_equal(slip_solve(both[k], &f[k]), RC_OK);
+                    if (j > 0)
+                        rc_friction_solver_keep(both[k]);
+                }
+                assert_true(f[0].dissipated == f[1].dissipated);
+                for (int c = 0; c < 2 && j > 0; c++)
+                    assert_memory_equal(rc_friction_solver_kept(alone[j], c),
+                                        rc_friction_solver_kept(beside[j], c), n * sizeof *p);
+            }
+            rc_friction_solver_result(alone[0], &f[0]);
+            rc_friction_solver_result(beside[0], &f[1]);
+            assert_true(f[0].slip_nodes > 0 && f[0].slip_nodes == f[1].slip_nodes);
+            assert_true(f[0].dissipated == f[1].dissipated);
+            for (int c = 0; c < 2; c++) {
+                assert_memory_equal(rc_friction_solver_traction(alone[0], c),
+                                    rc_friction_solver_traction(beside[0], c), n * sizeof *p);
+                rc_friction_solver_slip(alone[0], c, slip[0]);
+                rc_friction_solver_slip(beside[0], c, slip[1]);
+                assert_memory_equal(slip[0], slip[1], n * sizeof *p);
+            }
+            rc_friction_solver_keep(alone[0]);
+            rc_friction_solver_keep(beside[0]);
+        }
+        for (size_t j = 1 + MORE; j-- > 0;) {
+            rc_friction_solver_free(alone[j]);
+            rc_friction_solver_free(beside[j]);
+        }
+        assert_true(rc_memory_held().held == held);
+    }
+    free(slip[0]);
+    free(slip[1]);
+    free(p);
+}
+
 int
 main(void)
 {
@@ -771,6 +846,7 @@ main(void)
         cmocka_unit_test(test_errors_of_a_path_add_up),
         cmocka_unit_test(test_bodies_apart_forget),
         cmocka_unit_test(test_units_axes_and_threads),
+        cmocka_unit_test(test_histories_side_by_side),
     };
 
     return cmocka_run_group_tests(tests, NULL, NULL);

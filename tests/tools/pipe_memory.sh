@@ -137,6 +137,12 @@ promised "rc-stress, periodic, with friction" "rc-stress --nu 0.3 --mu 0.2 --com
 promised "rc-fatigue" "rc-fatigue --nu 0.3 --bending-limit 6MPa --torsion-limit 4MPa --pass x --depths 1um,5um free.rcg" 12M
 promised "rc-wear" "rc-wear --coefficient 1e-6mm3/Nm --distance 1um free.rcg" 20M
 promised "rc-slip" "rc-slip --nu 0.3 --mu 0.3 --tangential 10mN light.rcg" 7M
+promised "rc-slip, three solutions" "rc-slip --nu 0.3 --mu 0.3 --tangential 100mN,100mN --increments 4 light.rcg" 7M
+rc-synth $rough --nx 160 | rc-solve --quiet --mean-pressure 10MPa --E1 3GPa --nu1 0.3 --E2 rigid -o dissimilar.rcg -
+slides="rc-slip --quiet --mu 0.05 --tangential 1mN --increments 8 --tol 0.1 dissimilar.rcg"
+plan=$($slides --dry-run | awk 'match($0, /, [0-9]+ MiB,/) { print substr($0, RSTART + 2) * 1048576; exit }')
+$slides -o slides.rcg --report slides.json 2>slides.err || true # too few increments for its tolerance
+near "${plan:-none}" "$(field peak_memory slides.json)" 0.1 "the plan of three solutions of dissimilar bodies has the peak"
 
 # A process of 256 MiB starts the tool: getrusage passes its peak on to the tool.
 cat >large.pl <<'P'

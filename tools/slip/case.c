@@ -300,16 +300,19 @@ forecast(struct slip_run *run)
     const double increment = 16 * fmax(1 + log10(1e-4 / tol) / 7, 0.3); /* convolutions of one */
     const double runs = 2 - pow(0.5, (double)run->law.fewer); /* with half of them, and a quarter */
     double work = 0;
-    enum {
-        STATE = 8 /* maps of the state of a way */
-    };
     /* bytes a node, measured on 1024 x 1024 nodes: free, periodic; second row: dissimilar bodies */
-    static const double bytes[2][2] = {{343, 248}, {375, 268}};
+    static const double bytes[2][2] = {{335, 240}, {367, 260}};
+    static const double history = 57;            /* of a further way */
+    static const double tractions[2] = {33, 49}; /* of all further ways together */
     const struct rc_problem contact = {.boundary = run->boundary,
                                        .pair = run->bodies.pair,
                                        .load = fmax(run->load, 1),
                                        .threads = run->d.t.threads};
-    const size_t ways = 1 + run->law.fewer, maps = run->alternates ? 6 * ways : 2;
+    const size_t more = run->law.fewer, ways = 1 + more;
+    /* maps of the passes of dissimilar bodies, of the first way and of the others; of the lag; of the state
+     * of each way; of the known contact */
+    const size_t maps =
+        (run->alternates ? (more > 0 ? 10u : 6u) : 2u) + (more > 0 ? 2 : 0) + 8 * ways + 2;
     const double nodes = (double)rc_grid_nodes(run->p);
     struct rc_expected all = {0}, solver = {0};
     double each;
@@ -324,10 +327,11 @@ forecast(struct slip_run *run)
     all.seconds = work * each * (passes * increment + (run->alternates ? solver.convolutions : 0));
     if (!run->solves)
         solver.memory = 0;
-    all.memory = ways * (size_t)(nodes * rc_by_padding(run->boundary, bytes[run->coupled][0],
-                                                       bytes[run->coupled][1])) +
-                 (run->alternates ? ways : 1) * solver.memory +
-                 (maps + (ways > 1 ? 2 : 0) + STATE * ways + 2) * (size_t)nodes * sizeof(double);
+    all.memory =
+        (size_t)(nodes *
+                 (rc_by_padding(run->boundary, bytes[run->coupled][0], bytes[run->coupled][1]) +
+                  history * (double)more + (more > 0 ? tractions[run->coupled] : 0))) +
+        (run->alternates ? ways : 1) * solver.memory + maps * (size_t)nodes * sizeof(double);
     return all;
 }
 
