@@ -173,7 +173,7 @@ half_run(const struct half *h, size_t count, unsigned odd, double *const *v)
 
 /* Sets the rows and columns of each rank. */
 static enum rc_status
-share(struct rc_fft *f, const struct rc_ranks *ranks, enum rc_precision precision,
+share(struct rc_fft *f, const struct rc_ranks *ranks, size_t row_unit, enum rc_precision precision,
       struct rc_err *err)
 {
     struct rc_layout *l = &f->layout;
@@ -182,8 +182,8 @@ share(struct rc_fft *f, const struct rc_ranks *ranks, enum rc_precision precisio
 
     if (count == 1)
         return RC_OK;
-    if (rc_turn_new(&f->turn, ranks, f->shape.ny, rc_rows_unit(f->shape.nx),
-                    (l->ny - f->shape.ny) / 2, lines, LINE_BYTES, err) != RC_OK ||
+    if (rc_turn_new(&f->turn, ranks, f->shape.ny, row_unit, (l->ny - f->shape.ny) / 2, lines,
+                    LINE_BYTES, err) != RC_OK ||
         rc_turn_new(&f->quarter, ranks, l->cy, ROWS, 0, lines, line * sizeof(double), err) != RC_OK)
         return RC_FAIL;
     share_layout(l, precision, count, own, &f->turn);
@@ -201,12 +201,16 @@ rc_boundary_check(struct rc_boundary boundary, struct rc_err *err)
 
 /* With a frame the plan makes no spectra itself. */
 static struct rc_fft *
-fft_new(const struct rc_ranks *ranks, struct rc_fft *lender, const struct rc_shape *s,
+fft_new(const struct rc_ranks *ranks, struct rc_fft *lender, const struct rc_shape *s, size_t level,
         struct rc_boundary boundary, const struct rc_frame *frame, enum rc_precision precision,
         size_t threads, struct rc_err *err)
 {
     RC_OWN(rc_fft, f) = calloc(1, sizeof *f);
-    struct rc_shape own = {s->nx, rc_rows_of(ranks, s).n, s->dx, s->dy};
+    const size_t unit = rc_rows_unit(s->nx << level) >> level, count = rc_ranks_count(ranks),
+                 at = rc_ranks_own(ranks);
+    struct rc_shape own = {
+        s->nx, rc_rows_dealt(s->ny, unit, count, at + 1) - rc_rows_dealt(s->ny, unit, count, at),
+        s->dx, s->dy};
     void *lent = NULL;
     struct rc_layout *l;
     size_t team;
@@ -225,7 +229,7 @@ fft_new(const struct rc_ranks *ranks, struct rc_fft *lender, const struct rc_sha
                                                       rows */
     team = (size_t)l->threads;
     f->ops = precision == RC_SINGLE ? &rc_fft_single : &rc_fft_double;
-    if (share(f, ranks, precision, err) != RC_OK)
+    if (share(f, ranks, unit, precision, err) != RC_OK)
         return NULL;
     if (lender != NULL)
         lent = lender->ops->workspace(lender->plan, rc_layout_rows(l) * 2 * real_size(precision));
@@ -254,12 +258,21 @@ rc_fft_new(const struct rc_ranks *ranks, struct rc_fft *lender, const struct rc_
            struct rc_boundary boundary, enum rc_precision precision, size_t threads,
            struct rc_err *err)
 {
+    return rc_fft_new_coarser(ranks, lender, s, 0, boundary, precision, threads, err);
+}
+
+struct rc_fft *
+rc_fft_new_coarser(const struct rc_ranks *ranks, struct rc_fft *lender, const struct rc_shape *s,
+                   size_t level, struct rc_boundary boundary, enum rc_precision precision,
+                   size_t threads, struct rc_err *err)
+{
     if (rc_shape_check(s, err) != RC_OK || rc_boundary_check(boundary, err) != RC_OK)
         return NULL;
     if (s->nx > (size_t)1 << 28 || s->ny > (size_t)1 << 28)
         return rc_err_null(err, "%zu x %zu nodes: a side is too long for a Fourier transform",
                            s->nx, s->ny);
-    return agree(ranks, fft_new(ranks, lender, s, boundary, NULL, precision, threads, err), err);
+    return agree(ranks, fft_new(ranks, lender, s, level, boundary, NULL, precision, threads, err),
+                 err);
 }
 
 struct rc_fft *
@@ -267,7 +280,8 @@ rc_fft_new_framed(const struct rc_ranks *ranks, struct rc_fft *lender, const str
                   struct rc_boundary boundary, const struct rc_frame *frame,
                   enum rc_precision precision, size_t threads, struct rc_err *err)
 {
-    return agree(ranks, fft_new(ranks, lender, s, boundary, frame, precision, threads, err), err);
+    return agree(ranks, fft_new(ranks, lender, s, 0, boundary, frame, precision, threads, err),
+                 err);
 }
 
 static const struct rc_ranks *
@@ -573,6 +587,21 @@ rc_fft_columns(const struct rc_fft *f, size_t *first, size_t *n)
 {
     *first = f->layout.first;
     *n = f->layout.columns;
+}
+
+size_t
+rc_fft_column_of(const struct rc_fft *f, size_t r)
+{
+    const struct rc_layout *l = &f->layout;
+    const size_t column = l->turn == NULL ? r * l->cx : l->turn->column[r] * f->ops->line;
+
+    return column < l->cx ? column : l->cx;
+}
+
+size_t
+rc_fft_rows(const struct rc_fft *f)
+{
+    return f->layout.rows;
 }
 
 double

@@ -32,6 +32,13 @@ enum rc_status rc_boundary_check(struct rc_boundary boundary, struct rc_err *err
 struct rc_fft *rc_fft_new(const struct rc_ranks *ranks, struct rc_fft *lender,
                           const struct rc_shape *shape, struct rc_boundary boundary,
                           enum rc_precision precision, size_t threads, struct rc_err *err);
+/* The same for every 2^level-th row and column of a larger map, where 2^level divides rc_rows_unit of that
+ * map. `shape` is that of the coarser map. Each of its rows belongs to the rank that has the row of the larger
+ * map. */
+struct rc_fft *rc_fft_new_coarser(const struct rc_ranks *ranks, struct rc_fft *lender,
+                                  const struct rc_shape *shape, size_t level,
+                                  struct rc_boundary boundary, enum rc_precision precision,
+                                  size_t threads, struct rc_err *err);
 /* The same transforms, with the spectra of rc_fft_new, of a map in a frame. The frame is x columns and
  * y rows of the padding on either side of the map, at most half of the padding; 0 along an axis that
  * repeats. Row and column 0 are the first of the frame. Its rows belong to the ranks with the first and
@@ -85,6 +92,10 @@ double rc_fft_qy(const struct rc_fft *fft, size_t j);
 void rc_fft_waves(const struct rc_fft *fft, size_t *columns, size_t *n);
 /* Columns that this rank multiplies: `n` from `first` on; without ranks all. */
 void rc_fft_columns(const struct rc_fft *fft, size_t *first, size_t *n);
+/* The first column of rank r; of as many ranks as there are: the number of columns. */
+size_t rc_fft_column_of(const struct rc_fft *fft, size_t r);
+/* Rows of the map held here. */
+size_t rc_fft_rows(const struct rc_fft *fft);
 /* Number of threads that may pass rows of a quarter. */
 int rc_fft_threads(const struct rc_fft *fft);
 /* The reciprocal of another kernel's spectrum: the inverse of the padded circulant, or of the symbol; zero

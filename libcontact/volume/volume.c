@@ -7,7 +7,9 @@
  * Deep slabs may have fewer nodes, every 2nd, 4th, ... node of the map along each axis, because only long
  * waves reach them. The waves of such a level are the longest waves of the map, with the same coefficients.
  * Where the level changes between two groups, waves that the deeper level has pass, and others end. Upward
- * and downward passes are transposes of each other, so that G stays symmetric.
+ * and downward passes are transposes of each other, so that G stays symmetric. Ranks deal the columns of each
+ * level evenly. At a change of the level the columns of the deeper one therefore move to the ranks that have
+ * them in the other, and back.
  *
  * Storage per node, in numbers: 5 a slab, which the stresses of the slab replace, 3 a group, and 1 for the
  * map in transform. Slices need another 3 a group (downward waves besides the upward ones) and 6 for the
@@ -37,6 +39,7 @@ struct level {
     size_t length, first, columns; /* waves of a column; columns held here             */
     size_t map;                    /* numbers of a map, as waves or as rows            */
     double *qy, *alive;            /* numbers of the waves of a column                 */
+    size_t *deal;                  /* of each rank: its first column; ranks only       */
     size_t *place;                 /* of each wave of a column in one of the map; level 0: NULL */
 };
 
@@ -78,6 +81,8 @@ struct rc_slabs {
     const struct rc_sweep_ops *ops;
     struct maps maps;
     char *passing;          /* waves of a column between levels, for each thread */
+    void *moved;            /* ranks: columns of a level, dealt as those of a finer one */
+    size_t *deal;           /* the first of them on each rank */
     struct rc_lines *lines; /* where exactly one axis repeats */
     bool *strained;         /* slabs with strain, from the last rc_slabs_up */
     bool *passes;           /* groups: whether there are waves at its top       */
@@ -137,7 +142,8 @@ coarser(const struct rc_shape *shape, size_t level)
                              wide * shape->dy};
 }
 
-/* True if the nodes of a level are nodes of the map, and its waves are waves of the map. */
+/* True if the nodes of a level are nodes of the map, its waves are waves of the map, and a unit of rows that
+ * ranks share has whole rows of it. */
 static bool
 has_level(const struct rc_shape *shape, struct rc_boundary boundary, size_t level)
 {
@@ -147,7 +153,8 @@ has_level(const struct rc_shape *shape, struct rc_boundary boundary, size_t leve
     rc_fft_period(shape, boundary, &px, &py);
     rc_fft_period(&s, boundary, &qx, &qy);
     return s.nx >= SIDE && s.ny >= SIDE && s.nx << level == shape->nx &&
-           s.ny << level == shape->ny && qx << level == px && qy << level == py;
+           s.ny << level == shape->ny && qx << level == px && qy << level == py &&
+           rc_rows_unit(shape->nx) >> level > 0;
 }
 
 /* Sets the level of each slab, and returns the number of groups. */
@@ -155,7 +162,7 @@ static size_t
 set_levels(const struct rc_shape *shape, const struct rc_slabs_options *o, size_t *level)
 {
     const double step = fmax(shape->dx, shape->dy);
-    const bool only = o->slices || rc_repeats(o->boundary) == 1 || rc_ranks_count(o->ranks) > 1;
+    const bool only = o->slices || rc_repeats(o->boundary) == 1;
     size_t groups = 0, in = 0;
     double z = 0;
 
@@ -187,6 +194,13 @@ rc_slabs_by_nodes(const struct rc_shape *shape, const struct rc_slabs_options *o
     return sum;
 }
 
+/* Whether several ranks hold the map. */
+static bool
+shared(const struct rc_slabs *v)
+{
+    return rc_ranks_count(v->ranks) > 1;
+}
+
 /* The place of each wave of a column in a column of a finer level; SIZE_MAX: it is dead. */
 static size_t *
 places_in(struct rc_slabs *v, const struct level *l, const struct level *finer)
@@ -209,12 +223,13 @@ make_level(struct rc_slabs *v, const struct rc_slabs_options *o, size_t which, s
     const struct rc_shape s = coarser(&v->shape, which);
     struct level *l = &v->level[which];
 
-    l->fft = rc_fft_new(o->ranks, v->level[0].fft, &s, o->boundary, o->precision, o->threads, err);
+    l->fft = rc_fft_new_coarser(o->ranks, v->level[0].fft, &s, which, o->boundary, o->precision,
+                                o->threads, err);
     if (l->fft == NULL)
         return RC_FAIL;
     rc_fft_period(&s, o->boundary, &l->px, &l->py);
     l->nx = s.nx;
-    l->rows = v->here.ny >> which;
+    l->rows = rc_fft_rows(l->fft);
     l->length = rc_fft_length(l->fft);
     rc_fft_columns(l->fft, &l->first, &l->columns);
     l->map = map_size(&s, l->length, l->columns, l->rows);
@@ -227,6 +242,10 @@ make_level(struct rc_slabs *v, const struct rc_slabs_options *o, size_t which, s
     }
     if (which > 0)
         l->place = places_in(v, l, &v->level[0]);
+    if (shared(v))
+        l->deal = rc_store_take(&v->own, rc_ranks_count(o->ranks) + 1, sizeof *l->deal);
+    for (size_t r = 0; l->deal != NULL && r <= rc_ranks_count(o->ranks); r++)
+        l->deal[r] = rc_fft_column_of(l->fft, r);
     return RC_OK;
 }
 
@@ -253,6 +272,21 @@ set_groups(struct rc_slabs *v, size_t *strains, size_t *waves)
     }
 }
 
+/* Numbers of the columns of a level whose columns of a finer level are held here. */
+static size_t
+most_moved(const struct rc_slabs *v)
+{
+    size_t most = 0;
+
+    for (size_t k = 1; k < LEVELS; k++)
+        for (size_t q = 0; q < k && v->level[k].fft != NULL; q++) {
+            const struct level *l = &v->level[k], *finer = &v->level[q];
+            const size_t n = finer->columns * RC_SWEEP_WAVES * 2 * l->length;
+            most = finer->fft != NULL && n > most ? n : most;
+        }
+    return most;
+}
+
 static enum rc_status
 allocate(struct rc_slabs *v, const struct rc_slabs_options *o, struct rc_err *err)
 {
@@ -271,6 +305,10 @@ allocate(struct rc_slabs *v, const struct rc_slabs_options *o, struct rc_err *er
     if (v->level_of[v->layout.slabs - 1] > 0)
         v->passing =
             rc_store_take(&v->own, threads * RC_SWEEP_WAVES * 2 * v->level[0].length, size);
+    if (v->passing != NULL && shared(v)) {
+        v->moved = rc_store_take(&v->own, most_moved(v), size);
+        v->deal = rc_store_take(&v->own, rc_ranks_count(v->ranks) + 1, sizeof *v->deal);
+    }
     if (o->whole)
         v->maps.zz = rc_store_take(&v->own, RC_SWEEP_SLABS, v->level[0].map * size);
     if (o->slices) {
@@ -583,13 +621,61 @@ copy_waves(const struct rc_slabs *v, const struct group *coarse, bool back, char
         }
 }
 
-/* Whether column i of a group continues in the group below it. */
-static bool
+/* Moves columns of `numbers` each of a level to the ranks that have these columns in a finer level, into
+ * v->moved, or `back`. */
+static void
+move_columns(struct rc_slabs *v, const struct level *l, const struct level *finer, size_t numbers,
+             bool back, void *waves)
+{
+    const size_t count = rc_ranks_count(v->ranks), bytes = numbers * v->layout.real;
+
+    for (size_t r = 0; r <= count; r++)
+        v->deal[r] = finer->deal[r] < l->deal[count] ? finer->deal[r] : l->deal[count];
+    if (back)
+        rc_ranks_move(v->ranks, bytes, v->deal, l->deal, 0, v->moved, waves);
+    else
+        rc_ranks_move(v->ranks, bytes, l->deal, v->deal, 0, waves, v->moved);
+}
+
+/* Moves the waves at the top of a group whose level differs from that of the group above it. */
+static void
+move_waves(struct rc_slabs *v, size_t group, bool back)
+{
+    const struct group *g = &v->group[group];
+    const struct level *l = &v->level[g->level];
+
+    if (g->place != NULL && shared(v))
+        move_columns(v, l, &v->level[(g - 1)->level], RC_SWEEP_WAVES * 2 * l->length, back,
+                     waves_of(v, group, 0));
+}
+
+/* The waves at the top of a group in column i of the group above it. */
+static void *
+waves_below(const struct rc_slabs *v, size_t group, size_t i)
+{
+    const struct group *g = &v->group[group];
+
+    return g->place != NULL && shared(v)
+               ? number_of(v, v->moved, i * RC_SWEEP_WAVES * 2 * v->level[g->level].length)
+               : waves_of(v, group, i);
+}
+
+enum passage {
+    ENDS, /* the group below does not have this column */
+    DIES, /* it has it, but waves of two nodes are 0   */
+    PASSES
+};
+
+/* Whether column i of a group, of those held here, continues in the group below it. */
+static enum passage
 continues(const struct rc_slabs *v, const struct group *below, size_t i)
 {
     const struct level *l = &v->level[below->level];
+    const size_t column = v->level[(below - 1)->level].first + i;
 
-    return below->place == NULL || (i < l->columns && 2 * i != l->px);
+    if (below->place == NULL)
+        return PASSES;
+    return column > l->px / 2 ? ENDS : 2 * column == l->px ? DIES : PASSES;
 }
 
 static void
@@ -599,11 +685,13 @@ sweep_up(struct rc_slabs *v, size_t group)
     const struct level *l = &v->level[g->level];
     const bool below = group + 1 < v->layout.groups && v->passes[group + 1];
 
+    if (below)
+        move_waves(v, group + 1, false);
 #pragma omp parallel for num_threads(rc_fft_threads(l->fft)) schedule(static)
     for (size_t i = 0; i < l->columns; i++) {
         struct rc_sweep_column column = sweep_column(v, l, i);
         struct rc_sweep_slab slab[RC_SWEEP_SLABS];
-        void *from = below && continues(v, next, i) ? waves_of(v, group + 1, i) : NULL;
+        void *from = below && continues(v, next, i) == PASSES ? waves_below(v, group + 1, i) : NULL;
         if (from != NULL && next->place != NULL) {
             copy_waves(v, next, false, from, passing_of(v));
             from = passing_of(v);
@@ -694,19 +782,21 @@ sweep_down(struct rc_slabs *v, size_t group, const bool *wanted)
     const struct level *l = &v->level[g->level];
     const bool last = group + 1 == v->layout.groups, below = !last && v->passes[group + 1];
 
+    if (below)
+        move_waves(v, group + 1, false);
 #pragma omp parallel for num_threads(rc_fft_threads(l->fft)) schedule(static)
     for (size_t i = 0; i < l->columns; i++) {
         struct rc_sweep_column column = sweep_column(v, l, i);
         struct rc_sweep_slab slab[RC_SWEEP_SLABS];
-        const bool on = !last && continues(v, next, i), turns = !last && next->place != NULL;
-        void *to = on ? waves_of(v, group + 1, i) : NULL, *through = to;
+        const enum passage passage = last ? ENDS : continues(v, next, i);
+        const bool on = passage == PASSES, turns = !last && next->place != NULL;
+        void *to = passage != ENDS ? waves_below(v, group + 1, i) : NULL, *through = on ? to : NULL;
         if (on && turns) {
             through = passing_of(v);
             if (below)
                 copy_waves(v, next, false, to, through);
-        } else if (turns && i < v->level[next->level].columns) /* a dead column */
-            memset(waves_of(v, group + 1, i), 0,
-                   RC_SWEEP_WAVES * 2 * v->level[next->level].length * v->layout.real);
+        } else if (passage == DIES)
+            memset(to, 0, RC_SWEEP_WAVES * 2 * v->level[next->level].length * v->layout.real);
         slabs_of(v, g, i, wanted, slab);
         for (size_t k = 0; k < g->n && l->first + i == 0; k++)
             add_mean(&v->shape, v->boundary, v->nu, v->mean, &slab[k]);
@@ -714,6 +804,8 @@ sweep_down(struct rc_slabs *v, size_t group, const bool *wanted)
         if (on && turns)
             copy_waves(v, next, true, to, through);
     }
+    if (!last)
+        move_waves(v, group + 1, true);
 }
 
 void
@@ -731,6 +823,7 @@ rc_slabs_down(struct rc_slabs *v, const double *p, const struct rc_slab_stress *
     if (p != NULL) {
         rc_fft_forward(v->level[0].fft, pressure_row, &pass, NULL, reflect_column);
         v->counts.forward++;
+        rc_ranks_each_sum(v->ranks, 1, &v->mean); /* one rank has it; the others have 0 */
     } else {
 #pragma omp parallel for num_threads(rc_fft_threads(v->level[0].fft)) schedule(static)
         for (size_t i = 0; i < v->level[0].columns; i++)
@@ -867,7 +960,7 @@ refined_column(void *ctx, size_t i, void *to)
     const size_t real = v->layout.real;
 
     memset(to, 0, 2 * all->length * real);
-    for (size_t t = 0; t < l->length && i < l->columns && 2 * i != l->px; t++)
+    for (size_t t = 0; t < l->length && 2 * (all->first + i) < l->px; t++)
         for (size_t half = 0; half < 2 && p->place[t] != SIZE_MAX; half++)
             memcpy((char *)to + (half * all->length + p->place[t]) * real,
                    number_of(v, p->waves, (2 * i + half) * l->length + t), real);
@@ -896,6 +989,10 @@ rc_slabs_refine(struct rc_slabs *v, size_t slab, double *map)
     if (v->level_of[slab] == 0)
         return;
     rc_fft_forward(l->fft, node_row, &pass, pass.waves, NULL);
+    if (shared(v)) {
+        move_columns(v, l, &v->level[0], 2 * l->length, false, pass.waves);
+        pass.waves = v->moved;
+    }
     rc_fft_back(v->level[0].fft, NULL, refined_column, refined_row, &pass);
 }
 

@@ -55,7 +55,7 @@ struct rc_slabs_options {
     bool whole;                  /* all six stresses; otherwise deviators, without szz */
     bool slices;                 /* rc_slabs_slice will be called                      */
     /* The nodes of a slab lie 2^level nodes of the map apart, at most this part of its depth. 0: all slabs
-     * have the nodes of the map, and so have those for slices, ranks, and maps that repeat along one axis. */
+     * have the nodes of the map, and so have those for slices and maps that repeat along one axis. */
     double coarser;
     enum rc_precision precision;  /* precision of the computation; rows and maps are double */
     size_t threads;               /* 0: all                                             */
