@@ -34,7 +34,15 @@ struct probe {
     const double *p; /* Pa */
     double yield;    /* Pa */
     double *map;     /* Pa: Mises stress at a depth */
+    size_t nodes;    /* of this rank */
 };
+
+/* True if the caller cannot wait. Ranks always wait: a signal reaches them at different times. */
+static bool
+hurried(const struct probe *q)
+{
+    return q->contact->ranks == NULL && q->contact->hurry != NULL && *q->contact->hurry != 0;
+}
 
 /* Finds the largest Mises stress at each depth, and the number of nodes with more than the yield stress.
  * RC_MORE: the caller cannot wait. */
@@ -48,8 +56,9 @@ look(const struct probe *q, size_t n, const double *depth, double *mises, size_t
                                               .tol = 1e-3,
                                               .depth = depth,
                                               .depths = n,
-                                              .threads = q->contact->threads};
-    const size_t nodes = q->shape->nx * q->shape->ny;
+                                              .threads = q->contact->threads,
+                                              .ranks = q->contact->ranks};
+    const size_t nodes = q->nodes;
     double *const to[RC_STRESSES] = {[RC_MISES] = q->map};
     enum rc_status status = RC_OK;
     struct rc_stress *stress;
@@ -60,19 +69,20 @@ look(const struct probe *q, size_t n, const double *depth, double *mises, size_t
     if (stress == NULL)
         return RC_FAIL;
     for (size_t k = 0; k < n && status == RC_OK; k++) {
-        size_t least, largest;
-        if (q->contact->hurry != NULL && *q->contact->hurry != 0) {
+        struct rc_total above = {0};
+        double sum;
+        if (hurried(q)) {
             status = RC_MORE;
             break;
         }
         status = rc_stress_slice(stress, depth[k], to, err);
-        if (status == RC_OK) {
-            rc_extremes(nodes, q->map, &least, &largest);
-            mises[k] = q->map[largest];
-        }
-        beyond[k] = 0;
-        for (size_t i = 0; i < nodes && status == RC_OK; i++)
-            beyond[k] += q->map[i] > q->yield;
+        if (status != RC_OK)
+            break;
+        mises[k] = rc_highest(q->map, nodes);
+        for (size_t i = 0; i < nodes; i++)
+            above.sum += q->map[i] > q->yield;
+        rc_ranks_totals(q->contact->ranks, 1, &above, &sum, 1, &mises[k]);
+        beyond[k] = (size_t)sum;
     }
     rc_stress_free(stress);
     return status;
@@ -84,6 +94,7 @@ struct stack {
     double thickness[MOST << HALVINGS], middle[MOST << HALVINGS]; /* m */
     double mises[MOST << HALVINGS];                               /* Pa, the largest of a slab */
     size_t beyond[MOST << HALVINGS];                              /* nodes above the yield stress */
+    double sum[MOST << HALVINGS];                                 /* the same, over the ranks */
 };
 
 static int
@@ -105,14 +116,16 @@ look_between(const struct probe *q, const struct stack *s, struct rc_yield_depth
     size_t automatic, all, n = 0, k = 0;
     enum rc_status status;
 
-    if (rc_stress_depths(NULL, q->shape, q->p, q->contact->boundary, &q->contact->pair.one, &more,
-                         &automatic, err) != RC_OK)
+    if (rc_stress_depths(q->contact->ranks, q->shape, q->p, q->contact->boundary,
+                         &q->contact->pair.one, &more, &automatic, err) != RC_OK)
         return RC_FAIL;
     all = automatic + s->n;
-    if ((depth = rc_alloc(all, sizeof *depth)) == NULL ||
-        (mises = rc_alloc(all, sizeof *mises)) == NULL ||
-        (beyond = rc_alloc(all, sizeof *beyond)) == NULL)
-        return rc_err_set(err, "out of memory for %zu depths", all);
+    depth = rc_alloc(all, sizeof *depth);
+    mises = rc_alloc(all, sizeof *mises);
+    beyond = rc_alloc(all, sizeof *beyond);
+    if (rc_ranks_need(q->contact->ranks, depth != NULL && mises != NULL && beyond != NULL, err,
+                      "out of memory for %zu depths", all) != RC_OK)
+        return RC_FAIL;
     memcpy(depth, more, automatic * sizeof *depth);
     for (size_t i = 0; i < s->n; i++)
         depth[automatic + i] = i > 0 ? depth[automatic + i - 1] + s->thickness[i - 1] : 0;
@@ -183,7 +196,8 @@ look_at_voxels(const struct probe *q, struct stack *s, double *most, struct rc_e
                                              .boundary = q->contact->boundary,
                                              .coarser = RC_YIELD_COARSER,
                                              .precision = RC_SINGLE,
-                                             .threads = q->contact->threads};
+                                             .threads = q->contact->threads,
+                                             .ranks = q->contact->ranks};
     RC_OWN(rc_slabs, slabs) = rc_slabs_new(q->shape, &options, err);
 
     if (slabs == NULL)
@@ -193,9 +207,15 @@ look_at_voxels(const struct probe *q, struct stack *s, double *most, struct rc_e
     memset(s->beyond, 0, s->n * sizeof *s->beyond);
     rc_slabs_up(slabs, &none, NULL);
     rc_slabs_down(slabs, q->p, &stress);
-    *most = 0;
     for (size_t k = 0; k < s->n; k++)
+        s->sum[k] = (double)s->beyond[k];
+    rc_ranks_each_most(q->contact->ranks, s->n, s->mises);
+    rc_ranks_each_sum(q->contact->ranks, s->n, s->sum);
+    *most = 0;
+    for (size_t k = 0; k < s->n; k++) {
+        s->beyond[k] = (size_t)s->sum[k];
         *most = fmax(*most, s->mises[k]);
+    }
     return RC_OK;
 }
 
@@ -209,7 +229,7 @@ resolve(const struct probe *q, struct stack *s, struct rc_yield_depths *d, struc
 
     for (d->halved = 0;; d->halved++) {
         const struct rc_yield_depths whole = {.slabs = s->n, .thickness = s->thickness};
-        if (q->contact->hurry != NULL && *q->contact->hurry != 0)
+        if (hurried(q))
             return RC_MORE;
         if (d->halved >= least && look_at_voxels(q, s, &most, err) != RC_OK)
             return RC_FAIL;
@@ -230,17 +250,19 @@ rc_yield_depths(const struct rc_shape *shape, const struct rc_problem *contact, 
     const double step = shape->nx == 1   ? shape->dy
                         : shape->ny == 1 ? shape->dx
                                          : fmin(shape->dx, shape->dy);
-    RC_OWNED double *map = rc_alloc(nodes, sizeof *map);
+    const size_t here = rc_rows_of(contact->ranks, shape).n * shape->nx;
+    RC_OWNED double *map = rc_alloc(here, sizeof *map);
     RC_OWNED struct stack *s = malloc(sizeof *s);
-    const struct probe q = {shape, contact, p, yield, map};
+    const struct probe q = {shape, contact, p, yield, map, here};
     enum rc_status status;
     double z = 0, reach = 0, most;
     size_t n = 0;
 
     *d = (struct rc_yield_depths){.halved = d->halved};
-    if (map == NULL || s == NULL)
-        return rc_err_set(err, "out of memory for the stresses of %zu x %zu nodes", shape->nx,
-                          shape->ny);
+    if (rc_ranks_need(contact->ranks, map != NULL && s != NULL, err,
+                      "out of memory for the stresses of %zu x %zu nodes", shape->nx,
+                      shape->ny) != RC_OK)
+        return RC_FAIL;
     s->n = 0;
     for (double dz = step / 2; s->n < MOST && z < side / 2; dz *= growth) {
         s->thickness[s->n] = dz;
@@ -268,8 +290,9 @@ rc_yield_depths(const struct rc_shape *shape, const struct rc_problem *contact, 
         return status;
     d->slabs = s->n;
     d->thickness = malloc(d->slabs * sizeof *d->thickness);
-    if (d->thickness == NULL)
-        return rc_err_set(err, "out of memory for the depths");
+    if (rc_ranks_need(contact->ranks, d->thickness != NULL, err, "out of memory for the depths") !=
+        RC_OK)
+        return RC_FAIL;
     memcpy(d->thickness, s->thickness, d->slabs * sizeof *d->thickness);
     for (size_t k = 0; k < d->slabs; k++)
         d->part += (double)s->beyond[k] / (double)(d->slabs * nodes);

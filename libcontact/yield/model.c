@@ -183,15 +183,15 @@ find_slabs(const struct rc_yield_problem *asked, const struct rc_shape *shape, c
     depths->slabs = d.slabs == 0 || asked->slabs == 0 ? d.slabs : asked->slabs;
     free(depths->thickness);
     depths->thickness = NULL;
-    if (depths->slabs > 0 &&
-        (depths->thickness = malloc(depths->slabs * sizeof *depths->thickness)) == NULL)
-        rc_err_set(err, "out of memory for the slabs");
-    else if (depths->slabs > 0 && asked->thickness != NULL)
+    if (depths->slabs > 0)
+        depths->thickness = malloc(depths->slabs * sizeof *depths->thickness);
+    if (depths->thickness != NULL && asked->thickness != NULL)
         memcpy(depths->thickness, asked->thickness, depths->slabs * sizeof *depths->thickness);
-    else if (depths->slabs > 0)
+    else if (depths->thickness != NULL)
         rc_yield_solver_stack(&d, depths->slabs, depths->thickness);
     free(d.thickness);
-    return depths->slabs > 0 && depths->thickness == NULL ? RC_FAIL : RC_OK;
+    return rc_ranks_need(asked->contact.ranks, depths->slabs == 0 || depths->thickness != NULL, err,
+                         "out of memory for the slabs");
 }
 
 /* ---- the volume ---- */
@@ -242,6 +242,21 @@ try_load(struct yield *y, struct rc_err *err)
     return rc_yield_solver_set_load(y->plastic, y->plan.load, err);
 }
 
+static enum rc_status
+save(const struct yield *y, struct rc_state_copy *to, const char *what, struct rc_err *err)
+{
+    return rc_ranks_need(y->base.rows.ranks,
+                         rc_state_save(to, rc_yield_solver_exchange, y->plastic) == RC_OK, err,
+                         "out of memory for %s", what);
+}
+
+static enum rc_status
+load(const struct yield *y, const struct rc_state_copy *from, struct rc_err *err)
+{
+    return rc_ranks_agree(y->base.rows.ranks,
+                          rc_state_load(from, rc_yield_solver_exchange, y->plastic, err), err);
+}
+
 /* Begins the first try of a load. On other heights the same load is one more increment. */
 static enum rc_status
 begin(struct yield *y, struct rc_err *err)
@@ -262,12 +277,11 @@ begin(struct yield *y, struct rc_err *err)
     y->tries.number = 0;
     rc_state_forget(&y->tries.before);
     if ((y->problem.increments == 0 || y->problem.companion) &&
-        rc_state_save(&y->tries.before, rc_yield_solver_exchange, y->plastic) != RC_OK)
-        return rc_err_set(err, "out of memory for the state before a load");
+        save(y, &y->tries.before, "the state before a load", err) != RC_OK)
+        return RC_FAIL;
     if (y->problem.companion)
         y->tries.increments /= 2;
-    if (y->problem.companion && y->tries.half.n > 0 &&
-        rc_state_load(&y->tries.half, rc_yield_solver_exchange, y->plastic, err) != RC_OK)
+    if (y->problem.companion && y->tries.half.n > 0 && load(y, &y->tries.half, err) != RC_OK)
         return RC_FAIL;
     return try_load(y, err);
 }
@@ -302,15 +316,13 @@ compare_runs(struct yield *y)
     const double ratio =
         y->tries.than > 0 ? (double)y->tries.increments / (double)y->tries.than : 0;
     const double *p = rc_solver_pressure(y->plastic->solver);
-    double sum = 0, change = 0, own = of_terms * f->increment_error, before = f->inherited_error;
+    double own = of_terms * f->increment_error, before = f->inherited_error, change;
+    const struct rc_ranks *ranks = y->base.rows.ranks;
 
     if (y->plan.load == 0 || ratio < least_ratio || isnan(f->increment_error))
         return;
-    for (size_t k = 0; k < y->n; k++) {
-        sum += p[k];
-        change += fabs(p[k] - y->tries.other[k]);
-    }
-    change *= of_change / (fmin(ratio, most_ratio) - 1) / sum;
+    change = of_change / (fmin(ratio, most_ratio) - 1) *
+             rc_ranks_distance(ranks, p, y->tries.other, y->n) / rc_ranks_sum_of(ranks, p, y->n);
     if (!y->problem.companion) {
         own = fmax(own, change);
     } else if (change > own + before) {
@@ -332,8 +344,9 @@ has_other(struct yield *y)
 static enum rc_status
 try_again(struct yield *y, size_t than, struct rc_err *err)
 {
-    if (!has_other(y))
-        return rc_err_set(err, "out of memory for the pressure of a try");
+    if (rc_ranks_need(y->base.rows.ranks, has_other(y), err,
+                      "out of memory for the pressure of a try") != RC_OK)
+        return RC_FAIL;
     if (y->tries.number == 0) {
         memcpy(y->tries.other, rc_solver_pressure(y->plastic->solver),
                y->n * sizeof *y->tries.other);
@@ -341,7 +354,7 @@ try_again(struct yield *y, size_t than, struct rc_err *err)
     }
     y->tries.spent += y->plastic->figures.applications;
     y->tries.number++;
-    if (rc_state_load(&y->tries.before, rc_yield_solver_exchange, y->plastic, err) != RC_OK)
+    if (load(y, &y->tries.before, err) != RC_OK)
         return RC_FAIL;
     return try_load(y, err) == RC_OK ? RC_MORE : RC_FAIL;
 }
@@ -357,8 +370,8 @@ press_volume(struct yield *y, struct rc_err *err)
     compare_runs(y);
     if (y->problem.companion && y->tries.before.n > 0 && y->tries.number == 0) {
         rc_state_forget(&y->tries.half);
-        if (rc_state_save(&y->tries.half, rc_yield_solver_exchange, y->plastic) != RC_OK)
-            return rc_err_set(err, "out of memory for the state of the companion run");
+        if (save(y, &y->tries.half, "the state of the companion run", err) != RC_OK)
+            return RC_FAIL;
         y->tries.increments = y->problem.increments;
         return try_again(y, tried, err);
     }
@@ -401,7 +414,8 @@ volume_bytes(const struct rc_yield_problem *problem, const struct rc_shape *shap
 
     /* a state takes at most the memory of the voxels and of a pressure */
     return rc_slabs_line_bytes(shape, boundary, slabs) +
-           (size_t)((double)(shape->nx * shape->ny) *
+           (size_t)((double)(shape->nx * shape->ny) /
+                    (double)rc_ranks_count(problem->contact.ranks) *
                     (rc_by_padding(boundary, body[0], body[1]) + (1 + tries) * sizeof(double) +
                      slabs_by_nodes(problem, shape, depths) *
                          (rc_by_padding(boundary, slab[0], slab[1]) +
@@ -600,10 +614,11 @@ look_apart(const struct yield *y, double *gap, struct rc_contact *c, struct rc_e
 {
     RC_OWNED double *left = rc_alloc(y->n, sizeof *left);
 
-    if (left == NULL)
-        return rc_err_set(err, "out of memory for the shape after yield");
+    if (rc_ranks_need(y->base.rows.ranks, left != NULL, err,
+                      "out of memory for the shape after yield") != RC_OK)
+        return RC_FAIL;
     shape(y, left);
-    rc_contact_apart(NULL, &y->base.shape, left, gap, c);
+    rc_contact_apart(y->base.rows.ranks, &y->base.shape, left, gap, c);
     return RC_OK;
 }
 
@@ -615,7 +630,7 @@ highest(const struct yield *y)
 
     for (size_t k = 0; k < y->n; k++)
         top = fmax(top, u != NULL ? y->h[k] - u[k] : y->h[k]);
-    return top;
+    return rc_ranks_most(y->base.rows.ranks, top);
 }
 
 /* 0: an elastic trial of the load */
@@ -890,7 +905,7 @@ rc_yield_new(const struct rc_shape *shape, const double *h, const struct rc_yiel
     y = (struct yield *)m;
     y->problem = *problem;
     m->boundary = problem->contact.boundary;
-    y->n = shape->nx * shape->ny;
+    y->n = rc_model_nodes(m);
     y->h = rc_store_copy(&m->own, y->n, sizeof *h, h);
     if (rc_model_room(m, err) != RC_OK)
         return NULL;

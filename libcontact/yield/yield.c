@@ -484,16 +484,22 @@ try_none(struct rc_yield_solver *p, struct rc_voxel *v)
 
 /* ---- an application ---- */
 
-/* Finds the slabs with yielded voxels. Returns false if there are none. */
+/* Finds the slabs with yielded voxels on any rank. Returns false if there are none. */
 static bool
-find_strained(struct rc_voxels *voxels)
+find_strained(struct rc_yield_solver *p)
 {
+    struct rc_voxels *voxels = &p->voxels;
+    double *some = p->maps.some;
     bool any = false;
 
     for (size_t k = 0; k < voxels->slabs; k++) {
-        voxels->strained[k] = false;
-        for (size_t j = 0; j < voxels->rows && !voxels->strained[k]; j++)
-            voxels->strained[k] = rc_voxels_row(voxels, k, j)->n > 0;
+        some[k] = 0;
+        for (size_t j = 0; j < voxels->rows && some[k] == 0; j++)
+            some[k] = rc_voxels_row(voxels, k, j)->n > 0;
+    }
+    rc_ranks_each_most(p->rows.ranks, voxels->slabs, some);
+    for (size_t k = 0; k < voxels->slabs; k++) {
+        voxels->strained[k] = some[k] > 0;
         any |= voxels->strained[k];
     }
     return any;
@@ -509,6 +515,13 @@ pair_strained(struct rc_yield_solver *p)
                 p->voxels.strained[k] || p->voxels.strained[k + 1];
 }
 
+/* Whether a voxel of the whole map has yielded. */
+static bool
+has_voxels(const struct rc_yield_solver *p)
+{
+    return rc_ranks_most(p->rows.ranks, (double)rc_voxels_count(&p->voxels)) > 0;
+}
+
 /* Finds p, the contact of e + x under the present load. */
 static enum rc_status
 press(struct rc_yield_solver *p, struct rc_err *err)
@@ -516,7 +529,7 @@ press(struct rc_yield_solver *p, struct rc_err *err)
     const struct rc_slab_strain strain = {p->voxels.strained, strain_row, p};
     enum rc_status status;
 
-    if (find_strained(&p->voxels) || p->is.moved) {
+    if (find_strained(p) || p->is.moved) {
         if (p->is.paired)
             pair_strained(p);
         rc_slabs_up(p->slabs, &strain, p->maps.u);
@@ -542,17 +555,20 @@ pressure(const struct rc_yield_solver *p)
     return p->is.alone ? NULL : rc_solver_pressure(p->solver);
 }
 
-/* The relative L1 distance of this pressure from the other one. */
+/* The relative L1 distance of the pressure from maps.other. */
 static double
-moved(const double *is, const double *other, size_t n)
+moved(const struct rc_yield_solver *p)
 {
-    double sum = 0, all = 0;
+    const double *is = pressure(p), *other = p->maps.other;
+    struct rc_total part[2] = {{0}};
+    double sum[2];
 
-    for (size_t k = 0; k < n && is != NULL; k++) {
-        sum += fabs(is[k] - other[k]);
-        all += is[k];
+    for (size_t k = 0; k < p->n && is != NULL; k++) {
+        rc_total_add(&part[0], fabs(is[k] - other[k]));
+        rc_total_add(&part[1], is[k]);
     }
-    return all > 0 ? sum / all : 0;
+    rc_ranks_totals(p->rows.ranks, 2, part, sum, 0, NULL);
+    return sum[1] > 0 ? sum[0] / sum[1] : 0;
 }
 
 void
@@ -567,12 +583,14 @@ rc_yield_solver_keep_pressure(struct rc_yield_solver *p)
 }
 
 static void
-total(const struct rc_voxels *voxels, double sums[RC_VOXEL_SUMS])
+total(const struct rc_yield_solver *p, double sums[RC_VOXEL_SUMS])
 {
-    memset(sums, 0, RC_VOXEL_SUMS * sizeof *sums);
-    for (size_t r = 0; r < voxels->slabs * voxels->rows; r++)
+    struct rc_total part[RC_VOXEL_SUMS] = {{0}};
+
+    for (size_t r = 0; r < p->voxels.slabs * p->voxels.rows; r++)
         for (size_t q = 0; q < RC_VOXEL_SUMS; q++)
-            sums[q] += voxels->row[r].sums[q];
+            rc_total_add(&part[q], p->voxels.row[r].sums[q]);
+    rc_ranks_totals(p->rows.ranks, RC_VOXEL_SUMS, part, sums, 0, NULL);
 }
 
 /* Applies F to e + x, and finds the lag of x. */
@@ -586,10 +604,11 @@ apply(struct rc_yield_solver *p, struct rc_err *err)
         return RC_FAIL;
     rc_slabs_down(p->slabs, pressure(p), &stress);
     p->figures.applications++;
-    if (p->is.failed)
-        return rc_err_set(err, "out of memory for the strain of %zu voxels",
-                          rc_voxels_count(&p->voxels));
-    total(&p->voxels, sums);
+    if (rc_ranks_need(p->rows.ranks, !p->is.failed, err,
+                      "out of memory for the strain of %zu voxels",
+                      rc_voxels_count(&p->voxels)) != RC_OK)
+        return RC_FAIL;
+    total(p, sums);
     last = p->run.trial > 0 ? p->figures.lag : INFINITY;
     p->is.flows = sums[RC_FLOWING] > 0;
     p->figures.lag = p->is.flows ? sqrt(sums[RC_LAG] / sums[RC_FLOWING]) : 0;
@@ -638,7 +657,7 @@ begin_increments(struct rc_yield_solver *p, size_t count, double start)
 static bool
 follows_little(const struct rc_yield_solver *p)
 {
-    return !p->errors.few && !p->asked.thorough && rc_voxels_count(&p->voxels) > 0;
+    return !p->errors.few && !p->asked.thorough && has_voxels(p);
 }
 
 /* Tries an elastic step: first to the end of the load, then to shorter shares of it, by bisection. */
@@ -697,14 +716,13 @@ begin_increment(struct rc_yield_solver *p, struct rc_err *err)
 static double
 iteration_error(const struct rc_yield_solver *p)
 {
-    return 1.5 * moved(pressure(p), p->maps.other, p->n) /
-           fmin(p->run.resistance, 1); /* a resistance is at most 1 */
+    return 1.5 * moved(p) / fmin(p->run.resistance, 1); /* a resistance is at most 1 */
 }
 
 static bool
 enough(const struct rc_yield_solver *p)
 {
-    if (rc_voxels_count(&p->voxels) == 0 || (p->run.trial == 1 && !p->is.flows))
+    if (!has_voxels(p) || (p->run.trial == 1 && !p->is.flows))
         return true;
     if (p->run.increment < p->run.count)
         return p->run.trial >= MOST_EACH || (p->run.trial >= EACH && p->figures.lag <= lags);
@@ -737,32 +755,49 @@ advance(struct rc_yield_solver *p, struct rc_err *err)
     return RC_OK;
 }
 
+/* The largest mean of four neighbouring pressures. */
 static double
-largest_mean(const double *v, const struct rc_shape *shape, struct rc_boundary boundary)
+largest_mean(const struct rc_yield_solver *p)
 {
-    size_t nx = shape->nx, ny = shape->ny;
+    const size_t nx = p->shape.nx, rows = p->rows.n;
+    const double *v = pressure(p), *after = p->boundary.y ? v : NULL;
     double most = 0;
 
-    for (size_t j = 0; j < ny && v != NULL; j++)
+    if (v == NULL)
+        return 0;
+    if (p->rows.ranks != NULL) {
+        double *beside = p->maps.beside;
+        bool has[2];
+        rc_ranks_beside(&p->rows, p->boundary.y, nx * sizeof *v, v,
+                        v + (rows > 0 ? rows - 1 : 0) * nx, beside, beside + nx, has);
+        after = has[1] ? beside + nx : NULL;
+    }
+    for (size_t j = 0; j < rows; j++) {
+        const double *row = v + j * nx, *below = j + 1 < rows    ? row + nx
+                                                 : after != NULL ? after
+                                                                 : row;
         for (size_t i = 0; i < nx; i++) {
-            size_t right = i + 1 < nx ? i + 1 : boundary.x ? 0 : i;
-            size_t below = j + 1 < ny ? j + 1 : boundary.y ? 0 : j;
-            most = fmax(most, (v[j * nx + i] + v[j * nx + right] + v[below * nx + i] +
-                               v[below * nx + right]) /
-                                  4);
+            size_t right = i + 1 < nx ? i + 1 : p->boundary.x ? 0 : i;
+            most = fmax(most, (row[i] + row[right] + below[i] + below[right]) / 4);
         }
-    return most;
+    }
+    return rc_ranks_most(p->rows.ranks, most);
 }
 
 static void
 find_figures(struct rc_yield_solver *p)
 {
+    enum {
+        VOXELS,
+        VOLUME,
+        STRAINED,
+        WORK,
+        SUMS
+    };
     struct rc_yield_load *f = &p->figures;
-    double cell = p->shape.dx * p->shape.dy, bottom = 0;
-    size_t deepest = 0;
+    double cell = p->shape.dx * p->shape.dy, bottom = 0, sum[SUMS], most[3] = {0, 0, 0};
+    struct rc_total total[SUMS] = {{0}};
 
-    f->voxels = 0;
-    f->depth = f->volume = f->max_strain = f->work = f->strained = 0;
     for (size_t k = 0; k < p->voxels.slabs; k++) {
         bottom += p->maps.thickness[k];
         for (size_t j = 0; j < p->voxels.rows; j++) {
@@ -771,19 +806,26 @@ find_figures(struct rc_yield_solver *p)
                 double strain = row->v[i].strain, part = cell * weight_of(p, k);
                 if (!(strain > 0))
                     continue;
-                f->voxels++;
-                f->depth = bottom;
-                deepest = k + 1;
-                f->volume += part;
-                f->strained += part * strain;
-                f->work += part * rc_yield_law_work(&p->body.law, strain);
-                f->max_strain = fmax(f->max_strain, strain);
+                rc_total_add(&total[VOXELS], 1);
+                rc_total_add(&total[VOLUME], part);
+                rc_total_add(&total[STRAINED], part * strain);
+                rc_total_add(&total[WORK], part * rc_yield_law_work(&p->body.law, strain));
+                most[0] = bottom;
+                most[1] = fmax(most[1], strain);
+                most[2] = (double)(k + 1);
             }
         }
     }
-    if (deepest > 0 && deepest < RESOLVED)
+    rc_ranks_totals(p->rows.ranks, SUMS, total, sum, 3, most);
+    f->voxels = (size_t)sum[VOXELS];
+    f->volume = sum[VOLUME];
+    f->strained = sum[STRAINED];
+    f->work = sum[WORK];
+    f->depth = most[0];
+    f->max_strain = most[1];
+    if (most[2] > 0 && most[2] < RESOLVED)
         f->slab_error = NAN;
-    f->max_pressure_mean4 = largest_mean(pressure(p), &p->shape, p->boundary);
+    f->max_pressure_mean4 = largest_mean(p);
 }
 
 /* Accepts the state, and compares its pressure with the pressure of the last application. */
@@ -807,7 +849,7 @@ settle(struct rc_yield_solver *p, struct rc_err *err)
     p->figures.increment_error = p->errors.few && !p->is.elastic ? NAN : 0;
     p->figures.inherited_error = p->errors.few ? NAN : 0;
     p->figures.slab_error = p->errors.few ? NAN : 0;
-    p->stage = p->errors.few || rc_voxels_count(&p->voxels) == 0 ? RC_YIELD_DONE : RC_YIELD_ORDER;
+    p->stage = p->errors.few || !has_voxels(p) ? RC_YIELD_DONE : RC_YIELD_ORDER;
     return RC_OK;
 }
 
@@ -821,7 +863,7 @@ compare_slabs(struct rc_yield_solver *p, struct rc_err *err)
     p->is.paired = true;
     status = press(p, err);
     p->is.paired = false;
-    p->figures.slab_error = of_pairs * moved(pressure(p), p->maps.other, p->n);
+    p->figures.slab_error = of_pairs * moved(p);
     return status;
 }
 
@@ -837,17 +879,17 @@ compare_order(struct rc_yield_solver *p, struct rc_err *err)
     for_each(p, try_missed);
     if (press(p, err) != RC_OK)
         return RC_FAIL;
-    all = moved(pressure(p), p->maps.other, p->n);
+    all = moved(p);
     rc_yield_solver_keep_pressure(p);
     for_each(p, try_before);
     if (!p->is.elastic && press(p, err) != RC_OK)
         return RC_FAIL;
-    own = moved(pressure(p), p->maps.other, p->n);
+    own = moved(p);
     rc_yield_solver_keep_pressure(p);
     for_each(p, try_none);
     if (press(p, err) != RC_OK)
         return RC_FAIL;
-    inherited = moved(pressure(p), p->maps.other, p->n);
+    inherited = moved(p);
     p->figures.increment_error = own > 0 ? all * own / (own + inherited) : 0;
     p->figures.inherited_error = all - p->figures.increment_error;
     if (p->asked.follows)
@@ -885,11 +927,12 @@ of_nodes(double touching)
 static double
 error_of_points(const struct rc_yield_solver *p, double sum, double touching)
 {
-    const double area = (double)p->n * p->shape.dx * p->shape.dy, side = sqrt(area);
+    const double all = (double)p->shape.nx * (double)p->shape.ny;
+    const double area = all * p->shape.dx * p->shape.dy, side = sqrt(area);
 
     return of_volume * 2 * (1 + p->body.nu) * p->body.shear * p->figures.strained /
                (side * side * side * sum / touching) +
-           of_nodes(touching) * sum / (double)p->n / (4 * p->body.yield);
+           of_nodes(touching) * sum / all / (4 * p->body.yield);
 }
 
 enum {
@@ -965,7 +1008,7 @@ part_at(const double *line, size_t n, double periods)
     return part;
 }
 
-/* The same on a map that repeats along one axis, whose images lie across it, twice the free side away. Their
+/* The same on a map that repeats along one axis, which ranks do not share, whose images lie across it, twice the free side away. Their
  * mean along the axis repeats only after many sides (volume/lines.h), and a line load changes the stress at a
  * depth z by its own 2 pi z/3 over the square of that distance. What varies along the axis decays. The lost
  * wave of two nodes is that of a padded map too. */
@@ -999,16 +1042,18 @@ static double
 image_error(const struct rc_yield_solver *p)
 {
     const double *v = pressure(p);
-    double sum = 0, touching = 0;
+    struct rc_total part[2] = {{0}};
+    double sum[2];
 
-    if (!rc_has_mean(p->boundary) || v == NULL || rc_voxels_count(&p->voxels) == 0)
+    if (!rc_has_mean(p->boundary) || v == NULL || !has_voxels(p))
         return 0;
     for (size_t k = 0; k < p->n; k++) {
-        sum += v[k];
-        touching += v[k] > 0;
+        rc_total_add(&part[0], v[k]);
+        part[1].sum += v[k] > 0;
     }
-    return rc_repeats(p->boundary) == 1 ? error_of_lines(p, sum, touching)
-                                        : error_of_points(p, sum, touching);
+    rc_ranks_totals(p->rows.ranks, 2, part, sum, 0, NULL);
+    return rc_repeats(p->boundary) == 1 ? error_of_lines(p, sum[0], sum[1])
+                                        : error_of_points(p, sum[0], sum[1]);
 }
 
 /* The error of the pressure from the tolerance of this contact, and from earlier ones that flow has kept. */
@@ -1076,8 +1121,7 @@ rc_yield_solver_set_load(struct rc_yield_solver *p, double load, struct rc_err *
     p->is.stopped = p->is.elastic = p->asked.once = false;
     p->figures = (struct rc_yield_load){0};
     p->stage = RC_YIELD_PROBE;
-    if (p->asked.yields && p->way.from == 0 && rc_voxels_count(&p->voxels) == 0 &&
-        !in_one(&p->asked)) {
+    if (p->asked.yields && p->way.from == 0 && !has_voxels(p) && !in_one(&p->asked)) {
         begin_increments(p, p->asked.increments, 0);
         p->errors.few |= p->asked.increments < FEW;
     }
@@ -1143,46 +1187,84 @@ rc_yield_solver_step(struct rc_yield_solver *p, struct rc_err *err)
     return p->is.stopped ? RC_SHORT : RC_OK;
 }
 
-/* Adds the equivalent strain of a voxel of a coarse slab to the nodes of the map around it. It falls linearly
- * to 0 at the next voxels: waves would make it negative, and spread it over the map. */
+/* Adds the equivalent strain of a voxel of a coarse slab to the nodes of the map around it, in the rows held
+ * here. It falls linearly to 0 at the next voxels: waves would make it negative, and spread it over the map. */
 static void
 spread(const struct rc_yield_solver *p, size_t level, size_t i, size_t j, double strain,
        double *map)
 {
-    const long wide = 1L << level, nx = (long)p->shape.nx, ny = (long)p->shape.ny;
+    const long wide = 1L << level, nx = (long)p->shape.nx, rows = (long)p->rows.n;
 
     for (long y = 1 - wide; y < wide; y++)
         for (long x = 1 - wide; x < wide; x++) {
             const long at = (long)(i << level) + x, line = (long)(j << level) + y;
-            if ((at < 0 && !p->boundary.x) || (line < 0 && !p->boundary.y) || at >= nx ||
-                line >= ny)
+            if ((at < 0 && !p->boundary.x) || line < 0 || at >= nx || line >= rows)
                 continue;
-            map[(line + ny) % ny * nx + (at + nx) % nx] +=
-                strain * (1 - ldexp((double)labs(x), -(int)level)) *
-                (1 - ldexp((double)labs(y), -(int)level));
+            map[line * nx + (at + nx) % nx] += strain * (1 - ldexp((double)labs(x), -(int)level)) *
+                                               (1 - ldexp((double)labs(y), -(int)level));
         }
+}
+
+/* The equivalent strain of the row of voxels after the last one held here; NULL: there is none. */
+static const double *
+strain_after(const struct rc_yield_solver *p, size_t slab)
+{
+    const size_t level = rc_slabs_level(p->slabs, slab), nx = nodes_of(p, slab);
+    const struct rc_voxel_row *row = p->rows.n > 0 ? rc_voxels_row(&p->voxels, slab, 0) : NULL;
+    const struct rc_rows rows = {p->rows.ranks, p->rows.ny >> level, p->rows.first >> level,
+                                 p->rows.n >> level};
+    double *first = p->maps.beside, *before = first + nx, *after = before + nx;
+    bool has[2] = {false, p->boundary.y};
+
+    memset(first, 0, nx * sizeof *first);
+    for (size_t k = 0; row != NULL && k < row->n; k++)
+        first[row->v[k].i] = row->v[k].strain;
+    if (rows.ranks == NULL)
+        return has[1] ? first : NULL;
+    rc_ranks_beside(&rows, p->boundary.y, nx * sizeof *first, first, first, before, after, has);
+    return has[1] ? after : NULL;
+}
+
+/* The equivalent strain of a coarse slab on the nodes of the map. */
+static void
+spread_all(const struct rc_yield_solver *p, size_t slab, double *map)
+{
+    const size_t level = rc_slabs_level(p->slabs, slab), rows = p->rows.n >> level;
+    const double *after = level > 0 ? strain_after(p, slab) : NULL;
+    /* the row after the last one of the map is the first one of the next period */
+    const bool round = p->rows.first + p->rows.n == p->rows.ny;
+
+    for (size_t i = 0; i < nodes_of(p, slab) && after != NULL && round; i++)
+        spread(p, level, i, rows, after[i], map);
+    for (size_t j = 0; j < rows; j++) {
+        const struct rc_voxel_row *row = rc_voxels_row(&p->voxels, slab, j);
+        for (size_t k = 0; k < row->n; k++)
+            spread(p, level, row->v[k].i, j, row->v[k].strain, map);
+    }
+    for (size_t i = 0; i < nodes_of(p, slab) && after != NULL && !round; i++)
+        spread(p, level, i, rows, after[i], map);
 }
 
 void
 rc_yield_solver_strain(const struct rc_yield_solver *p, size_t slab,
                        double *const e[RC_YIELD_STRAINS])
 {
-    const size_t nx = nodes_of(p, slab), level = rc_slabs_level(p->slabs, slab);
+    const size_t nx = nodes_of(p, slab);
 
     for (size_t c = 0; c < RC_YIELD_STRAINS; c++) {
         if (e[c] == NULL)
             continue;
         memset(e[c], 0, p->n * sizeof *e[c]);
+        if (c == RC_PEEQ) {
+            spread_all(p, slab, e[c]);
+            continue;
+        }
         for (size_t j = 0; j < p->voxels.rows; j++) {
             const struct rc_voxel_row *row = rc_voxels_row(&p->voxels, slab, j);
             for (size_t k = 0; k < row->n; k++)
-                if (c == RC_PEEQ)
-                    spread(p, level, row->v[k].i, j, row->v[k].strain, e[c]);
-                else
-                    e[c][j * nx + row->v[k].i] = row->v[k].e[c];
+                e[c][j * nx + row->v[k].i] = row->v[k].e[c];
         }
-        if (c != RC_PEEQ)
-            rc_slabs_refine(p->slabs, slab, e[c]);
+        rc_slabs_refine(p->slabs, slab, e[c]);
     }
 }
 
@@ -1207,10 +1289,6 @@ rc_yield_solver_check(const struct rc_yield_problem *problem, struct rc_err *err
         return RC_FAIL;
     if (problem->companion && problem->increments < 2)
         return rc_err_set(err, "a companion run needs a number of increments, at least 2");
-    if (problem->contact.ranks != NULL)
-        return rc_err_set(
-            err,
-            "plasticity in the volume cannot share its maps among processes: take one process");
     if (problem->contact.pair.estar > 0 || !(one->e > 0) || isinf(one->e))
         return rc_err_set(err, "plasticity needs E and nu of the body that yields");
     if (one->layers > 0)
@@ -1237,12 +1315,13 @@ make_room(struct rc_yield_solver *p, const double *h, const struct rc_yield_prob
     p->maps.form = rc_store_take(&p->own, p->n, sizeof *p->maps.form);
     p->maps.other = rc_store_take(&p->own, p->n, sizeof *p->maps.other);
     p->maps.line = rc_store_take(&p->own, LINE_SUMS * p->lines + 1, sizeof *p->maps.line);
+    p->maps.beside = rc_store_take(&p->own, 2 * p->shape.nx, sizeof *p->maps.beside);
+    p->maps.some = rc_store_take(&p->own, slabs, sizeof *p->maps.some);
     p->maps.thickness =
         rc_store_copy(&p->own, slabs, sizeof *p->maps.thickness, problem->thickness);
-    if (p->own.failed || rc_voxels_new(&p->voxels, slabs, p->shape.ny) != RC_OK)
-        return rc_err_set(err, "out of memory for the plasticity of %zu x %zu nodes", p->shape.nx,
-                          p->shape.ny);
-    return RC_OK;
+    return rc_ranks_need(
+        p->rows.ranks, !p->own.failed && rc_voxels_new(&p->voxels, slabs, p->rows.n) == RC_OK, err,
+        "out of memory for the plasticity of %zu x %zu nodes", p->shape.nx, p->shape.ny);
 }
 
 struct rc_yield_solver *
@@ -1251,6 +1330,7 @@ rc_yield_solver_new(const struct rc_shape *shape, const double *h,
 {
     const struct rc_body *one = &problem->contact.pair.one;
     struct rc_problem contact = problem->contact;
+    const struct rc_rows rows = rc_rows_of(contact.ranks, shape);
     struct rc_progress at;
     RC_OWN(rc_yield_solver, p) = NULL;
     struct rc_slabs_options options = {.slabs = problem->slabs,
@@ -1260,15 +1340,18 @@ rc_yield_solver_new(const struct rc_shape *shape, const double *h,
                                        .boundary = contact.boundary,
                                        .coarser = problem->precise ? 0 : RC_YIELD_COARSER,
                                        .precision = problem->precise ? RC_DOUBLE : RC_SINGLE,
-                                       .threads = contact.threads};
+                                       .threads = contact.threads,
+                                       .ranks = contact.ranks};
 
     contact.hurry = NULL; /* an unfinished contact would change the strain */
     if (rc_yield_solver_check(problem, err) != RC_OK)
         return NULL;
-    if ((p = calloc(1, sizeof *p)) == NULL)
-        return rc_err_null(err, "out of memory for a plan");
+    p = calloc(1, sizeof *p);
+    if (rc_ranks_need(contact.ranks, p != NULL, err, "out of memory for a plan") != RC_OK)
+        return NULL;
     *p = (struct rc_yield_solver){.shape = *shape,
-                                  .n = shape->nx * shape->ny,
+                                  .rows = rows,
+                                  .n = shape->nx * rows.n,
                                   .threads = rc_useful_threads(shape, contact.threads),
                                   .body = {.law = problem->law,
                                            .shear = options.shear,
@@ -1278,9 +1361,10 @@ rc_yield_solver_new(const struct rc_shape *shape, const double *h,
     rc_yield_solver_set_increments(p, problem->increments);
     /* the mean pressure causes a Mises stress of (1 - 2 nu)/2 times itself at every depth; on a profile
      * more */
-    p->bearable = rc_has_mean(contact.boundary) ? INFINITY
-                                                : 0.9 * 2 * p->body.yield / (1 - 2 * one->nu) *
-                                                      (double)p->n * shape->dx * shape->dy;
+    p->bearable = rc_has_mean(contact.boundary)
+                      ? INFINITY
+                      : 0.9 * 2 * p->body.yield / (1 - 2 * one->nu) *
+                            (double)(shape->nx * shape->ny) * shape->dx * shape->dy;
     p->boundary = contact.boundary;
     if (rc_repeats(contact.boundary) == 1)
         p->lines = contact.boundary.x ? shape->nx : shape->ny;

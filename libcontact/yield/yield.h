@@ -38,6 +38,8 @@ struct rc_yield_maps {
     double *thickness;    /* of each slab */
     double *other;        /* an earlier pressure, for comparison */
     double *line;         /* sums over the lines across the axis that repeats */
+    double *beside;       /* the rows of the pressure before and after those held here */
+    double *some;         /* whether each slab has strain, on some rank */
 };
 
 /* The request of the caller. */
@@ -88,7 +90,8 @@ struct rc_yield_is {
 };
 
 struct rc_yield_solver {
-    struct rc_shape shape;
+    struct rc_shape shape; /* the whole map */
+    struct rc_rows rows;   /* held here, with `n` nodes */
     size_t n;
     int threads;
     struct rc_boundary boundary;

@@ -1,0 +1,76 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+# Under mpirun each model gives the stream and the figures of one process, also where a process has no rows or
+# no contact; bad input, short memory and a killed process end all processes. RC_RANKS: the numbers of
+# processes to compare with one, by default "2".
+. "$(dirname "$0")/../pipe.sh"
+ranks=${RC_RANKS:-2}
+export RC_THREADS=1
+
+# figures REPORT: without those of the run itself.
+figures() {
+    sed -E 's/"(threads|ranks|exchanges|messages|bytes_exchanged|other_bytes|exchange_seconds|peak_memory|memory_estimate)": [^,}]*(, )?//g
+        s/"seconds": \{[^}]*\}(, )?//; s/"kernel": "(the fastest engine|several processes)[^"]*"//' "$1"
+}
+# same "command without -o and --report": 1 process and each other number of processes write the same.
+same() {
+    local command=$1 n
+    bash -c "$command -o alone.rcg --report alone.json" || [ $? = 3 ] || return
+    for n in $ranks; do
+        $MPIRUN -n "$n" bash -c "$command -o shared.rcg --report shared.json" || [ $? = 3 ] || return
+        cmp alone.rcg shared.rcg && diff <(figures alone.json) <(figures shared.json) || return
+    done
+}
+# 45 rows are three units, so that one of four processes has none. The ball touches in the middle unit only.
+rc-synth selfaffine --nx 131 --ny 45 --dx 1um --hurst 0.8 --rms-slope 0.1 --short-cut 8um --seed 5 -o rough.rcg
+rc-synth sphere --nx 131 --ny 45 --dx 1um --radius 200um -o ball.rcg
+
+# ---- models ----
+
+yield="rc-solve --E1 100GPa --nu1 0.3 --E2 rigid --yield 0.5GPa,1GPa --slabs 3 --increments 8 --quiet"
+claim "yield, periodic, a history" same "$yield --periodic --mean-pressure 60MPa,20MPa,70MPa --history --output pressure,strain,plastic,residual rough.rcg"
+claim "yield, free, slabs chosen, several threads" same "RC_THREADS=2 ${yield/--slabs 3/} --load 40mN,0 --history ball.rcg"
+
+# ---- faults ----
+
+run="$MPIRUN -n 2"
+# NaN in the last row.
+perl -0777 -ne '/^(.*?\n\n)(.*)crc32/s; $v = $2; substr($v, 8 * (131 * 44 + 7), 8) = "\0\0\0\0\0\0\xf8\x7f";
+    print "$1${v}crc32 00000000\nRCGEND 1\n"' ball.rcg | reseal >nan.rcg
+refuses 1 '1 of 5895 values are NaN or infinite, the first in column 7 of row 44' "NaN in the last row" \
+    "$run $yield --load 40mN -o no.rcg nan.rcg"
+claim "  the message is printed once" test "$(grep -c 'are NaN' refuses.err)" = 1
+refuses 1 'repeats along one axis only cannot be shared among processes' "yield on a map that repeats along one axis" \
+    "$run $yield --periodic=x --load 40mN -o no.rcg ball.rcg"
+claim "  the message is printed once" test "$(grep -c 'along one axis' refuses.err)" = 1
+refuses 2 '--checkpoint does not work with --yield on several processes' "a checkpoint of yield" \
+    "$run $yield --load 40mN --checkpoint kept.rcg -o no.rcg ball.rcg"
+# An allocation of the second process fails: the work is done nevertheless, or all end with status 1 and a message.
+memory() {
+    local command=$1 n last status
+    rm -f count
+    for ((n = 0; n <= ${last:-0}; n += last / ${RC_TRIES:-3} + 1)); do
+        timeout -s KILL 60 $MPIRUN -n 1 $command -o no.rcg : -n 1 env LD_PRELOAD="$RC_FAILING_MALLOC" RC_FAULT_AT="$n" \
+            RC_FAULT_COUNT="$PWD/count" $command -o no.rcg 2>memory.err
+        status=$?
+        [ $n != 0 ] || last=$(cat count)
+        [ $status = 0 ] || { [ $n != 0 ] && [ $status = 1 ] && grep -aq '^rc-[a-z]*: ' memory.err && [ ! -e no.rcg ]; } ||
+            { echo "allocation $n of $last: status $status: $(cat memory.err)" >&2 && return 1; }
+        rm -f no.rcg
+    done
+    echo "$last allocations" >&2
+}
+export ASAN_OPTIONS="${ASAN_OPTIONS-}:verify_asan_link_order=0"
+claim "allocations of one process fail: yield" memory "$yield --tol 0.1 --load 40mN ball.rcg"
+killed() {
+    local launcher victim= child
+    $run ${yield/--quiet/} --progress line --periodic --increments 200 --mean-pressure 60MPa,20MPa,70MPa --history -o no.rcg rough.rcg >/dev/null 2>killed.err &
+    launcher=$!
+    until grep -aq increment killed.err || ! kill -0 "$launcher"; do sleep 0.05; done
+    for child in $(pgrep -P "$launcher" -x rc-solve); do
+        ! grep -zqx '\(OMPI_COMM_WORLD\|PMI\)_RANK=1' "/proc/$child/environ" || victim=$child
+    done
+    kill -KILL "$victim" || return
+    wait "$launcher" && return 1
+    [ -z "$(ls no.rcg* 2>/dev/null)" ]
+}
+claim "a process that is killed among the increments ends all and leaves no file" killed
