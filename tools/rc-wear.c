@@ -88,6 +88,7 @@ static const struct tool_info info = {
     .figures = (const char *const[]){"contact", "elastic", "wear", NULL},
     .reads = READS_STREAM,
     .writes = WRITES_STREAM,
+    .shares = true,
 };
 
 enum { /* frames beside the heights */
@@ -264,21 +265,38 @@ rolls(const struct rc_grid *g)
     return g != NULL && strcmp(g->unit, g->channel[0] == 's' ? "1" : "J/m3") == 0;
 }
 
+/* m: the largest height less the smallest one. */
+static double
+relief_of(struct tool *t, const struct rc_grid *g)
+{
+    double high = -INFINITY, low = INFINITY;
+
+    for (size_t k = 0; k < rc_grid_nodes(g); k++) {
+        high = fmax(high, g->v[k]);
+        low = fmin(low, g->v[k]);
+    }
+    return ranks_most(t, high) + ranks_most(t, -low);
+}
+
 /* The largest value of a map; ends the tool where values are not at least 0, or none is above. */
 static double
 largest(struct tool *t, const struct rc_grid *g, const char *unit)
 {
-    const size_t n = rc_grid_nodes(g);
+    const size_t n = rc_grid_nodes(g), first = tool_first_row(t, g);
+    enum rc_status status = RC_OK;
     double most = 0;
 
     if (strcmp(g->unit, unit) != 0)
         tool_refuse(t, g, "its unit is '%s': it must be %s", g->unit, unit);
-    for (size_t k = 0; k < n; k++) {
+    for (size_t k = 0; k < n && status == RC_OK; k++) {
         if (!(g->v[k] >= 0) || isinf(g->v[k]))
-            tool_refuse(t, g, "value %g at column %zu, row %zu: it must be at least 0 and finite",
-                        g->v[k], k % g->nx, k / g->nx);
+            status = rc_err_set(&t->err,
+                                "value %g at column %zu, row %zu: it must be at least 0 and finite",
+                                g->v[k], k % g->nx, first + k / g->nx);
         most = fmax(most, g->v[k]);
     }
+    tool_must(t, g, ranks_agree(t, status, &t->err));
+    most = ranks_most(t, most);
     if (most == 0)
         tool_refuse(t, g, "all its values are 0: no node wears");
     return most;
@@ -321,7 +339,8 @@ find_energy(struct run *run, const struct rc_grid *g)
     run->energy = tool_room(t, n, sizeof *run->energy, "the energy");
     for (size_t k = 0; k < n; k++)
         run->energy[k] = from != NULL ? from->v[k] : fmax(p->v[k], 0) * run->map[SLIP]->v[k];
-    for (size_t j = 0; j < g->ny && rolls(from != NULL ? from : run->map[SLIP]); j++) {
+    for (size_t j = 0; j < g->ny - g->elsewhere && rolls(from != NULL ? from : run->map[SLIP]);
+         j++) {
         const double sum = rc_sum(run->energy + j * nx, nx) * g->dx;
         for (size_t i = 0; i < nx; i++)
             run->energy[j * nx + i] = sum;
@@ -390,6 +409,8 @@ find_law(struct run *run, const struct rc_grid *g)
         most = fmax(most, run->part[k]);
         least = fmin(least, run->part[k]);
     }
+    most = ranks_most(t, most);
+    least = -ranks_most(t, -least);
     if (run->part != NULL && most == 0)
         tool_refuse(t, g, "nodes that slip have the wear coefficient 0: no node wears");
     for (size_t k = 0; k < rc_grid_nodes(g) && run->part != NULL; k++)
@@ -453,7 +474,6 @@ static void
 add_counter(struct run *run, const struct rc_grid *g)
 {
     struct tool *t = &run->d.t;
-    struct rc_statistics other;
 
     if (!map_boundary(g).x)
         tool_refuse(t, g,
@@ -465,8 +485,7 @@ add_counter(struct run *run, const struct rc_grid *g)
         tool_refuse(t, g, "--motion sliding with a hardness is not implemented");
     physics_counter_beside(t, args.counter, run->counter, g, RC_PERIODIC);
     run->law.h2 = run->counter->v;
-    rc_measure(rc_shape_of(g), run->counter->v, &other);
-    run->relief += other.maximum - other.minimum;
+    run->relief += relief_of(t, run->counter);
 }
 
 /* Distances that change nothing, or after which nothing changes: a unit may be wrong. */
@@ -520,7 +539,8 @@ judge_map(struct run *run, struct rc_model *m, struct rc_grid *room)
         rc_model_frame(m, "height", room->v, &err) != RC_OK)
         tool_refuse(&d->t, room, "%s", err.text);
     drive_where(d, room, where, sizeof where);
-    drive_judge_slope(&d->course, rc_measure_contact_slope(NULL, rc_shape_of(room), room->v, p),
+    drive_judge_slope(&d->course,
+                      rc_measure_contact_slope(ranks_of(&d->t), rc_shape_of(room), room->v, p),
                       where);
     free(p);
     if (run->relief > 0 && deepest > run->relief)
@@ -546,6 +566,7 @@ find_left(struct run *run, struct rc_model *m)
         tool_refuse(&run->d.t, g, "%s", err.text);
     for (size_t k = 0; k < rc_grid_nodes(g); k++)
         run->left = fmin(run->left, run->coat - depth[k]);
+    run->left = -ranks_most(&run->d.t, -run->left);
 }
 
 /* Ends the case where the coat is worn through: the points before stay. */
@@ -692,8 +713,8 @@ do_case(struct run *run, const struct rc_grid *g)
     struct rc_problem problem = {.tol = args.tol / 100,
                                  .history_part = 0.05,
                                  .threads = d->t.threads,
-                                 .hurry = tool_signal()};
-    struct rc_statistics before;
+                                 .hurry = tool_signal(),
+                                 .ranks = ranks_of(&d->t)};
     struct layers layers;
     const double load = key(&d->t, g, "load", "the load");
 
@@ -723,8 +744,7 @@ do_case(struct run *run, const struct rc_grid *g)
     if (layers.layer != NULL && !(run->coat > 0))
         tool_refuse(&d->t, g, "its coat is worn through: its key coat_left is %s m",
                     rc_grid_get(g, "coat_left"));
-    rc_measure(&shape, g->v, &before);
-    run->relief = before.maximum - before.minimum;
+    run->relief = relief_of(&d->t, g);
     run->written = 0;
     run->slid = 0;
     if (run->law.two_bodies)

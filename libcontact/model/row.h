@@ -35,6 +35,8 @@ void rc_state_each_flag(struct rc_state *s, bool *const *flag);
 /* A map: the n nodes of this rank. In a state all maps follow all numbers. Returns the place of the map in a
  * state that is being written, else NULL; v NULL: the caller writes to that place. */
 double *rc_state_map(struct rc_state *s, size_t n, double *v);
+/* One number of each row of this rank, in a map of its own. */
+void rc_state_rows(struct rc_state *s, const struct rc_rows *rows, size_t nx, double *v);
 /* The next map of the state that is being read, as long as that state stays; NULL: it is refused. */
 const double *rc_state_read_map(struct rc_state *s, size_t n);
 /* True if n numbers are left in the state that is being read; otherwise refuses the state. */

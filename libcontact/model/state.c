@@ -99,7 +99,7 @@ rc_state_map(struct rc_state *s, size_t n, double *v)
     const double *from;
 
     if (s->mode == READS) {
-        if ((from = rc_state_read_map(s, n)) != NULL)
+        if ((from = rc_state_read_map(s, n)) != NULL && v != NULL)
             memcpy(v, from, n * sizeof *v);
         return NULL;
     }
@@ -119,6 +119,18 @@ rc_state_read_map(struct rc_state *s, size_t n)
     s->map_at += n;
     s->maps++;
     return s->from + s->map_at - n;
+}
+
+void
+rc_state_rows(struct rc_state *s, const struct rc_rows *rows, size_t nx, double *v)
+{
+    const double *from = rc_state_reads(s) ? rc_state_read_map(s, rows->n * nx) : NULL;
+    double *to = s->mode == READS ? NULL : rc_state_map(s, rows->n * nx, NULL);
+
+    for (size_t k = 0; k < rows->n * nx && to != NULL; k++)
+        to[k] = v[k / nx];
+    for (size_t j = 0; j < rows->n && from != NULL; j++)
+        v[j] = from[j * nx];
 }
 
 void

@@ -121,8 +121,11 @@ press(struct elastic *e, double load, double approach, struct rc_err *err)
 static enum rc_status
 own_heights(struct elastic *e, const double *h, struct rc_err *err)
 {
-    if (e->h == NULL && (e->h = rc_alloc(e->n, sizeof *e->h)) == NULL)
-        return rc_err_set(err, "out of memory for the heights");
+    if (e->h == NULL)
+        e->h = rc_alloc(e->n, sizeof *e->h);
+    if (rc_ranks_need(e->base.rows.ranks, e->h != NULL, err, "out of memory for the heights") !=
+        RC_OK)
+        return RC_FAIL;
     if (h != e->h)
         memcpy(e->h, h, e->n * sizeof *h);
     e->given = e->h;
@@ -162,8 +165,9 @@ keep_start(struct elastic *e, struct rc_err *err)
     e->start.number = *rc_solver_lasting(e->solver, &none);
     if (e->start.fresh)
         return RC_OK;
-    if (!rc_store_need(&e->base.own, e->n, &e->start.p))
-        return rc_err_set(err, "out of memory for the start of a contact");
+    if (rc_ranks_need(e->base.rows.ranks, rc_store_need(&e->base.own, e->n, &e->start.p), err,
+                      "out of memory for the start of a contact") != RC_OK)
+        return RC_FAIL;
     memcpy(e->start.p, rc_solver_pressure(e->solver), e->n * sizeof *e->start.p);
     return RC_OK;
 }
@@ -275,8 +279,10 @@ dent(struct elastic *e, struct rc_err *err)
     RC_OWNED double *left = rc_alloc(e->n, sizeof *left);
     enum rc_status status;
 
-    if (left == NULL || !rc_store_need(&e->base.own, e->n, &e->dent))
-        return rc_err_set(err, "out of memory for the shape after yield");
+    if (rc_ranks_need(e->base.rows.ranks,
+                      left != NULL && rc_store_need(&e->base.own, e->n, &e->dent), err,
+                      "out of memory for the shape after yield") != RC_OK)
+        return RC_FAIL;
     shape(e, left);
     for (size_t k = 0; k < e->n; k++)
         e->dent[k] -= left[k];
@@ -348,8 +354,10 @@ set_heights(struct rc_model *m, const double *h, struct rc_err *err)
 
     if (e->dent == NULL)
         return set_shape(e, h, err);
-    if ((dented = rc_alloc(e->n, sizeof *dented)) == NULL)
-        return rc_err_set(err, "out of memory for the heights");
+    dented = rc_alloc(e->n, sizeof *dented);
+    if (rc_ranks_need(e->base.rows.ranks, dented != NULL, err, "out of memory for the heights") !=
+        RC_OK)
+        return RC_FAIL;
     for (size_t k = 0; k < e->n; k++)
         dented[k] = h[k] + e->dent[k];
     return set_shape(e, dented, err);
@@ -360,6 +368,7 @@ set_compliance(struct rc_model *m, double c, const double *part, double along, s
 {
     struct elastic *e = (struct elastic *)m;
     const size_t n = part != NULL ? e->n : 0;
+    enum rc_status status = RC_OK;
 
     if ((c > 0 || along > 0) &&
         (e->problem.tilt_free || e->asks.stiffness || e->asks.conductivity[0] > 0))
@@ -368,12 +377,14 @@ set_compliance(struct rc_model *m, double c, const double *part, double along, s
     if (part != NULL && along > 0)
         return rc_err_set(err, "a compliance that differs by node together with one of the rows is "
                                "not implemented");
-    for (size_t k = 0; k < n; k++)
+    for (size_t k = 0; k < n && status == RC_OK; k++)
         if (!(part[k] >= 0) || isinf(part[k]))
-            return rc_err_set(err,
-                              "part %g of the compliance at node %zu: it must be at least 0 "
-                              "and finite",
-                              part[k], k);
+            status = rc_err_set(err,
+                                "part %g of the compliance at node %zu: it must be at least 0 "
+                                "and finite",
+                                part[k], e->base.rows.first * m->shape.nx + k);
+    if (rc_ranks_agree(e->base.rows.ranks, status, err) != RC_OK)
+        return RC_FAIL;
     e->soft.compliance = c;
     e->soft.part = part;
     e->soft.along = along;

@@ -489,7 +489,8 @@ rc_solver_respond(struct rc_solver *s, const double *e, double *z)
         return;
     for (size_t k = 0; k < s->posed.n; k++)
         rc_total_add(&sum, s->set.w[k] ? e[k] : 0);
-    s->set.offset = (float)(rc_total_value(&sum) / (double)size / s->load.length);
+    s->set.offset =
+        (float)(rc_ranks_total(s->posed.rows.ranks, sum) / (double)size / s->load.length);
     for (size_t k = 0; k < s->posed.n; k++)
         s->set.r[k] = (float)(e[k] / s->load.length);
     rc_working_set_estimate(s);

@@ -13,6 +13,7 @@
  * convolutions, and a start from coarser grids 6; after longer steps the coarser grids are as good.
  */
 #include <math.h>
+#include <stdlib.h>
 #include <string.h>
 
 #include "libcontact/model/row.h"
@@ -27,13 +28,14 @@ struct travel {
     struct rc_travel_problem problem;
     bool whole; /* the whole map of body 1 is solved */
     size_t n;
-    double *h;        /* heights at the position */
-    double *p[2];     /* pressures at the last positions, the last one first */
-    double x[2];      /* nodes: these positions, */
-    double column[2]; /* and the first column of the window there */
-    size_t known;     /* of these pressures */
-    bool taken;       /* the pressure of the present point is among them */
-    double first_top; /* m: highest node at the first position */
+    double *h;             /* heights at the position */
+    const double *h1, *h2; /* rows of both bodies under the rows held here; h2 NULL: smooth */
+    double *p[2];          /* pressures at the last positions, the last one first */
+    double x[2];           /* nodes: these positions, */
+    double column[2];      /* and the first column of the window there */
+    size_t known;          /* of these pressures */
+    bool taken;            /* the pressure of the present point is among them */
+    double first_top;      /* m: highest node at the first position */
     struct rc_travel_figures figures;
 };
 
@@ -103,9 +105,10 @@ add_ball(struct travel *v, double column)
     const struct rc_shape *s = &v->base.shape;
     const double middle = nodes_of(v) + (double)(v->problem.track.nx - 1) / 2 - column;
 
-    for (size_t j = 0; j < s->ny; j++)
+    for (size_t j = 0; j < v->base.rows.n; j++)
         for (size_t i = 0; i < s->nx; i++) {
-            double x = (double)i - middle, y = ((double)j - (double)(s->ny - 1) / 2) * s->dy;
+            double x = (double)i - middle, y = (double)(v->base.rows.first + j);
+            y = (y - (double)(s->ny - 1) / 2) * s->dy;
             if (v->problem.cylinder)
                 y = 0;
             if (v->whole && v->problem.repeats)
@@ -127,7 +130,6 @@ add_counter(struct travel *v, double column, struct rc_err *err)
     const double weight[] = {-t * (1 - t) * (2 - t) / 6, (1 + t) * (1 - t) * (2 - t) / 2,
                              t * (1 + t) * (2 - t) / 2, -t * (1 + t) * (1 - t) / 6};
     const bool between = t > rounding;
-    const size_t row = (other->ny - s->ny) / 2;
 
     for (size_t i = 0; i < s->nx; i++)
         for (int q = between ? 0 : 1; q < (between ? 4 : 2); q++) {
@@ -138,9 +140,8 @@ add_counter(struct travel *v, double column, struct rc_err *err)
                     "position %.9g m: the map of body 2, %zu columns, does not cover the "
                     "contact: take a longer map, or one that repeats",
                     v->base.to.at[RC_POSITION], other->nx);
-            for (size_t j = 0; j < s->ny; j++)
-                v->h[j * s->nx + i] +=
-                    (between ? weight[q] : 1) * a->h2[(row + j) * other->nx + at];
+            for (size_t j = 0; j < v->base.rows.n; j++)
+                v->h[j * s->nx + i] += (between ? weight[q] : 1) * v->h2[j * other->nx + at];
         }
     return RC_OK;
 }
@@ -152,19 +153,18 @@ pose(struct travel *v, struct rc_err *err)
     const struct rc_travel_problem *a = &v->problem;
     const struct rc_shape *s = &v->base.shape;
     const double column = column_of(v);
-    const size_t row = (a->track.ny - s->ny) / 2;
     size_t at;
 
     if (check_position(v, err) != RC_OK)
         return RC_FAIL;
     for (size_t i = 0; i < s->nx; i++) {
         (void)reach(column + (double)i, a->track.nx, a->repeats, &at);
-        for (size_t j = 0; j < s->ny; j++)
-            v->h[j * s->nx + i] = a->h1[(row + j) * a->track.nx + at];
+        for (size_t j = 0; j < v->base.rows.n; j++)
+            v->h[j * s->nx + i] = v->h1[j * a->track.nx + at];
     }
     if (a->radius > 0)
         add_ball(v, column);
-    if (a->h2 != NULL && add_counter(v, column, err) != RC_OK)
+    if (v->h2 != NULL && add_counter(v, column, err) != RC_OK)
         return RC_FAIL;
     return rc_model_set_heights(v->base.inner, v->h, err);
 }
@@ -190,7 +190,7 @@ extrapolate(struct travel *v, double column, double more)
         v->p[1][k] = fmax(p, 0);
         rc_total_add(&sum, v->p[1][k]);
     }
-    return rc_total_value(&sum);
+    return rc_ranks_total(v->base.rows.ranks, sum);
 }
 
 static enum rc_status
@@ -223,7 +223,7 @@ go(struct rc_model *m, struct rc_err *err)
     if (pose(v, err) != RC_OK || rc_model_go(m->inner, &inner, err) == RC_FAIL)
         return RC_FAIL;
     if (m->inner->from.given == 0)
-        v->first_top = rc_highest(v->h, v->n);
+        v->first_top = rc_ranks_highest(v->base.rows.ranks, v->h, v->n);
     return start(v, err);
 }
 
@@ -377,6 +377,41 @@ check(const struct rc_shape *window, const struct rc_travel_problem *a, struct r
     return RC_OK;
 }
 
+/* The rows of a map under the rows of the window that are held here: a place in the given rows, or a copy of
+ * the rows of other ranks. */
+static enum rc_status
+take_rows(struct travel *v, const struct rc_shape *of, const double *given, const double **rows,
+          struct rc_err *err)
+{
+    const struct rc_model *m = &v->base;
+    const struct rc_ranks *ranks = m->rows.ranks;
+    const size_t before = (of->ny - m->shape.ny) / 2, count = rc_ranks_count(ranks);
+    RC_OWNED size_t *from = NULL;
+    double *copy = NULL;
+    bool same = before == 0;
+
+    *rows = given + before * of->nx;
+    if (ranks == NULL)
+        return RC_OK;
+    from = malloc(2 * (count + 1) * sizeof *from);
+    for (size_t r = 0; r <= count && from != NULL; r++) {
+        from[r] = rc_rows_dealt(of->ny, rc_rows_unit(of->nx), count, r);
+        from[count + 1 + r] =
+            before + rc_rows_dealt(m->shape.ny, rc_rows_unit(m->shape.nx), count, r);
+        same = same && from[r] == from[count + 1 + r];
+    }
+    if (from != NULL && !same)
+        copy = rc_store_take(&v->base.own, m->rows.n * of->nx, sizeof *copy);
+    if (rc_ranks_need(ranks, from != NULL, err, "out of memory for the rows of %zu processes",
+                      count) != RC_OK ||
+        rc_model_room(m, err) != RC_OK)
+        return RC_FAIL;
+    if (!same)
+        rc_ranks_move(ranks, of->nx * sizeof *copy, from, from + count + 1, 0, given, copy);
+    *rows = same ? given : copy;
+    return RC_OK;
+}
+
 struct rc_model *
 rc_travel_new(struct rc_model *inner, const struct rc_travel_problem *problem, struct rc_err *err)
 {
@@ -386,12 +421,17 @@ rc_travel_new(struct rc_model *inner, const struct rc_travel_problem *problem, s
     if (m == NULL)
         return NULL;
     v->problem = *problem;
-    v->n = m->shape.nx * m->shape.ny;
+    v->n = rc_model_nodes(m);
     v->whole = m->shape.nx == problem->track.nx;
     if (check(&m->shape, problem, err) != RC_OK)
         return NULL;
     v->h = rc_store_take(&m->own, v->n, sizeof *v->h);
     for (int k = 0; k < 2 && rc_model_takes_start(m->inner); k++)
         v->p[k] = rc_store_take(&m->own, v->n, sizeof *v->h);
-    return rc_model_room(m, err) == RC_OK ? rc_give(&m) : NULL;
+    return rc_model_room(m, err) == RC_OK &&
+                   take_rows(v, &problem->track, problem->h1, &v->h1, err) == RC_OK &&
+                   (problem->h2 == NULL ||
+                    take_rows(v, &problem->counter, problem->h2, &v->h2, err) == RC_OK)
+               ? rc_give(&m)
+               : NULL;
 }

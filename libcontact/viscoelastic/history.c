@@ -450,7 +450,7 @@ start_step(struct viscoelastic *v, struct rc_err *err)
     find_history(&v->material, run, v->weights.mean ? run->before : run->w, v->n, v->maps.posed);
     for (size_t i = 0; i < v->n; i++)
         v->maps.posed[i] = (v->h[i] - v->maps.posed[i]) / v->weights.c;
-    v->posed_top = rc_highest(v->maps.posed, v->n);
+    v->posed_top = rc_ranks_highest(v->base.rows.ranks, v->maps.posed, v->n);
     at = target(v);
     if (rc_model_set_heights(v->base.inner, v->maps.posed, err) != RC_OK)
         return RC_FAIL;
@@ -557,29 +557,35 @@ of_joining(const struct viscoelastic *v, double pressure, double before)
 static double
 error_of_steps(const struct viscoelastic *v, const double *fine)
 {
-    struct rc_total last = {0, 0}, former = {0, 0}, joins = {0, 0}, of_fine = {0, 0},
-                    of_half = {0, 0};
-    double size, fell, change;
+    enum {
+        FINE_SUM,
+        HALF_SUM,
+        LAST,
+        FORMER,
+        JOINS,
+        SUMS
+    };
+    struct rc_total total[SUMS] = {{0}};
+    double sum[SUMS], size, fell;
 
     for (size_t i = 0; i < v->n; i++) {
         const double f = fine[i], h = v->maps.coarse[HALF][i], q = v->maps.coarse[QUARTER][i],
                      p = fmax(0, f), of_h = fmax(0, h);
-        rc_total_add(&of_fine, p);
-        rc_total_add(&of_half, of_h);
-        rc_total_add(&last, fabs(p - of_h));
-        rc_total_add(&former, fabs(of_h - fmax(0, q)));
+        rc_total_add(&total[FINE_SUM], p);
+        rc_total_add(&total[HALF_SUM], of_h);
+        rc_total_add(&total[LAST], fabs(p - of_h));
+        rc_total_add(&total[FORMER], fabs(of_h - fmax(0, q)));
         if (p == 0 && of_h == 0)
-            rc_total_add(&joins, fmax(0, f + fabs(f - h)));
+            rc_total_add(&total[JOINS], fmax(0, f + fabs(f - h)));
         else if (p > 0 && v->leg.end > v->leg.start)
-            rc_total_add(&joins, of_joining(v, p, v->maps.before[i]));
+            rc_total_add(&total[JOINS], of_joining(v, p, v->maps.before[i]));
     }
-    size = fmax(rc_total_value(&of_fine), rc_total_value(&of_half));
+    rc_ranks_totals(v->base.rows.ranks, SUMS, total, sum, 0, NULL);
+    size = fmax(sum[FINE_SUM], sum[HALF_SUM]);
     if (size == 0)
         return 0;
-    change = rc_total_value(&last);
-    fell = change > 0 ? fmax(least_fall, rc_total_value(&former) / change) : INFINITY;
-    return (fmax(change * fmax(1, 1 / (fell - 1)), of_former * rc_total_value(&former)) +
-            2 * rc_total_value(&joins)) /
+    fell = sum[LAST] > 0 ? fmax(least_fall, sum[FORMER] / sum[LAST]) : INFINITY;
+    return (fmax(sum[LAST] * fmax(1, 1 / (fell - 1)), of_former * sum[FORMER]) + 2 * sum[JOINS]) /
            size;
 }
 
@@ -776,17 +782,18 @@ fill(struct rc_model *m, size_t frame, double *to, struct rc_err *err)
 
 /* The first touch of the heights less the history. */
 static double
-residual(const double *h, double highest, const double *r, size_t n, size_t terms)
+residual(const struct viscoelastic *v)
 {
+    const double *r = v->run[FINE].r;
     double top = -INFINITY;
 
-    for (size_t i = 0; i < n; i++) {
-        double left = h[i];
-        for (size_t k = 0; k < terms; k++)
-            left -= r[k * n + i];
+    for (size_t i = 0; i < v->n; i++) {
+        double left = v->h[i];
+        for (size_t k = 0; k < v->material.terms; k++)
+            left -= r[k * v->n + i];
         top = fmax(top, left);
     }
-    return highest - top;
+    return v->top - rc_ranks_most(v->base.rows.ranks, top);
 }
 
 static enum rc_status
@@ -813,8 +820,7 @@ look(struct rc_model *m, struct rc_point *at, struct rc_err *err)
     for (size_t k = 0; k < v->material.terms; k++)
         f->equivalent_load += v->load.r[k];
     f->indentation = f->contact.approach;
-    f->residual_indentation =
-        v->leg.taken ? residual(v->h, v->top, v->run[FINE].r, v->n, v->material.terms) : NAN;
+    f->residual_indentation = v->leg.taken ? residual(v) : NAN;
     at->at[RC_TIME] = f->time;
     at->at[RC_LOAD] = f->contact.load;
     at->at[RC_APPROACH] = f->contact.approach;
@@ -954,20 +960,24 @@ static enum rc_status
 make(struct viscoelastic *v, const double *h, const struct rc_viscoelastic_problem *a,
      struct rc_err *err)
 {
-    const struct rc_shape *s = &v->base.shape;
+    const struct rc_ranks *ranks = v->base.rows.ranks;
     const size_t most = a->material->creep_terms + 2;
+    enum rc_status status = RC_OK;
 
     if (check(v->base.inner, a, err) != RC_OK)
         return RC_FAIL;
     v->problem = *a;
     v->problem.points = a->points > 0 ? a->points : 1;
     v->problem.tol = a->tol > 0 ? a->tol : usual_tol;
-    v->n = s->nx * s->ny;
-    for (size_t k = 0; k < v->n; k++)
+    v->n = rc_model_nodes(&v->base);
+    for (size_t k = 0; k < v->n && status == RC_OK; k++)
         if (!isfinite(h[k]))
-            return rc_err_set(err, "height %zu is not a finite number", k);
+            status = rc_err_set(err, "height %zu is not a finite number",
+                                v->base.rows.first * v->base.shape.nx + k);
+    if (rc_ranks_agree(ranks, status, err) != RC_OK)
+        return RC_FAIL;
     v->h = rc_store_copy(&v->base.own, v->n, sizeof *h, h);
-    v->top = rc_highest(h, v->n);
+    v->top = rc_ranks_highest(ranks, h, v->n);
     v->good = true;
     v->leg.slope = INFINITY;
     v->weights.c = v->leg.shrink = 1;

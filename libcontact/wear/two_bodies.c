@@ -174,7 +174,10 @@ contact(struct sliding *v, size_t stage, struct rc_err *err)
 static double
 lost(const struct sliding *v)
 {
-    return rc_sum(v->worn[FINE][0], v->n) + rc_sum(v->worn[FINE][1], v->n);
+    const struct rc_ranks *ranks = v->base.rows.ranks;
+
+    return rc_ranks_sum_of(ranks, v->worn[FINE][0], v->n) +
+           rc_ranks_sum_of(ranks, v->worn[FINE][1], v->n);
 }
 
 static void
@@ -182,20 +185,23 @@ find_figures(struct sliding *v)
 {
     const double cell = v->base.shape.dx * v->base.shape.dy;
     double *const *worn = v->worn[FINE];
+    const struct rc_ranks *ranks = v->base.rows.ranks;
+    const double all = (double)v->base.shape.nx * (double)v->base.shape.ny;
     struct rc_wear_figures *f = &v->f;
+    double most = 0;
 
     v->differ = 0;
     for (int b = 0; b < 2; b++)
-        v->differ += rc_distance(v->worn[COARSE][b], worn[b], v->n);
+        v->differ += rc_ranks_distance(ranks, v->worn[COARSE][b], worn[b], v->n);
     v->above = fmax(v->above, v->differ);
     f->distance = v->s;
-    f->wear_volume_1 = rc_sum(worn[0], v->n) * cell;
-    f->wear_volume_2 = rc_sum(worn[1], v->n) * cell;
+    f->wear_volume_1 = rc_ranks_sum_of(ranks, worn[0], v->n) * cell;
+    f->wear_volume_2 = rc_ranks_sum_of(ranks, worn[1], v->n) * cell;
     f->wear_volume = f->wear_volume_1 + f->wear_volume_2;
-    f->mean_wear_depth = lost(v) / (double)v->n;
-    f->max_wear_depth = 0;
+    f->mean_wear_depth = lost(v) / all;
     for (size_t k = 0; k < v->n; k++)
-        f->max_wear_depth = fmax(f->max_wear_depth, worn[0][k] + worn[1][k]);
+        most = fmax(most, worn[0][k] + worn[1][k]);
+    f->max_wear_depth = rc_ranks_most(ranks, most);
     f->wear_error = v->s > 0 ? caution * v->above / lost(v) + v->of_contacts / v->s : 0;
 }
 
@@ -207,7 +213,7 @@ arrive(struct sliding *v)
 
     find_figures(v);
     v->again = false;
-    f->pressure_spread = rc_wear_spread(v->p, v->n);
+    f->pressure_spread = rc_wear_spread(v->base.rows.ranks, v->p, v->n);
     f->pressure_error = v->apart * (v->differ > 0 ? v->above / v->differ : 1) + v->of_p;
     f->converged = v->good && f->wear_error <= v->law.tol;
     return f->converged ? RC_OK : RC_SHORT;
@@ -330,7 +336,8 @@ step(struct rc_model *m, struct rc_err *err)
         memcpy(v->other, v->p, v->n * sizeof *v->p);
         return contact(v, PRESS_AGAIN, err);
     case PRESS_AGAIN:
-        v->apart = fmax(v->apart, rc_distance(v->p, v->other, v->n) / rc_sum(v->p, v->n));
+        v->apart = fmax(v->apart, rc_ranks_distance(m->rows.ranks, v->p, v->other, v->n) /
+                                      rc_ranks_sum_of(m->rows.ranks, v->p, v->n));
         if (v->pair > 0) {
             v->pair--;
             return contact(v, PRESS, err);
@@ -441,11 +448,9 @@ const struct rc_model_row rc_model_wear_two_bodies = {
 static enum rc_status
 make(struct sliding *v, const double *h, const struct rc_wear_problem *law, struct rc_err *err)
 {
-    const struct rc_shape *s = &v->base.shape;
-
-    v->n = s->nx * s->ny;
+    v->n = rc_model_nodes(&v->base);
     v->law = *law;
-    if (rc_wear_check(&v->law, v->n, err) != RC_OK)
+    if (rc_wear_check(&v->base, &v->law, err) != RC_OK)
         return RC_FAIL;
     if (law->part != NULL || law->track > 0)
         return rc_err_set(err,

@@ -143,7 +143,8 @@ struct wear {
     struct rc_model base;
     struct rc_wear_problem law;
     struct rates rates;
-    size_t n;
+    size_t n;   /* nodes of this rank */
+    double all; /* nodes of the map */
     struct maps maps;
     struct way way;
     double error[ERRORS]; /* m: errors of the worn depths; relative: errors of p0, of steps ... */
@@ -220,12 +221,14 @@ depth(const struct maps *maps, double row, size_t nx, size_t k)
 
 /* Adds t W p to `to`. With `deep`, m of each row, adds the part of the rows there instead. */
 static void
-lose(const struct rates *rates, const struct rc_shape *s, double t, const double *p, double *to,
-     double *deep)
+lose(const struct wear *v, double t, const double *p, double *to, double *deep)
 {
-    for (size_t k = 0; k < s->nx * s->ny; k++)
+    const struct rates *rates = &v->rates;
+    const struct rc_shape *s = &v->base.shape;
+
+    for (size_t k = 0; k < v->n; k++)
         to[k] += t * rates->k * part(rates, k) * p[k];
-    for (size_t j = 0; j < s->ny && rates->row > 0; j++) {
+    for (size_t j = 0; j < v->base.rows.n && rates->row > 0; j++) {
         const double sunk = t * rates->row * s->dx * rc_sum(p + j * s->nx, s->nx);
         for (size_t i = 0; i < s->nx && deep == NULL; i++)
             to[j * s->nx + i] += sunk;
@@ -243,21 +246,37 @@ most_lost(const struct rates *rates, const struct rc_shape *s)
 
 /* The sum of W p. */
 static double
-rate(const struct rates *rates, const struct rc_shape *s, const double *p)
+rate(const struct wear *v, const double *p)
 {
+    const struct rates *rates = &v->rates;
+    const double most = most_lost(rates, &v->base.shape);
     struct rc_total sum = {0};
 
-    for (size_t k = 0; k < s->nx * s->ny; k++)
-        rc_total_add(&sum, (most_lost(rates, s) - rates->k + rates->k * part(rates, k)) * p[k]);
-    return rc_total_value(&sum);
+    for (size_t k = 0; k < v->n; k++)
+        rc_total_add(&sum, (most - rates->k + rates->k * part(rates, k)) * p[k]);
+    return rc_ranks_total(v->base.rows.ranks, sum);
+}
+
+/* The sum of the depths of all rows of the body that passes. */
+static double
+deep(const struct wear *v)
+{
+    return rc_ranks_sum_of(v->base.rows.ranks, v->maps.deep, v->base.rows.n);
 }
 
 /* The sum of the worn depths. */
 static double
-lost(const struct maps *maps, double row, const struct rc_shape *s)
+lost(const struct wear *v)
 {
-    return rc_sum(maps->worn, s->nx * s->ny) +
-           (row > 0 ? (double)s->nx * rc_sum(maps->deep, s->ny) : 0);
+    return rc_ranks_sum_of(v->base.rows.ranks, v->maps.worn, v->n) +
+           (v->rates.row > 0 ? (double)v->base.shape.nx * deep(v) : 0);
+}
+
+/* The sum of |a| over the map. */
+static double
+size(const struct wear *v, const double *a)
+{
+    return rc_ranks_distance(v->base.rows.ranks, a, NULL, v->n);
 }
 
 /* The wear per distance of the nodes that wear over that of all nodes at the largest coefficient: now,
@@ -266,8 +285,8 @@ static double
 share(const struct wear *v)
 {
     const struct rc_shape *s = &v->base.shape;
-    const double all = most_lost(&v->rates, s) * rc_distance(v->maps.p0, NULL, v->n);
-    const double now = rate(&v->rates, s, v->maps.p0), worn = lost(&v->maps, v->rates.row, s);
+    const double all = most_lost(&v->rates, s) * size(v, v->maps.p0);
+    const double now = rate(v, v->maps.p0), worn = lost(v);
 
     return v->rates.part == NULL || !(now > 0 || worn > 0)
                ? 1
@@ -278,8 +297,7 @@ share(const struct wear *v)
 static double
 accuracy(const struct wear *v)
 {
-    return v->way.stage == LAST ? fmin(accurate * share(v), nodes_in_part / (double)v->n)
-                                : share(v);
+    return v->way.stage == LAST ? fmin(accurate * share(v), nodes_in_part / v->all) : share(v);
 }
 
 /* Gives the inner model these heights, and the compliance of this stage. */
@@ -320,13 +338,11 @@ pose(struct wear *v, struct rc_err *err)
     for (size_t k = 0; k < v->n; k++)
         v->maps.room[k] = v->maps.h[k] - depth(&v->maps, v->rates.row, v->base.shape.nx, k);
     if (halves)
-        lose(&v->rates, &v->base.shape, -(v->way.stage == FIRST ? d : w) * v->way.tried, v->maps.p0,
-             v->maps.room, NULL);
+        lose(v, -(v->way.stage == FIRST ? d : w) * v->way.tried, v->maps.p0, v->maps.room, NULL);
     if (v->way.stage == SECOND)
-        lose(&v->rates, &v->base.shape, -w * v->way.tried, v->maps.pa, v->maps.room, NULL);
+        lose(v, -w * v->way.tried, v->maps.pa, v->maps.room, NULL);
     if (v->way.stage == LAST)
-        lose(&v->rates, &v->base.shape, (newest(v) - 1) * v->way.tried, v->maps.q, v->maps.room,
-             NULL);
+        lose(v, (newest(v) - 1) * v->way.tried, v->maps.q, v->maps.room, NULL);
     if (!halves)
         memcpy(v->maps.pa, v->maps.room, v->n * sizeof *v->maps.pa);
     return pose_at(v, v->maps.room, err);
@@ -349,32 +365,40 @@ contact(struct wear *v, enum stage stage, struct rc_err *err)
 /* The largest sum of |e| that an error e of the heights has now or gets while the bodies slide on. The flow
  * never increases the sum of |e| over the coefficients; in the end e is even over the contact. */
 static double
-lasting(const struct rates *rates, const double *p, const double *e, size_t n)
+lasting(const struct wear *v, const double *p, const double *e)
 {
-    double weighted = 0, weights = 0, count = 0;
+    const struct rates *rates = &v->rates;
+    struct rc_total weighted = {0}, weights = {0}, count = {0};
+    double sum[3];
 
-    for (size_t k = 0; k < n && rates->part != NULL; k++)
+    if (rates->part == NULL)
+        return size(v, e);
+    for (size_t k = 0; k < v->n; k++)
         if (part(rates, k) > 0) {
-            weighted += fabs(e[k]) / part(rates, k);
-            weights += rc_in_contact(p[k]) / part(rates, k);
-            count += rc_in_contact(p[k]);
+            rc_total_add(&weighted, fabs(e[k]) / part(rates, k));
+            rc_total_add(&weights, rc_in_contact(p[k]) / part(rates, k));
+            rc_total_add(&count, rc_in_contact(p[k]));
         }
-    return fmax(rc_distance(e, NULL, n), weights > 0 ? count / weights * weighted : 0);
+    rc_ranks_totals(v->base.rows.ranks, 3, (struct rc_total[]){weighted, weights, count}, sum, 0,
+                    NULL);
+    return fmax(size(v, e), sum[1] > 0 ? sum[2] / sum[1] * sum[0] : 0);
 }
 
 /* ---- steps ---- */
 
 double
-rc_wear_spread(const double *p, size_t n)
+rc_wear_spread(const struct rc_ranks *ranks, const double *p, size_t n)
 {
-    double sum = 0, squares = 0, in = 0;
+    struct rc_total total[3] = {{0}};
+    double sum[3];
 
     for (size_t k = 0; k < n; k++) {
-        sum += p[k];
-        squares += p[k] * p[k];
-        in += rc_in_contact(p[k]);
+        rc_total_add(&total[0], p[k]);
+        rc_total_add(&total[1], p[k] * p[k]);
+        rc_total_add(&total[2], rc_in_contact(p[k]));
     }
-    return sqrt(fmax(in * squares / (sum * sum) - 1, 0));
+    rc_ranks_totals(ranks, 3, total, sum, 0, NULL);
+    return sqrt(fmax(sum[2] * sum[1] / (sum[0] * sum[0]) - 1, 0));
 }
 
 /* The estimated error of the worn depths, m: their sum over the nodes. */
@@ -388,28 +412,30 @@ static void
 find_figures(struct wear *v)
 {
     const double cell = v->base.shape.dx * v->base.shape.dy;
+    const struct rc_ranks *ranks = v->base.rows.ranks;
     struct rc_wear_figures *f = &v->f;
-    double in = 0;
+    struct rc_total in = {0};
+    double count;
 
     f->distance = v->law.energy == NULL ? v->way.s : NAN;
-    f->wear_volume = rc_sum(v->maps.worn, v->n) * cell;
+    f->wear_volume = rc_ranks_sum_of(ranks, v->maps.worn, v->n) * cell;
     f->max_wear_depth = 0;
     for (size_t k = 0; k < v->n; k++) {
         f->max_wear_depth =
             fmax(f->max_wear_depth, depth(&v->maps, v->rates.row, v->base.shape.nx, k));
-        in += rc_in_contact(v->maps.p0[k]);
+        in.sum += rc_in_contact(v->maps.p0[k]);
     }
+    rc_ranks_totals(ranks, 1, &in, &count, 1, &f->max_wear_depth);
     f->wear_volume_1 = v->rates.share[0] * f->wear_volume;
     f->wear_volume_2 = v->rates.share[1] * f->wear_volume;
     if (v->rates.row > 0)
-        f->wear_volume += f->wear_volume_2 =
-            rc_sum(v->maps.deep, v->base.shape.ny) * v->base.shape.dy * v->law.track;
-    f->mean_wear_depth = lost(&v->maps, v->rates.row, &v->base.shape) / (double)v->n;
-    f->pressure_spread = rc_wear_spread(v->maps.p0, v->n);
-    f->wear_error = f->wear_volume > 0 ? off(v) / lost(&v->maps, v->rates.row, &v->base.shape) : 0;
+        f->wear_volume += f->wear_volume_2 = deep(v) * v->base.shape.dy * v->law.track;
+    f->mean_wear_depth = lost(v) / v->all;
+    f->pressure_spread = rc_wear_spread(ranks, v->maps.p0, v->n);
+    f->wear_error = f->wear_volume > 0 ? off(v) / lost(v) : 0;
     f->pressure_error = v->error[OF_STEPS] + v->error[OF_P0];
     f->converged = v->good && f->wear_error <= v->law.tol && f->pressure_error <= v->law.tol;
-    v->in_contact = in / (double)v->n;
+    v->in_contact = count / v->all;
 }
 
 /* The distance before the point that backward Euler takes, m. */
@@ -431,22 +457,24 @@ static double
 find_progress(struct wear *v, const double *p, double t)
 {
     const struct rc_wear_problem *law = &v->law;
-    double in = 0, deepest = 0, x = 0;
+    struct rc_total in = {0};
+    double deepest = 0, x = 0, count;
 
     for (size_t k = 0; k < v->n; k++)
         v->maps.room[k] = depth(&v->maps, v->rates.row, v->base.shape.nx, k);
-    lose(&v->rates, &v->base.shape, newest(v) * t, p, v->maps.room, NULL);
-    lose(&v->rates, &v->base.shape, (1 - newest(v)) * t, v->maps.q, v->maps.room, NULL);
+    lose(v, newest(v) * t, p, v->maps.room, NULL);
+    lose(v, (1 - newest(v)) * t, v->maps.q, v->maps.room, NULL);
     for (size_t k = 0; k < v->n; k++) {
-        in += rc_in_contact(p[k]);
+        in.sum += rc_in_contact(p[k]);
         deepest = fmax(deepest, v->maps.room[k]);
     }
+    rc_ranks_totals(v->base.rows.ranks, 1, &in, &count, 1, &deepest);
     if (law->until_area > 0)
-        x = in / (double)v->n / law->until_area;
+        x = count / v->all / law->until_area;
     if (law->until_depth > 0)
         x = fmax(x, deepest / law->until_depth);
     if (law->until_spread > 0)
-        x = fmax(x, law->until_spread / rc_wear_spread(p, v->n));
+        x = fmax(x, law->until_spread / rc_wear_spread(v->base.rows.ranks, p, v->n));
     return fmin(x, 2);
 }
 
@@ -463,8 +491,7 @@ longest(const struct wear *v)
 static double
 most_worn(const struct wear *v)
 {
-    return fmax(lost(&v->maps, v->rates.row, &v->base.shape),
-                v->way.end * rate(&v->rates, &v->base.shape, v->maps.p1));
+    return fmax(lost(v), v->way.end * rate(v, v->maps.p1));
 }
 
 static enum rc_status start(struct wear *v, struct rc_err *err);
@@ -561,20 +588,18 @@ take(struct wear *v, double first, double last, double error, const double *e, d
     double *p = v->maps.p0;
 
     if (first > 0) {
-        lose(&v->rates, &v->base.shape, first * v->way.tried, v->maps.p0, v->maps.worn,
-             v->maps.deep);
-        lose(&v->rates, &v->base.shape, first * v->way.tried, v->maps.pa, v->maps.worn,
-             v->maps.deep);
+        lose(v, first * v->way.tried, v->maps.p0, v->maps.worn, v->maps.deep);
+        lose(v, first * v->way.tried, v->maps.pa, v->maps.worn, v->maps.deep);
     }
-    lose(&v->rates, &v->base.shape, last * v->way.tried,
-         v->way.stage == LAST ? v->maps.q : v->maps.p1, v->maps.worn, v->maps.deep);
+    lose(v, last * v->way.tried, v->way.stage == LAST ? v->maps.q : v->maps.p1, v->maps.worn,
+         v->maps.deep);
     if (fit(v, err) != RC_OK)
         return RC_FAIL;
     v->maps.p0 = v->maps.p1;
     v->maps.p1 = p;
     v->way.s += v->way.tried;
     v->error[OF_CONTACTS] += error;
-    v->error[OF_HEIGHTS] = rc_distance(e, NULL, v->n);
+    v->error[OF_HEIGHTS] = size(v, e);
     v->error[OF_P0] = of_p1;
     v->error[WEAR_P0] = v->error[WEAR_P1];
     v->error[OF_STEPS] = of_steps;
@@ -593,8 +618,8 @@ respond(struct wear *v, double *sum, struct rc_err *err)
     if (rc_model_respond(v->base.inner, v->maps.e, v->maps.room, err) != RC_OK)
         return RC_FAIL;
     v->f.convolutions += 1;
-    lose(&v->rates, &v->base.shape, -v->over, v->maps.room, v->maps.e, NULL);
-    *sum = rc_distance(v->maps.room, NULL, v->n);
+    lose(v, -v->over, v->maps.room, v->maps.e, NULL);
+    *sum = size(v, v->maps.room);
     return RC_OK;
 }
 
@@ -605,8 +630,7 @@ respond(struct wear *v, double *sum, struct rc_err *err)
 static double
 allowed(const struct wear *v)
 {
-    const double t = v->way.tried, now = t * rate(&v->rates, &v->base.shape, v->maps.p1),
-                 worn = lost(&v->maps, v->rates.row, &v->base.shape), used = off(v),
+    const double t = v->way.tried, now = t * rate(v, v->maps.p1), worn = lost(v), used = off(v),
                  most = of_tol * fmax(0.5, 1 - (used > 0 ? used / (v->law.tol * worn) : 0)) *
                         v->law.tol * now,
                  left = (in_volume * v->law.tol * worn - used) / (2 * caution) * t / (v->way.s + t);
@@ -619,7 +643,7 @@ static enum rc_status
 even(struct wear *v, double of_p1, struct rc_err *err)
 {
     const double step = most_lost(&v->rates, &v->base.shape) * v->way.tried,
-                 sum = rc_distance(v->maps.p1, NULL, v->n), *error = v->error;
+                 sum = size(v, v->maps.p1), *error = v->error;
     const bool early = may_end_early(&v->law);
     const double r = ratio(&v->way), weight = newest(v), s = v->way.s + v->way.tried,
                  way = early ? s + rc_wear_first_step(&v->law, &v->base.shape)
@@ -627,13 +651,15 @@ even(struct wear *v, double of_p1, struct rc_err *err)
     const double x = early ? find_progress(v, v->maps.p1, v->way.tried) : 0;
     const bool met = x >= 1 && v->way.last >= EULER,
                final = met || !(v->way.end - s > 1e-12 * v->way.end);
-    double change = 0, worst, z;
+    struct rc_total apart = {0};
+    double change, worst, z;
     bool far;
 
     for (size_t k = 0; k < v->n; k++) {
         v->maps.room[k] = (v->maps.p1[k] - v->maps.p0[k] - r * v->maps.change[k]) / (r > 0 ? 3 : 2);
-        change += fabs(v->maps.room[k]) / sum;
+        rc_total_add(&apart, fabs(v->maps.room[k]) / sum);
     }
+    change = rc_ranks_total(v->base.rows.ranks, apart);
     worst =
         step * sum * change /
         (early ? caution * allowed(v) : of_last * v->law.tol * v->way.tried / way * most_worn(v));
@@ -655,7 +681,7 @@ even(struct wear *v, double of_p1, struct rc_err *err)
         v->maps.change[k] = v->maps.p1[k] - v->maps.p0[k];
         v->maps.q[k] = weight * v->maps.p1[k] + (r > 0 ? (1 - weight) * v->maps.q[k] : 0);
     }
-    lose(&v->rates, &v->base.shape, v->way.tried, v->maps.room, v->maps.e, NULL);
+    lose(v, v->way.tried, v->maps.room, v->maps.e, NULL);
     v->way.last++;
     v->way.before = v->way.tried;
     v->way.rise = (x - v->way.x) / v->way.tried;
@@ -696,7 +722,7 @@ static enum rc_status
 judge(struct wear *v, double of_p1, struct rc_err *err)
 {
     const double step = most_lost(&v->rates, &v->base.shape) * v->way.tried,
-                 sum = rc_distance(v->maps.p1, NULL, v->n), *error = v->error;
+                 sum = size(v, v->maps.p1), *error = v->error;
     const double most = allowed(v);
     double e, z = 0, contacts, factor;
 
@@ -704,10 +730,10 @@ judge(struct wear *v, double of_p1, struct rc_err *err)
     for (size_t k = 0; k < v->n; k++)
         v->maps.room[k] =
             (v->maps.p1[k] - v->maps.pa[k]) / (1 - g) - (v->maps.pa[k] - v->maps.p0[k]) / g;
-    lose(&v->rates, &v->base.shape, 2 * third_order * v->way.tried, v->maps.room, v->maps.e, NULL);
+    lose(v, 2 * third_order * v->way.tried, v->maps.room, v->maps.e, NULL);
     if (respond(v, &z, err) != RC_OK)
         return RC_FAIL;
-    e = lasting(&v->rates, v->maps.p1, v->maps.e, v->n);
+    e = lasting(v, v->maps.p1, v->maps.e);
     /* The next step aims below the largest error. Half takes 4 % more convolutions. Double takes 1 % fewer,
      * with errors up to 3.4 times as large (26 runs of bench/constants.py). */
     factor = fmin(GROWTH, 0.9 * sqrt(most / e));
@@ -775,13 +801,14 @@ go(struct rc_model *m, struct rc_err *err)
  * D z, and (K + D) z is the gap that the contact has left open, so that the sum of |D z| is about that of
  * |gap| at most. The largest D is `compliance`. */
 static double
-wear_error(double of_p, const double *p, const double *gap, size_t n, double compliance)
+wear_error(const struct wear *v, double of_p, const double *p, const double *gap, double compliance)
 {
-    double open = 0;
+    struct rc_total open = {0};
 
-    for (size_t k = 0; k < n; k++)
-        open += rc_in_contact(p[k]) ? fabs(gap[k]) : 0;
-    return fmin(of_p, caution * open / (compliance * rc_distance(p, NULL, n)));
+    for (size_t k = 0; k < v->n; k++)
+        rc_total_add(&open, rc_in_contact(p[k]) ? fabs(gap[k]) : 0);
+    return fmin(of_p,
+                caution * rc_ranks_total(v->base.rows.ranks, open) / (compliance * size(v, p)));
 }
 
 static enum rc_status
@@ -808,7 +835,7 @@ step(struct rc_model *m, struct rc_err *err)
     if (v->rates.part != NULL && v->over > 0) {
         if (rc_model_frame(m->inner, "gap", v->maps.room, err) != RC_OK)
             return RC_FAIL;
-        v->error[WEAR_P1] = wear_error(of_p1, v->maps.p1, v->maps.room, v->n, v->rates.k * v->over);
+        v->error[WEAR_P1] = wear_error(v, of_p1, v->maps.p1, v->maps.room, v->rates.k * v->over);
     }
     if (v->way.stage != LAST)
         v->error[LEFT] = fmax(v->way.stage == SECOND ? v->error[LEFT] : 0, of_p1);
@@ -852,7 +879,7 @@ height_in(struct wear *v, double *to, struct rc_err *err)
         return RC_FAIL;
     for (size_t k = 0; k < v->n; k++)
         to[k] += v->fitted && rc_in_contact(v->maps.p0[k]) ? v->maps.room[k] : 0;
-    lose(&v->rates, &v->base.shape, -v->over, v->maps.p0, to, NULL);
+    lose(v, -v->over, v->maps.p0, to, NULL);
     return RC_OK;
 }
 
@@ -879,17 +906,22 @@ fill(struct rc_model *m, size_t frame, double *to, struct rc_err *err)
 static enum rc_status
 find_approach(struct wear *v, double *approach, struct rc_err *err)
 {
-    double shift;
+    const struct rc_rows *rows = &v->base.rows;
+    const bool first = rows->first == 0 && rows->n > 0; /* this rank has node 0 */
+    double shift = -INFINITY;
 
     if (rc_model_frame(v->base.inner, "displacement", v->maps.room, err) != RC_OK)
         return RC_FAIL;
-    shift = v->maps.room[0];
+    if (first)
+        shift = v->maps.room[0];
     if (height_in(v, v->maps.p1, err) != RC_OK ||
         fill(&v->base, RC_WEAR_GAP, v->maps.room, err) != RC_OK)
         return RC_FAIL;
-    shift -= v->maps.p1[0] + v->maps.room[0];
+    if (first)
+        shift -= v->maps.p1[0] + v->maps.room[0];
+    shift = rc_ranks_most(rows->ranks, shift);
     if (!isnan(*approach))
-        *approach = shift + rc_highest(v->maps.p1, v->n);
+        *approach = shift + rc_ranks_highest(rows->ranks, v->maps.p1, v->n);
     return RC_OK;
 }
 
@@ -936,7 +968,7 @@ state(struct rc_model *m, struct rc_state *s)
     rc_state_finite(s, ERRORS, v->error);
     rc_state_map(s, v->n, v->maps.worn);
     if (v->rates.row > 0)
-        rc_state_finite(s, m->shape.ny, v->maps.deep);
+        rc_state_rows(s, &m->rows, m->shape.nx, v->maps.deep);
     rc_state_map(s, v->n, v->maps.p0);
     if (!halves)
         rc_state_map(s, v->n, v->maps.e);
@@ -1003,8 +1035,10 @@ const struct rc_model_row rc_model_wear = {
 /* ---- the maker ---- */
 
 enum rc_status
-rc_wear_check(struct rc_wear_problem *law, size_t n, struct rc_err *err)
+rc_wear_check(const struct rc_model *m, struct rc_wear_problem *law, struct rc_err *err)
 {
+    const size_t n = rc_model_nodes(m), first = m->rows.first * m->shape.nx;
+    enum rc_status status = RC_OK;
     double largest = 0;
 
     for (int b = 0; b < 2; b++)
@@ -1014,20 +1048,24 @@ rc_wear_check(struct rc_wear_problem *law, size_t n, struct rc_err *err)
                 law->k[b], b + 1);
     if (law->k[0] + law->k[1] == 0)
         return rc_err_set(err, "no body wears: one of the two wear coefficients must be above 0");
-    for (size_t k = 0; k < n && law->part != NULL; k++) {
+    for (size_t k = 0; k < n && law->part != NULL && status == RC_OK; k++) {
         if (!(law->part[k] >= 0 && law->part[k] <= 1))
-            return rc_err_set(err,
-                              "node %zu has %g of the largest wear coefficient: the ratio must be "
-                              "from 0 to 1",
-                              k, law->part[k]);
+            status =
+                rc_err_set(err,
+                           "node %zu has %g of the largest wear coefficient: the ratio must be "
+                           "from 0 to 1",
+                           first + k, law->part[k]);
         largest = fmax(largest, law->part[k]);
     }
+    for (size_t k = 0; k < n && law->energy != NULL && status == RC_OK; k++)
+        if (!(law->energy[k] >= 0) || isinf(law->energy[k]))
+            status = rc_err_set(err, "energy %g J/m2 of node %zu: it must be at least 0 and finite",
+                                law->energy[k], first + k);
+    if (rc_ranks_agree(m->rows.ranks, status, err) != RC_OK)
+        return RC_FAIL;
+    largest = rc_ranks_most(m->rows.ranks, largest);
     if (law->part != NULL && largest != 1)
         return rc_err_set(err, "the largest coefficient is %g of itself: it must be 1", largest);
-    for (size_t k = 0; k < n && law->energy != NULL; k++)
-        if (!(law->energy[k] >= 0) || isinf(law->energy[k]))
-            return rc_err_set(err, "energy %g J/m2 of node %zu: it must be at least 0 and finite",
-                              law->energy[k], k);
     if (law->energy != NULL &&
         (law->part != NULL || law->track > 0 || law->two_bodies || law->until_area > 0 ||
          law->until_depth > 0 || law->until_spread > 0))
@@ -1062,14 +1100,16 @@ make(struct wear *v, const double *h, const struct rc_wear_problem *law, struct 
     double **maps[] = {&v->maps.worn, &v->maps.p0,     &v->maps.pa, &v->maps.p1,
                        &v->maps.q,    &v->maps.change, &v->maps.e,  &v->maps.room};
 
-    v->n = s->nx * s->ny;
+    v->n = rc_model_nodes(&v->base);
+    v->all = (double)s->nx * (double)s->ny;
     v->law = *law;
-    if (rc_wear_check(&v->law, v->n, err) != RC_OK)
+    if (rc_wear_check(&v->base, &v->law, err) != RC_OK)
         return RC_FAIL;
     v->rates.part = law->part;
     v->rates.least = law->part != NULL ? INFINITY : 1;
     for (size_t k = 0; k < v->n && law->part != NULL; k++)
         v->rates.least = fmin(v->rates.least, law->part[k]);
+    v->rates.least = -rc_ranks_most(v->base.rows.ranks, -v->rates.least);
     v->rates.row = law->track > 0 ? law->k[1] / law->track : 0;
     v->rates.k = law->k[0] + (law->track > 0 ? 0 : law->k[1]);
     v->rates.share[0] = law->track > 0 ? 1 : law->k[0] / v->rates.k;
@@ -1084,7 +1124,7 @@ make(struct wear *v, const double *h, const struct rc_wear_problem *law, struct 
     v->maps.h = rc_store_copy(&v->base.own, v->n, sizeof *h, h);
     for (size_t k = 0; k < sizeof maps / sizeof *maps; k++)
         *maps[k] = rc_store_zeros(&v->base.own, v->n, sizeof **maps[k]);
-    v->maps.deep = rc_store_zeros(&v->base.own, s->ny, sizeof *v->maps.deep);
+    v->maps.deep = rc_store_zeros(&v->base.own, v->base.rows.n, sizeof *v->maps.deep);
     return rc_model_room(&v->base, err);
 }
 

@@ -15,8 +15,9 @@ enum {
 };
 extern const struct rc_frame_kind rc_wear_frames[];
 
-/* Checks the law for a map of n nodes, and sets its tolerance if that is 0. */
-enum rc_status rc_wear_check(struct rc_wear_problem *law, size_t n, struct rc_err *err);
+/* Checks the law for the map of the model, and sets its tolerance if that is 0. */
+enum rc_status rc_wear_check(const struct rc_model *m, struct rc_wear_problem *law,
+                             struct rc_err *err);
 /* Refuses a next point of the model without a load. */
 enum rc_status rc_wear_check_point(const struct rc_model *m, struct rc_err *err);
 /* The point for the inner model after the sliding distance s. Between two points the load changes in
@@ -25,7 +26,7 @@ struct rc_point rc_wear_load(const struct rc_model *m, double s);
 /* m: the first step. */
 double rc_wear_first_step(const struct rc_wear_problem *law, const struct rc_shape *s);
 /* The standard deviation of the pressure in contact over its mean. */
-double rc_wear_spread(const double *p, size_t n);
+double rc_wear_spread(const struct rc_ranks *ranks, const double *p, size_t n);
 
 struct rc_model *rc_wear_two_bodies_new(struct rc_model *inner, const double *h,
                                         const struct rc_wear_problem *law, struct rc_err *err);

@@ -22,13 +22,27 @@ same() {
 }
 # 45 rows are three units, so that one of four processes has none. The ball touches in the middle unit only.
 rc-synth selfaffine --nx 131 --ny 45 --dx 1um --hurst 0.8 --rms-slope 0.1 --short-cut 8um --seed 5 -o rough.rcg
+rc-synth selfaffine --nx 160 --ny 57 --dx 1um --hurst 0.8 --rms-slope 0.05 --short-cut 8um --seed 7 -o other.rcg
 rc-synth sphere --nx 131 --ny 45 --dx 1um --radius 200um -o ball.rcg
+rc-solve --periodic --estar 1GPa --mean-pressure 2MPa --quiet -o pressed.rcg rough.rcg
+rc-solve --estar 1GPa --load 0.2mN --quiet -o pressed-ball.rcg ball.rcg
 
 # ---- models ----
 
 yield="rc-solve --E1 100GPa --nu1 0.3 --E2 rigid --yield 0.5GPa,1GPa --slabs 3 --increments 8 --quiet"
 claim "yield, periodic, a history" same "$yield --periodic --mean-pressure 60MPa,20MPa,70MPa --history --output pressure,strain,plastic,residual rough.rcg"
 claim "yield, free, slabs chosen, several threads" same "RC_THREADS=2 ${yield/--slabs 3/} --load 40mN,0 --history ball.rcg"
+claim "creep" same "rc-solve --periodic --relaxation 1MPa,9MPa:1s --nu1 0.5 --E2 rigid --mean-pressure 20kPa --time 0,1s --increments 4 --quiet rough.rcg"
+claim "relaxation at an approach" same "rc-solve --relaxation 1MPa,9MPa:1s --nu1 0.5 --E2 rigid --approach 0.5um --time 0,1s --increments 4 --quiet ball.rcg"
+travel="rc-solve --estar 1GPa --radius 200um --load 1mN --quiet"
+claim "travel against a rough map with more rows" same "$travel --travel=-1um,0,0.5um --counter other.rcg rough.rcg"
+claim "travel of a window" same "$travel --travel=-1um,0,1um --window 110x37 rough.rcg"
+claim "travel over a body that yields" same "$yield --periodic --tol 1e-2 --radius 200um --load 30mN --travel=-2um,0,2um --passes 2 rough.rcg"
+wear="rc-wear --coefficient 1e-3mm3/Nm,1e-3mm3/Nm --quiet"
+claim "wear" same "$wear --distance 0.1m,1m pressed.rcg"
+claim "wear to a contact area" same "$wear --distance 10m --until area=0.2 pressed.rcg"
+claim "wear of a track" same "$wear --motion track:1mm --distance 0.1m pressed-ball.rcg"
+claim "wear of two rough bodies" same "$wear --motion sliding --counter rough.rcg --tol 0.1 --distance 0.05m pressed.rcg"
 
 # ---- faults ----
 
@@ -61,6 +75,7 @@ memory() {
 }
 export ASAN_OPTIONS="${ASAN_OPTIONS-}:verify_asan_link_order=0"
 claim "allocations of one process fail: yield" memory "$yield --tol 0.1 --load 40mN ball.rcg"
+claim "  wear" memory "$wear --distance 0.1m --tol 0.1 pressed-ball.rcg"
 killed() {
     local launcher victim= child
     $run ${yield/--quiet/} --progress line --periodic --increments 200 --mean-pressure 60MPa,20MPa,70MPa --history -o no.rcg rough.rcg >/dev/null 2>killed.err &

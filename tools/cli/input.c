@@ -412,6 +412,7 @@ tool_frame_of_file(struct tool *t, const char *option, const char *name, const c
 {
     bool standard = strcmp(name, "-") == 0;
     FILE *file = standard ? stdin : fopen(name, "rb");
+    const struct rc_share *share;
     struct rc_reader *reader;
     struct rc_grid *g = NULL;
     enum rc_status status;
@@ -420,6 +421,8 @@ tool_frame_of_file(struct tool *t, const char *option, const char *name, const c
         tool_die(t, "--%s %s: %s", option, name, strerror(errno));
     if ((reader = rc_reader_new(file, 0, t->memory, &t->err)) == NULL)
         tool_die(t, "--%s %s: %s", option, name, t->err.text);
+    share = standard ? NULL : ranks_read(t, name);
+    rc_reader_share(reader, share);
     do {
         rc_grid_free(g);
         status = rc_reader_next(reader, &g, &t->err);
@@ -435,6 +438,7 @@ tool_frame_of_file(struct tool *t, const char *option, const char *name, const c
         tool_die(t, "--%s %s: its dx and dy are in %s (key dunit), not in m", option, name,
                  rc_grid_dunit(g));
     rc_reader_free(reader);
+    ranks_close(t, share);
     if (!standard)
         fclose(file);
     return g;

@@ -438,7 +438,7 @@ physics_counter(struct tool *t, const char *name)
             "--z-unit",
             name, g->unit);
     tool_demand_finite(t, g, "fill them with rc-detrend --fill");
-    rc_mirror(rc_shape_of(g), 'x', g->v);
+    rc_mirror(&(struct rc_shape){g->nx, g->ny - g->elsewhere, g->dx, g->dy}, 'x', g->v);
     return g;
 }
 

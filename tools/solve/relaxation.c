@@ -248,7 +248,6 @@ read_time(struct run *run)
     refuse(run, a->layer.n != a->relaxing_layers, "--layer",
            "all layers must relax alike: give " LAYER_RELAXES
            " for the modulus of each, as in 1mm," LAYER_RELAXES ",0.49");
-    refuse(run, ranks_of(t) != NULL, "several processes", "take one");
     check_times(run);
     set_times(run);
     if (text == NULL || strcmp(text, "auto") == 0)
@@ -304,7 +303,7 @@ static void
 set_problem(struct run *run, struct rc_problem *problem)
 {
     const double part = fmax(deepest_fall(run->steps), deepest),
-                 usual = fmin(1e-3, pow((double)rc_grid_nodes(run->g), -0.75));
+                 usual = fmin(1e-3, pow((double)(run->g->nx * run->g->ny), -0.75));
 
     if (problem->tol > 0)
         problem->tol *= of_contacts * part;

@@ -102,8 +102,6 @@ read(struct run *run)
     if (!isnan(run->physics->cylinder) && run->physics->boundary.x && !run->physics->boundary.y)
         tool_usage(t, "--travel does not work with --cylinder and --periodic=x, because the "
                       "cylinder would travel along its axis: take --periodic=y");
-    if (ranks_of(t) != NULL)
-        tool_usage(t, "--travel does not work with several processes: take one");
     if (args.window != NULL && run->physics->boundary.x)
         tool_usage(t,
                    "--window does not work with --periodic%s, because a window is not a period: "
@@ -135,8 +133,11 @@ window_of(struct run *run, const struct rc_grid *g)
                     "--window %s: with --periodic=y it has the rows of the map: take %zux%zu",
                     args.window, own.window[0], g->ny);
     if (own.window[0] > 0) {
+        size_t first, rows;
         of.nx = own.window[0];
         of.ny = own.window[1];
+        ranks_rows(&run->d.t, rc_shape_of(&of), &first, &rows);
+        of.elsewhere = of.ny - rows;
     }
     to = tool_frame_like(&run->d.t, &of, NULL, g->channel, g->unit);
     memset(to->v, 0, rc_grid_nodes(to) * sizeof *to->v);
@@ -229,22 +230,23 @@ static void
 find_gain(struct run *run, const struct rc_model *m, size_t slabs)
 {
     const struct rc_grid *g = run->g;
-    const size_t rows = slabs * g->ny;
+    const size_t ny = g->ny - g->elsewhere, rows = slabs * ny; /* of this process */
     double *to[RC_YIELD_STRAINS] = {NULL}, *peeq, *row;
 
     own.gain = 0;
     if (slabs == 0)
         return;
-    peeq = tool_room(&run->d.t, g->nx * g->ny, sizeof *peeq, "plastic strain");
+    peeq = tool_room(&run->d.t, g->nx * ny, sizeof *peeq, "plastic strain");
     row = tool_room(&run->d.t, rows, sizeof *row, "plastic strain");
     to[RC_PEEQ] = peeq;
     for (size_t q = 0; q < rows; q++) {
-        if (q % g->ny == 0)
-            (void)rc_yield_strain(m, q / g->ny, to);
+        if (q % ny == 0)
+            (void)rc_yield_strain(m, q / ny, to);
         for (size_t i = 0; i < g->nx; i++)
-            row[q] += peeq[q % g->ny * g->nx + i] / (double)g->nx;
+            row[q] += peeq[q % ny * g->nx + i] / (double)g->nx;
         own.gain = fmax(own.gain, row[q] - (own.rows > 0 ? own.row[q] : 0));
     }
+    own.gain = ranks_most(&run->d.t, own.gain);
     free(peeq);
     free(own.row);
     own.row = row;
@@ -286,12 +288,12 @@ longest(const struct run *run)
     const double *p = run->solver != NULL ? rc_solver_pressure(run->solver) : NULL;
     size_t most = 0;
 
-    for (size_t j = 0; j < g->ny && p != NULL; j++)
+    for (size_t j = 0; j < g->ny - g->elsewhere && p != NULL; j++)
         for (size_t i = 0, now = 0; i < 2 * g->nx; i++) { /* twice: a row may wrap */
             now = rc_in_contact(p[j * g->nx + i % g->nx]) ? now + 1 : 0;
             most = now > most ? now : most;
         }
-    return (double)(most < g->nx ? most : g->nx) * g->dx;
+    return ranks_most(&run->d.t, (double)(most < g->nx ? most : g->nx)) * g->dx;
 }
 
 /* Of 239 positions whose steps were at most half of the half width of the contact no estimated error
