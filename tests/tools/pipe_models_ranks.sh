@@ -23,6 +23,7 @@ same() {
 # 45 rows are three units, so that one of four processes has none. The ball touches in the middle unit only.
 rc-synth selfaffine --nx 131 --ny 45 --dx 1um --hurst 0.8 --rms-slope 0.1 --short-cut 8um --seed 5 -o rough.rcg
 rc-synth selfaffine --nx 160 --ny 57 --dx 1um --hurst 0.8 --rms-slope 0.05 --short-cut 8um --seed 7 -o other.rcg
+rc-synth selfaffine --nx 128 --ny 96 --dx 1um --hurst 0.8 --rms-slope 0.1 --short-cut 8um --long-cut 60um --seed 5 -o even.rcg
 rc-synth sphere --nx 131 --ny 45 --dx 1um --radius 200um -o ball.rcg
 rc-solve --periodic --estar 1GPa --mean-pressure 2MPa --quiet -o pressed.rcg rough.rcg
 rc-solve --estar 1GPa --load 0.2mN --quiet -o pressed-ball.rcg ball.rcg
@@ -31,6 +32,8 @@ rc-solve --estar 1GPa --load 0.2mN --quiet -o pressed-ball.rcg ball.rcg
 
 yield="rc-solve --E1 100GPa --nu1 0.3 --E2 rigid --yield 0.5GPa,1GPa --slabs 3 --increments 8 --quiet"
 claim "yield, periodic, a history" same "$yield --periodic --mean-pressure 60MPa,20MPa,70MPa --history --output pressure,strain,plastic,residual rough.rcg"
+deep=${yield/--slabs 3 --increments 8/--slabs 8 --increments 2}
+claim "yield, deep slabs on coarser grids" same "$deep --tol 1e-2 --periodic --mean-pressure 200MPa --output pressure,strain even.rcg"
 claim "yield, free, slabs chosen, several threads" same "RC_THREADS=2 ${yield/--slabs 3/} --load 40mN,0 --history ball.rcg"
 claim "creep" same "rc-solve --periodic --relaxation 1MPa,9MPa:1s --nu1 0.5 --E2 rigid --mean-pressure 20kPa --time 0,1s --increments 4 --quiet rough.rcg"
 claim "relaxation at an approach" same "rc-solve --relaxation 1MPa,9MPa:1s --nu1 0.5 --E2 rigid --approach 0.5um --time 0,1s --increments 4 --quiet ball.rcg"
