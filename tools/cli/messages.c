@@ -34,6 +34,55 @@ say(struct tool *t, char *text)
     fprintf(stderr, "%s: %s\n", t->info->name, rc_text_harmless(text, '?'));
 }
 
+/* The text of a warning without the name of the input, which may stand before it. */
+static const char *
+without_source(const struct tool *t, const char *text)
+{
+    size_t n = strlen(t->input.source);
+
+    return strncmp(text, t->input.source, n) == 0 && text[n] == ':' ? text + n + 2 : text;
+}
+
+/* True if the words of a format say which warning it is; "%s: %s" has any. */
+static bool
+has_words(const char *format)
+{
+    size_t letters = 0;
+
+    for (; *format != '\0'; format++)
+        letters += (*format >= 'a' && *format <= 'z') != 0;
+    return letters > 12;
+}
+
+/* True if this kind of warning was printed about another input; counts it. */
+static bool
+is_repeated(struct tool *t, const char *format, const char *text)
+{
+    const char *kind = has_words(format) ? "" : without_source(t, text);
+    struct repeat *r = t->repeats.kind;
+    size_t k = 0;
+
+    if (t->verbose || t->operands < 2 || t->input.source == NULL)
+        return false;
+    while (k < t->repeats.n &&
+           (r[k].format != format || strncmp(r[k].text, kind, sizeof r[k].text - 1) != 0))
+        k++;
+    if (k < t->repeats.n) {
+        if (strcmp(r[k].source, t->input.source) == 0)
+            return false;
+        r[k].others += strcmp(r[k].last, t->input.source) != 0;
+        r[k].last = t->input.source;
+        return true;
+    }
+    if (k == WARNING_KINDS)
+        return false;
+    r[k] = (struct repeat){.format = format, .source = t->input.source, .last = t->input.source};
+    snprintf(r[k].text, sizeof r[k].text, "%.*s", WARNING_TEXT - 1, kind);
+    snprintf(r[k].first, sizeof r[k].first, "%.*s", WARNING_TEXT - 1, without_source(t, text));
+    t->repeats.n++;
+    return false;
+}
+
 void
 tool_warn(struct tool *t, const char *format, ...)
 {
@@ -42,7 +91,26 @@ tool_warn(struct tool *t, const char *format, ...)
     if (t->quiet)
         return;
     WRITE(text, format);
-    say(t, text);
+    if (!is_repeated(t, format, text))
+        say(t, text);
+}
+
+void
+tool_count_warnings(struct tool *t)
+{
+    for (size_t k = 0; k < t->repeats.n; k++) {
+        const struct repeat *r = &t->repeats.kind[k];
+        char text[2 * WARNING_TEXT];
+        const size_t others = r->others;
+
+        if (others == 0)
+            continue;
+        snprintf(text, sizeof text, "%zu other input%s cause%s the same warning as %s: %.100s%s",
+                 others, others == 1 ? "" : "s", others == 1 ? "s" : "", r->source, r->first,
+                 strlen(r->first) > 100 ? "..." : "");
+        say(t, text);
+    }
+    t->repeats.n = 0;
 }
 
 void
@@ -134,6 +202,7 @@ static _Noreturn void
 die(struct tool *t, int status, char *text)
 {
     rc_text_harmless(text, '?');
+    tool_count_warnings(t);
     if (t->ranks != NULL)
         ranks_die(t, status, text, last_words);
     last_words(t, status, text);

@@ -110,6 +110,7 @@ tool_finish(struct tool *t)
     size_t peak;
 
     tool_progress_end(t);
+    tool_count_warnings(t);
     output_end(t);
     peak = memory_peak(); /* the output may be made only at the end */
     counted = ranks_most(t, (double)tool_counted_memory(t));

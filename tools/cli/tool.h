@@ -114,7 +114,9 @@ struct opt {
 
 enum {
     TOOL_OPTIONS = 64, /* most rows of a tool */
-    TOOL_STEPS = 64    /* most options whose order matters on one line */
+    TOOL_STEPS = 64,   /* most options whose order matters on one line */
+    WARNING_KINDS = 24,
+    WARNING_TEXT = 160
 };
 
 struct steps {
@@ -238,6 +240,16 @@ struct tool {
         bool shown; /* a line of progress is on the terminal  */
         double at;  /* s: the time when it was written        */
     } line;
+    struct { /* warnings of the same kind about several inputs */
+        struct repeat {
+            const char *format;        /* of the warning                                       */
+            char text[WARNING_TEXT];   /* without the name of the input; "": the format is enough */
+            char first[WARNING_TEXT];  /* the first one, for the last message                  */
+            const char *source, *last; /* the first input, and the last one with it            */
+            size_t others;             /* inputs besides the first                             */
+        } kind[WARNING_KINDS];
+        size_t n;
+    } repeats;
     int exit_status;
     struct rc_err err; /* of the call that tool_must or tool_made checks */
 };
@@ -351,7 +363,10 @@ char *tool_copy(struct tool *tool, const char *text) __attribute__((returns_nonn
 /* Prints what could not be done, also with --quiet, and continues with the next file; exit status 1 at the
  * end. */
 void tool_fail(struct tool *tool, const char *format, ...) __attribute__((format(printf, 2, 3)));
+/* A warning of the same kind about another input is only counted; tool_finish prints the counts. --verbose prints
+ * each. */
 void tool_warn(struct tool *tool, const char *format, ...) __attribute__((format(printf, 2, 3)));
+void tool_count_warnings(struct tool *tool);
 /* Prints a note, only with --verbose. */
 void tool_note(struct tool *tool, const char *format, ...) __attribute__((format(printf, 2, 3)));
 /* A result in one line, for a person: at a terminal, or with --verbose. */
