@@ -86,6 +86,29 @@ test_machine(void **state)
     assert_true(memory_room(root, 4).bytes == 3 * mib / 4); /* four processes share it */
 }
 
+/* Processes of the same name share cores and memory: those of other names, and this one, do not count. */
+static void
+test_siblings(void **state)
+{
+    struct siblings s;
+    char self[64];
+
+    (void)state;
+    assert_true(machine_siblings(root).n == 1); /* there is no file */
+    put("/proc/self/comm", "rc-solve\n");
+    snprintf(self, sizeof self, "/proc/%ld/comm", (long)getpid());
+    put(self, "rc-solve\n");
+    put("/proc/71/comm", "rc-solve\n");
+    put("/proc/71/statm", "900 30 5 1 0 9 0\n");
+    put("/proc/72/comm", "rc-solve\n");
+    put("/proc/72/statm", "900 12 5 1 0 9 0\n");
+    put("/proc/73/comm", "rc-slip\n");
+    put("/proc/73/statm", "900 500 5 1 0 9 0\n");
+    put("/proc/sys/comm", "rc-solve\n");
+    s = machine_siblings(root);
+    assert_true(s.n == 3 && s.bytes == 42.0 * (double)sysconf(_SC_PAGESIZE));
+}
+
 static const char mounts2[] =
     "22 1 8:1 / / rw - ext4 /dev/root rw\n"
     "30 22 0:26 / /sys/fs/cgroup rw,nosuid shared:4 - cgroup2 cgroup2 rw,nsdelegate\n";
@@ -241,6 +264,7 @@ main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test_setup_teardown(test_machine, begin, end),
+        cmocka_unit_test_setup_teardown(test_siblings, begin, end),
         cmocka_unit_test_setup_teardown(test_version_2, begin, end),
         cmocka_unit_test_setup_teardown(test_version_1, begin, end),
         cmocka_unit_test_setup_teardown(test_container, begin, end),

@@ -15,6 +15,21 @@ static const char smaller[] =
 
 /* ---- the budget ---- */
 
+/* Without --memory, processes of the same tool have equal parts of their memory and the free one. */
+static void
+share_with_siblings(struct tool *t, double *most)
+{
+    const struct siblings s = machine_siblings("");
+    double part = (*most + s.bytes) / (double)s.n;
+
+    if (s.n < 2 || !(part < *most))
+        return;
+    snprintf(t->room.part, sizeof t->room.part, "beside %zu others (--memory says how much) %s",
+             s.n - 1, t->room.bound);
+    t->room.bound = t->room.part;
+    *most = part;
+}
+
 void
 tool_budget(struct tool *t)
 {
@@ -28,6 +43,8 @@ tool_budget(struct tool *t)
                  room.why);
         t->room.bound = t->room.part;
     }
+    if (t->memory == 0 && t->ranks == NULL)
+        share_with_siblings(t, &most);
     if (t->memory != 0 && (double)t->memory < most) {
         most = (double)t->memory;
         t->room.bound = "--memory allows";

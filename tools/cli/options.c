@@ -20,7 +20,7 @@
 /* clang-format off */
 static const struct opt common[] = {
     {.name = "threads", .type = OPT_COUNT, .at = offsetof(struct tool, threads), .min = 1,
-     .max = 4096, .arg = "N", .help = "threads to use (default: RC_THREADS, else all cores)"},
+     .max = 4096, .arg = "N", .help = "threads to use (default: RC_THREADS, else a share of the cores)"},
     {.name = "memory", .type = OPT_NUMBER, .unit = UNIT_BYTES, .min = 1, .max = 1e18,
      .arg = "LIMIT", .help = "limit of the memory, as 512M or 4G; larger runs are refused"},
     {.name = "type", .type = OPT_CHOICE, .arg = "f64|f32", .help = "type of the values written"},

@@ -21,6 +21,17 @@
 
 /* ---- start and finish ---- */
 
+/* Cores of this process, shared with the other processes of this tool: ten that start together do not each take all
+ * of them. Processes that share a map have their cores from mpirun. */
+static size_t
+shared_cores(const struct tool *t)
+{
+    const size_t cores = rc_threads_available();
+    const size_t n = t->ranks == NULL ? machine_siblings("").n : 1;
+
+    return cores > n ? cores / n : 1;
+}
+
 static size_t
 threads_wanted(struct tool *t)
 {
@@ -29,7 +40,7 @@ threads_wanted(struct tool *t)
     double n;
 
     if (text == NULL || *text == '\0')
-        return rc_threads_available();
+        return shared_cores(t);
     if (unit_number(text, UNIT_NONE, &n, &err) != RC_OK || n < 1 || n > 4096 || n != floor(n))
         tool_usage(t, "RC_THREADS=%s: it must be a whole number from 1 to 4096", text);
     return (size_t)n;

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
- * The interface of this folder: services of the operating system: memory, pipes, waiting threads, and files
+ * The interface of this folder: services of the operating system: memory, other processes, pipes, waiting threads, and files
  * that appear whole or not at all. Nothing here depends on a tool.
  */
 #ifndef RC_MACHINE_H
@@ -8,6 +8,7 @@
 
 #include "memory.h"
 #include "pipe.h"
+#include "siblings.h"
 #include "waiting.h"
 #include "whole_file.h"
 
