@@ -256,7 +256,7 @@ def report(name):
     for ours, theirs in zip(lines, there):
         for key in ours:
             # keys that differ from run to run, or that follow from the file name
-            if key not in ('seconds', 'peak_memory', 'memory_estimate', 'source'):
+            if key not in ('seconds', 'peak_memory', 'memory_estimate', 'source', 'file'):
                 assert ours[key] == theirs[key], key
     frames, lines = rcg.report('rc-info', ball)
     assert frames == [] and len(lines) == 1 and lines[0]['channel'] == 'height'

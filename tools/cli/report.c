@@ -194,6 +194,8 @@ report_count(struct report *r, const char *name, size_t value, const char *unit)
 void
 report_text(struct report *r, const char *name, const char *value)
 {
+    if (r->depth == 0 && strcmp(name, "source") == 0)
+        r->source = value;
     put(r, name, NULL, value, true);
 }
 
@@ -260,12 +262,28 @@ report_no_object(struct report *r, const char *name)
         json_plain(&r->json, name, NULL);
 }
 
+/* The name of the input as on the command line: the row is about the case that began there. Of a pipe: the source of
+ * its map. */
+static void
+put_file(struct report *r)
+{
+    const struct tool *t = r->tool;
+    const char *name = t->current.number != 0 ? t->current.source : t->input.source;
+
+    if (name == NULL || strcmp(name, "standard input") == 0)
+        name = r->source;
+    report_text(r, "file", name);
+    r->source = NULL;
+}
+
 void
 report_finish_row(struct report *r)
 {
     if (r->name == NULL)
         return;
     assert(r->depth == 0);
+    if (r->tool->info->reads == READS_STREAM && !r->of_all)
+        put_file(r);
     if (r->separator && !r->headed)
         write_head(r);
     if (r->separator)

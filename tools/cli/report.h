@@ -37,6 +37,8 @@ struct report {
         const char *name, *unit;
     } column[REPORT_COLUMNS]; /* set by the first row */
     size_t columns;
+    const char *source;         /* of this row, or NULL */
+    bool of_all;                /* a row is about all inputs: it has no column `file` */
     char *cell[REPORT_COLUMNS]; /* cells of this row; NULL: none */
     bool headed;                /* the names of the columns are written */
 };
