@@ -7,7 +7,7 @@
 #include "tools/info/info.h"
 
 static struct args {
-    bool json;
+    bool json, spread;
     struct info_wanted wanted;
 } args = {.wanted.sections = 5};
 
@@ -27,6 +27,8 @@ static const struct opt opts[] = {
      .help = "section lengths of a profile (default 5)"},
     {.name = "report", .type = OPT_REPORT, AT(wanted.report), .arg = "FILE",
      .help = "one row per frame, as JSON, .tsv or .csv, instead of text"},
+    {.name = "spread", .type = OPT_FLAG, AT(spread),
+     .help = "instead of the frames, mean and standard error of each figure over all of them"},
     {.name = "psd", .type = OPT_FLAG, AT(wanted.psd),
      .help = "for heights: radially averaged power spectral density, Hurst exponent"},
     {.name = "fit", .type = OPT_NUMBERS, .unit = UNIT_M, AT(wanted.fit), .min = 0, .max = INFINITY,
@@ -370,9 +372,21 @@ let_go(struct rc_grid *g, struct beside *beside)
     beside->contact = g;
 }
 
+static void
+show_spread(struct tool *t, const struct info_spread *spread)
+{
+    struct report r = {.tool = t, .name = "--json", .file = t->output.file, .of_all = true};
+
+    if (args.json)
+        info_spread_json(spread, &r);
+    else
+        info_spread_text(spread, t->output.file);
+}
+
 int
 main(int argc, char **argv)
 {
+    static struct info_spread spread;
     struct rc_statistics statistics;
     struct info_figures figures;
     struct beside beside = {NULL, 0, 0};
@@ -382,6 +396,9 @@ main(int argc, char **argv)
 
     tool_start(&t, &info, argc, argv, &args);
     info_check(&args.wanted, &t);
+    if (args.spread && t.output.report_alone)
+        tool_usage(&t, "--spread prints on standard output, and so does --report -: give --report "
+                       "a file");
     while ((g = tool_read(&t)) != NULL) {
         struct rc_shape shape = rc_grid_shape(g);
         const struct rc_grid *touch = touching(&t, g, &beside);
@@ -389,7 +406,9 @@ main(int argc, char **argv)
         rc_measure(&shape, g->v, &statistics);
         info_compute(&args.wanted, &t, g, touch, &figures);
         info_report(&args.wanted.out, &args.wanted, &figures, &statistics);
-        if (args.json && !t.output.report_alone)
+        if (args.spread)
+            info_spread_take(&spread, &args.wanted, &figures, &statistics);
+        else if (args.json && !t.output.report_alone)
             show_json(&t, g, &statistics, &figures);
         else if (args.wanted.report == NULL)
             show_text(&t, g, &statistics, &figures, first);
@@ -399,5 +418,7 @@ main(int argc, char **argv)
     }
     rc_grid_free(beside.contact);
     info_end(&args.wanted, &t);
+    if (args.spread)
+        show_spread(&t, &spread);
     return tool_finish(&t);
 }

@@ -96,6 +96,26 @@ void info_report(struct report *report, const struct info_wanted *wanted,
 void info_json(struct report *json, const struct info_wanted *wanted,
                const struct info_figures *figures);
 
+/* True if no figure of the requested options is defined for the frame. */
+bool info_has_no_row(const struct info_wanted *wanted, const struct info_figures *figures);
+
+/* spread.c: mean, standard error and standard deviation of each figure over the frames of a channel. */
+enum {
+    INFO_SPREAD = 256
+};
+struct info_spread {
+    struct info_spread_row {
+        char channel[32], name[40], unit[16];
+        size_t n;
+        double mean, squares, least, most; /* squares: sum of squared deviations */
+    } row[INFO_SPREAD];
+    size_t n;
+};
+void info_spread_take(struct info_spread *spread, const struct info_wanted *wanted,
+                      const struct info_figures *figures, const struct rc_statistics *statistics);
+void info_spread_text(const struct info_spread *spread, FILE *out);
+void info_spread_json(const struct info_spread *spread, struct report *json);
+
 /* map_file.c: frames of spectra, in a file that appears whole or not at all. */
 struct info_file;
 struct info_file *info_file_new(struct tool *tool, const char *option, const char *name);

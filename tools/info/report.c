@@ -47,16 +47,22 @@ put_profile(struct report *r, const struct info_profile *p)
     report_number(r, "elements", p == NULL ? NAN : (double)p->elements, NULL);
 }
 
+bool
+info_has_no_row(const struct info_wanted *w, const struct info_figures *f)
+{
+    bool any = w->areal || w->psd || w->patches || w->line.along != NULL;
+
+    return any && f->areal == NULL && f->psd == NULL && f->patches == NULL && f->profile == NULL;
+}
+
 void
 info_report(struct report *r, const struct info_wanted *w, const struct info_figures *f,
             const struct rc_statistics *s)
 {
     const struct figures from[] = {{rc_figures("statistics"), s}, {NULL, NULL}};
     const struct rc_grid *g = f->grid;
-    bool any = w->areal || w->psd || w->patches || w->line.along != NULL;
 
-    if (!report_wanted(r) ||
-        (any && f->areal == NULL && f->psd == NULL && f->patches == NULL && f->profile == NULL))
+    if (!report_wanted(r) || info_has_no_row(w, f))
         return;
     report_begin(r);
     report_count(r, "case", rc_grid_case(g), NULL);
