@@ -7,7 +7,7 @@ build_packages="gcc libc6-dev make cmake pkg-config libfftw3-dev libgsl-dev libp
     libzip-dev zlib1g-dev libzstd-dev libdeflate-dev libhdf5-dev libtiff-dev libmd-dev libseccomp-dev libpango1.0-dev fonts-dejavu-core"
 test_packages="ccache libcmocka-dev mandoc zip unzip perl clang-format poppler-utils librsvg2-bin
     python3-numpy python3-matplotlib python3-pandas python3-xarray python3-nbclient
-    python3-ipykernel zsh fish openmpi-bin libopenmpi-dev"
+    python3-ipykernel parallel zsh fish openmpi-bin libopenmpi-dev"
 
 need_packages() {
     local missing="" package as_root=""
@@ -19,7 +19,7 @@ This is neither Debian nor Ubuntu: please see that these are installed, with the
   libxml2, libzip, zlib, libzstd, libdeflate, libhdf5, libtiff, libmd, libseccomp (Linux), Pango with cairo, and a sans serif font that
   fontconfig finds, such as DejaVu Sans
   for the tests also: cmocka, mandoc, zip, unzip, perl, poppler, rsvg-convert, clang-format 14,
-  Python with numpy, matplotlib, pandas, xarray, nbclient and ipykernel, zsh, fish, and Open MPI for tests/run.sh; where Octave or Julia is,
+  Python with numpy, matplotlib, pandas, xarray, nbclient and ipykernel, GNU parallel, zsh, fish, and Open MPI for tests/run.sh; where Octave or Julia is,
   the readers in their languages are tried too
 EOT
         return 0

@@ -11,11 +11,11 @@ head_program() {
 
 # blocks PAGE SECTION FOLDER: writes the literal displays of a section, or of all sections with '', as files
 # 1, 2, ... in FOLDER. After the comment "prints" a display is the output of the one before it: 1.prints;
-# after the comment "not run: why" it is omitted.
+# after the comment "not run: why" it is omitted. pipe_many_scans runs MANY SCANS, which '' leaves out.
 blocks() {
     mkdir -p "$3"
     awk -v section="$2" -v folder="$3" '
-        /^\.Sh / { inside = section == "" || $0 == ".Sh " section; on = 0 }
+        /^\.Sh / { inside = section == "" ? !/MANY SCANS/ : $0 == ".Sh " section; on = 0 }
         /^\.\\" / { mark = $2; next }
         inside && /^\.Bd -literal/ { on = mark != "not"; file = folder "/" (mark == "prints" ? n ".prints" : ++n) }
         /^\.Ed/ { on = 0 }
