@@ -37,6 +37,11 @@ void rc_state_each_flag(struct rc_state *s, bool *const *flag);
 double *rc_state_map(struct rc_state *s, size_t n, double *v);
 /* One number of each row of this rank, in a map of its own. */
 void rc_state_rows(struct rc_state *s, const struct rc_rows *rows, size_t nx, double *v);
+/* Numbers of which each part of the map has its own count, such as voxels. `part` exchanges those of n rows
+ * from `first` on, counted from the first row held here: ranks own whole such parts, so that a state can be
+ * read on another number of ranks. They are stored in as many maps as the fullest part needs. */
+void rc_state_parts(struct rc_state *s, const struct rc_rows *rows, size_t nx,
+                    void (*part)(void *of, struct rc_state *s, size_t first, size_t n), void *of);
 /* The next map of the state that is being read, as long as that state stays; NULL: it is refused. */
 const double *rc_state_read_map(struct rc_state *s, size_t n);
 /* True if n numbers are left in the state that is being read; otherwise refuses the state. */
@@ -57,10 +62,10 @@ struct rc_state_copy {
     double *v;
     size_t n, numbers, maps; /* n: all values; numbers: values before the maps */
 };
-/* RC_FAIL: memory is short. */
-enum rc_status rc_state_save(struct rc_state_copy *copy, void (*part)(void *of, struct rc_state *s),
-                             void *of);
-enum rc_status rc_state_load(const struct rc_state_copy *copy,
+/* RC_FAIL on all ranks: memory is short, or the state is refused, on one of them. */
+enum rc_status rc_state_save(struct rc_state_copy *copy, const struct rc_ranks *ranks,
+                             void (*part)(void *of, struct rc_state *s), void *of);
+enum rc_status rc_state_load(const struct rc_state_copy *copy, const struct rc_ranks *ranks,
                              void (*part)(void *of, struct rc_state *s), void *of,
                              struct rc_err *err);
 /* Exchanges the copy as a part of another state. */

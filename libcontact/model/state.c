@@ -22,9 +22,15 @@ struct rc_state {
     size_t at, numbers;    /* place of the next number, and where they end     */
     size_t map_at, n;      /* place of the next map, and where they end        */
     size_t maps, all_maps; /* maps exchanged so far, and all maps of the state that is read */
-    bool copy;             /* see rc_state_is_copy */
-    bool bad;              /* the numbers were refused, */
-    char why[256];         /* because of this */
+    struct {               /* numbers go into maps instead: see rc_state_parts */
+        bool on;
+        size_t first, nodes; /* the nodes of the part      */
+        size_t at, end;      /* its next number, and where they end */
+        size_t all;          /* nodes held here            */
+    } part;
+    bool copy;     /* see rc_state_is_copy */
+    bool bad;      /* the numbers were refused, */
+    char why[256]; /* because of this */
 };
 
 bool
@@ -56,9 +62,24 @@ rc_state_refuse(struct rc_state *s, const char *why)
 bool
 rc_state_holds(struct rc_state *s, size_t n)
 {
-    if (s->mode == READS && n > s->numbers - s->at)
+    if (s->part.on ? n > s->part.end - s->part.at : s->mode == READS && n > s->numbers - s->at)
         rc_state_refuse(s, "numbers are missing");
     return !s->bad;
+}
+
+/* Exchanges numbers of a part with its nodes of one map after the other. */
+static void
+exchange_part(struct rc_state *s, size_t n, double *v)
+{
+    for (size_t k = 0; k < n && s->mode != COUNTS; k++) {
+        const size_t at = s->part.at + k, map = at / s->part.nodes;
+        const size_t place = s->map_at + map * s->part.all + s->part.first + at % s->part.nodes;
+        if (s->mode == READS)
+            v[k] = s->from[place];
+        else
+            s->to[place] = v[k];
+    }
+    s->part.at += n;
 }
 
 void
@@ -68,6 +89,10 @@ rc_state_numbers(struct rc_state *s, size_t n, double *v)
         return;
     if (!rc_state_holds(s, n))
         return;
+    if (s->part.on) {
+        exchange_part(s, n, v);
+        return;
+    }
     if (s->mode == READS)
         memcpy(v, s->from + s->at, n * sizeof *v);
     else if (s->mode == WRITES)
@@ -131,6 +156,54 @@ rc_state_rows(struct rc_state *s, const struct rc_rows *rows, size_t nx, double 
         to[k] = v[k / nx];
     for (size_t j = 0; j < rows->n && from != NULL; j++)
         v[j] = from[j * nx];
+}
+
+/* The maps that the fullest part of all ranks needs. */
+static size_t
+maps_of_parts(const struct rc_rows *rows, size_t nx,
+              void (*part)(void *of, struct rc_state *s, size_t first, size_t n), void *of)
+{
+    const size_t unit = rc_rows_unit(nx);
+    double most = 0;
+
+    for (size_t j = 0; j < rows->n; j += unit) {
+        const size_t n = rows->n - j < unit ? rows->n - j : unit;
+        struct rc_state s = {.mode = COUNTS, .part = {.on = true, .end = SIZE_MAX}};
+        part(of, &s, j, n);
+        most = fmax(most, ceil((double)s.part.at / (double)(n * nx)));
+    }
+    return (size_t)rc_ranks_most(rows->ranks, most);
+}
+
+void
+rc_state_parts(struct rc_state *s, const struct rc_rows *rows, size_t nx,
+               void (*part)(void *of, struct rc_state *s, size_t first, size_t n), void *of)
+{
+    const size_t unit = rc_rows_unit(nx), all = rows->n * nx;
+    size_t maps = s->mode == READS ? 0 : maps_of_parts(rows, nx, part, of);
+
+    rc_state_count(s, &maps, s->mode == READS ? s->all_maps - s->maps : maps);
+    if (s->bad)
+        return;
+    if (s->mode == READS && maps * all > s->n - s->map_at) {
+        rc_state_refuse(s, "numbers are missing");
+        return;
+    }
+    if (s->mode == WRITES)
+        memset(s->to + s->map_at, 0, maps * all * sizeof *s->to);
+    for (size_t j = 0; j < rows->n && s->mode != COUNTS && !s->bad; j += unit) {
+        const size_t n = rows->n - j < unit ? rows->n - j : unit;
+        s->part.on = true;
+        s->part.first = j * nx;
+        s->part.nodes = n * nx;
+        s->part.at = 0;
+        s->part.end = maps * n * nx;
+        s->part.all = all;
+        part(of, s, j, n);
+        s->part.on = false;
+    }
+    s->map_at += maps * all;
+    s->maps += maps;
 }
 
 void
@@ -307,23 +380,26 @@ rc_state_model(struct rc_state *s, struct rc_model *m)
 /* ---- copies ---- */
 
 enum rc_status
-rc_state_save(struct rc_state_copy *c, void (*part)(void *of, struct rc_state *s), void *of)
+rc_state_save(struct rc_state_copy *c, const struct rc_ranks *ranks,
+              void (*part)(void *of, struct rc_state *s), void *of)
 {
     struct rc_state s = {.mode = COUNTS, .copy = true};
+    struct rc_err err = {""};
     double *v;
 
     part(of, &s);
-    if ((v = realloc(c->v, (s.at + s.map_at + 1) * sizeof *v)) == NULL)
+    if ((v = realloc(c->v, (s.at + s.map_at + 1) * sizeof *v)) != NULL)
+        *c = (struct rc_state_copy){v, s.at + s.map_at, s.at, s.maps};
+    if (rc_ranks_agree(ranks, v != NULL ? RC_OK : RC_FAIL, &err) != RC_OK)
         return RC_FAIL;
-    *c = (struct rc_state_copy){v, s.at + s.map_at, s.at, s.maps};
     s = (struct rc_state){.mode = WRITES, .copy = true, .to = v, .map_at = s.at};
     part(of, &s);
     return RC_OK;
 }
 
 enum rc_status
-rc_state_load(const struct rc_state_copy *c, void (*part)(void *of, struct rc_state *s), void *of,
-              struct rc_err *err)
+rc_state_load(const struct rc_state_copy *c, const struct rc_ranks *ranks,
+              void (*part)(void *of, struct rc_state *s), void *of, struct rc_err *err)
 {
     struct rc_state s = {.mode = READS,
                          .copy = true,
@@ -334,7 +410,7 @@ rc_state_load(const struct rc_state_copy *c, void (*part)(void *of, struct rc_st
                          .all_maps = c->maps};
 
     part(of, &s);
-    return !s.bad ? RC_OK : rc_err_set(err, "the previous point cannot be restored: %s", s.why);
+    return rc_ranks_need(ranks, !s.bad, err, "the previous point cannot be restored: %s", s.why);
 }
 
 void
@@ -353,7 +429,7 @@ exchange_model(void *m, struct rc_state *s)
 enum rc_status
 rc_model_remember(struct rc_model *m, struct rc_err *err)
 {
-    if (m->row->forgets || rc_state_save(&m->kept, exchange_model, m) == RC_OK)
+    if (m->row->forgets || rc_state_save(&m->kept, m->rows.ranks, exchange_model, m) == RC_OK)
         return RC_OK;
     return rc_err_set(err, "out of memory for the state of the %s model", m->row->name);
 }
@@ -361,7 +437,7 @@ rc_model_remember(struct rc_model *m, struct rc_err *err)
 enum rc_status
 rc_model_recall(struct rc_model *m, struct rc_err *err)
 {
-    return m->row->forgets ? RC_OK : rc_state_load(&m->kept, exchange_model, m, err);
+    return m->row->forgets ? RC_OK : rc_state_load(&m->kept, m->rows.ranks, exchange_model, m, err);
 }
 
 /* ---- for files ---- */

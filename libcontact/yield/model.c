@@ -245,16 +245,15 @@ try_load(struct yield *y, struct rc_err *err)
 static enum rc_status
 save(const struct yield *y, struct rc_state_copy *to, const char *what, struct rc_err *err)
 {
-    return rc_ranks_need(y->base.rows.ranks,
-                         rc_state_save(to, rc_yield_solver_exchange, y->plastic) == RC_OK, err,
-                         "out of memory for %s", what);
+    return rc_state_save(to, y->base.rows.ranks, rc_yield_solver_exchange, y->plastic) == RC_OK
+               ? RC_OK
+               : rc_err_set(err, "out of memory for %s", what);
 }
 
 static enum rc_status
 load(const struct yield *y, const struct rc_state_copy *from, struct rc_err *err)
 {
-    return rc_ranks_agree(y->base.rows.ranks,
-                          rc_state_load(from, rc_yield_solver_exchange, y->plastic, err), err);
+    return rc_state_load(from, y->base.rows.ranks, rc_yield_solver_exchange, y->plastic, err);
 }
 
 /* Begins the first try of a load. On other heights the same load is one more increment. */
@@ -756,7 +755,7 @@ set_heights(struct rc_model *m, const double *h, struct rc_err *err)
 
 /* Of a state. Earlier states, in which deep slabs had all nodes, began with a number of increments. */
 enum {
-    LAYOUT = RC_YIELD_INCREMENTS + 2
+    LAYOUT = RC_YIELD_INCREMENTS + 3
 };
 
 /* A state has its layout, counts and loads first. Then comes the pressure of an elastic contact. For a volume
@@ -779,20 +778,19 @@ forget_volume(struct yield *y)
 static void
 exchange_elastic(struct yield *y, struct rc_state *s, double solved)
 {
-    RC_OWNED double *p = NULL;
+    const double *p;
     struct rc_err err;
+    double *to;
 
-    if (!rc_state_reads(s)) {
-        if (solved > 0) /* the cast is safe: writing does not change the pressure */
-            rc_state_finite(s, y->n, (double *)rc_solver_pressure(y->elastic));
+    if (!rc_state_reads(s)) { /* the cast is safe: writing does not change the pressure */
+        to = rc_state_map(s, y->n, solved > 0 ? (double *)rc_solver_pressure(y->elastic) : NULL);
+        if (to != NULL && solved == 0)
+            memset(to, 0, y->n * sizeof *to);
         return;
     }
     forget_volume(y);
     y->stage = APART;
-    if (solved > 0 && (p = rc_alloc(y->n, sizeof *p)) == NULL)
-        rc_state_refuse(s, "memory is short");
-    else if (solved > 0)
-        rc_state_finite(s, y->n, p);
+    p = rc_state_read_map(s, y->n);
     if (rc_state_reads(s) &&
         (set_load(y, y->plan.load, &err) != RC_OK ||
          (solved > 0 &&
@@ -831,7 +829,7 @@ exchange_volume(struct yield *y, struct rc_state *s, size_t slabs)
     if (y->tries.than > 0 && !has_other(y))
         rc_state_refuse(s, "memory is short");
     else if (y->tries.than > 0)
-        rc_state_finite(s, y->n, y->tries.other);
+        rc_state_map(s, y->n, y->tries.other);
     if (y->plastic != NULL)
         rc_yield_solver_exchange(y->plastic, s);
 }

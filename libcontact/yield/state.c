@@ -90,6 +90,27 @@ exchange_row(struct rc_state *s, size_t columns, size_t nx, struct rc_voxel_row 
     }
 }
 
+/* What rc_state_parts exchanges. */
+struct part {
+    struct rc_yield_solver *plastic;
+    size_t columns;
+};
+
+/* Exchanges the voxels of n rows of the map, slab by slab. */
+static void
+exchange_rows(void *of, struct rc_state *s, size_t first, size_t n)
+{
+    const struct part *part = of;
+    struct rc_yield_solver *p = part->plastic;
+
+    for (size_t slab = 0; slab < p->voxels.slabs; slab++) {
+        const size_t level = rc_slabs_level(p->slabs, slab);
+        for (size_t j = first >> level; j << level < first + n; j++)
+            exchange_row(s, part->columns, p->shape.nx >> level,
+                         rc_voxels_row(&p->voxels, slab, j));
+    }
+}
+
 /* ---- figures ---- */
 
 /* Exchanges a number of at least 0, or one that is not finite, for which `mark` is written. */
@@ -155,23 +176,22 @@ void
 rc_yield_solver_exchange(void *plastic, struct rc_state *s)
 {
     struct rc_yield_solver *p = plastic;
-    size_t columns = columns_of(p), stage = p->stage;
+    struct part part = {p, columns_of(p)};
+    size_t stage = p->stage, *columns = &part.columns;
     double load = rc_solver_load(p->solver);
 
     rc_state_count(s, &stage, RC_YIELD_DONE);
-    rc_state_count(s, &columns, WITHIN);
-    if (columns != REACHED && columns != BETWEEN && columns != WITHIN)
+    rc_state_count(s, columns, WITHIN);
+    if (*columns != REACHED && *columns != BETWEEN && *columns != WITHIN)
         rc_state_refuse(s, "a size is out of range");
     rc_state_number(s, &load, DBL_MIN);
     exchange_figures(p, s);
     /* the cast is safe: writing does not change the pressure */
-    rc_state_finite(s, p->n,
-                    rc_state_reads(s) ? p->maps.other : (double *)rc_solver_pressure(p->solver));
+    rc_state_map(s, p->n,
+                 rc_state_reads(s) ? p->maps.other : (double *)rc_solver_pressure(p->solver));
     if (rc_state_reads(s))
         rc_voxels_clear(&p->voxels);
-    for (size_t r = 0; r < p->voxels.slabs * p->voxels.rows; r++)
-        exchange_row(s, columns, p->shape.nx >> rc_slabs_level(p->slabs, r / p->voxels.rows),
-                     &p->voxels.row[r]);
+    rc_state_parts(s, &p->rows, p->shape.nx, exchange_rows, &part);
     if (rc_state_reads(s))
         resume(p, s, (enum rc_yield_solver_stage)stage, load);
 }

@@ -121,8 +121,6 @@ read(struct run *run)
 {
     if (yield_law_read(&own.read, args.law, &run->d.t.err) != RC_OK)
         tool_usage(&run->d.t, "--yield %s: %s", args.law, run->d.t.err.text);
-    if (ranks_of(&run->d.t) != NULL && run->d.args->checkpoint != NULL)
-        tool_usage(&run->d.t, "--checkpoint does not work with --yield on several processes");
     own.law = own.read.law;
     read_increments(run, run->args->increments);
     read_count(run, "slabs", args.slabs, &own.slab_count, &own.list);
