@@ -5,7 +5,7 @@
 #     sample_surfaces/draw.sh [FOLDER]
 #
 # The commands are taken from man/contact.7 and run in FOLDER, or in one that is removed when they are done; the pictures
-# that the page shows go to sample_surfaces. The tools on PATH are used, or those of build/. cost.png and
+# that the page shows go to sample_surfaces, with a palette of 256 colours (palette.pl, in perl). The tools on PATH are used, or those of build/. cost.png and
 # coated-cost.png show times of this machine; the first and the last command of contact-theory(7), "What
 # accuracy costs", draw them. measured.png of the README shows a file of another project, test_2.opd of the
 # tests of surfalize:
@@ -38,5 +38,6 @@ for block in $(cd commands && ls | grep -v prints | sort -n); do
 done
 for picture in $(pictures "$page"); do
     cp "$picture" "$here"
+    "$here/palette.pl" "$here/$picture"
     echo "sample_surfaces/$picture: $(wc -c <"$picture") bytes"
 done

@@ -140,6 +140,15 @@ if command -v zsh >/dev/null; then
 else
     untried "the commands in zsh, which is not here"
 fi
+claim "the tutorial takes the columns of a table by their names" bash -c "! sed -n '/^\.Bd/,/^\.Ed/p' '$page' | grep -E '[$][0-9]{2}'"
+# Files that a display writes, with a fixed name.
+written() {
+    for block in blocks/*; do
+        [[ $block == *prints* ]] || grep -oE '(^| )(-o|--report|--steps|--checkpoint|>) *[a-z][a-z0-9-]*\.[a-z0-9]+' "$block" | sed 's/.*[ >]//' | sort -u
+    done
+}
+claim "no two displays of the tutorial write the same file" test -z "$(written | sort | uniq -d)"
+claim "  files were compared" test "$(written | wc -l)" -gt 50
 claim "README has no comments among its commands" bash -c "! sed -n 's/^    //p' '$RC_SOURCE/README.md' | grep '#'"
 
 # ---- the README's pipeline ----
