@@ -87,6 +87,7 @@ static const struct tool_info info = {
 struct run {
     struct tool t;
     struct report report;
+    int in; /* the heights of the stream, for the commands */
     struct rc_scene_data data;
     struct rc_scene_bounds bounds;
     struct relaxation_law material;
@@ -299,15 +300,13 @@ decide(struct run *run, struct line *l, const struct rc_contact *c, const struct
 }
 
 static void
-name_commands(struct run *run, const struct rc_grid *g, struct line line[], size_t n,
-              const char *const load[2])
+name_commands(struct run *run, struct line line[], size_t n, const char *const load[2])
 {
     RC_OWNED char *body = tool_room(&run->t, 4, RC_NUMBER_SIZE, "a command");
-    int in = file_of(&run->t), contact = -1;
+    int contact = -1;
 
     snprintf(body, 4 * RC_NUMBER_SIZE, "%s,%s,%s", rc_number(run->data.thickness),
              rc_number(args.physics.pair.one.e), rc_number(args.physics.pair.one.nu));
-    write_heights(&run->t, g, in);
     for (size_t k = 0; k < n; k++) {
         struct line *l = &line[k];
         struct scene_found found;
@@ -321,20 +320,21 @@ name_commands(struct run *run, const struct rc_grid *g, struct line line[], size
             continue;
         if (l->command.programs > 1 && contact < 0) {
             contact = file_of(&run->t);
-            if (!solve_contact(run, &l->command, in, contact))
+            if (!solve_contact(run, &l->command, run->in, contact))
                 continue;
         }
-        if (!scene_run(&run->t, &l->command, l->effect.name, in, contact, true, &found, l->why)) {
+        if (!scene_run(&run->t, &l->command, l->effect.name, run->in, contact, true, &found,
+                       l->why)) {
             l->commanded = false;
             continue;
         }
         l->seconds = found.seconds;
         l->convolutions = found.convolutions;
         if (l->verdict == RC_SCENE_UNDECIDED && l->seconds < args.decide &&
-            scene_run(&run->t, &l->command, l->effect.name, in, contact, false, &found, l->why))
+            scene_run(&run->t, &l->command, l->effect.name, run->in, contact, false, &found,
+                      l->why))
             decide(run, l, &l->base, &found);
     }
-    close(in);
     if (contact >= 0)
         close(contact);
 }
@@ -698,7 +698,7 @@ do_load(struct run *run, const struct rc_grid *g, size_t step)
         }
     }
     tool_progress_end(t);
-    name_commands(run, g, line, n, load);
+    name_commands(run, line, n, load);
     for (size_t k = 0; k < n; k++)
         sorted[k] = &line[k];
     qsort(sorted, n, sizeof *sorted, by_rank);
@@ -719,9 +719,12 @@ main(int argc, char **argv)
     read_data(&run);
     report_open(&run.report, &run.t, args.report);
     while ((g = tool_channel(&run.t, "height", false)) != NULL) {
+        run.in = file_of(&run.t); /* without the ball, which the commands add */
+        write_heights(&run.t, g, run.in);
         physics_heights(&run.t, &args.physics, g);
         for (size_t k = 0; k < physics_steps(&args.physics)->n; k++)
             (args.dry_run ? show_plan : do_load)(&run, g, k);
+        (void)close(run.in);
         rc_grid_free(g);
     }
     report_close(&run.report);

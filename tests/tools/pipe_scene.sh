@@ -26,6 +26,10 @@ claim "a hardness above p0 changes nothing" test "$(of hardness ball.json verdic
 near "$(of slip ball.json numbers stick_fraction)" 0.6300 0.02 "half of the limiting force: 0.5^(2/3) of the contact sticks (Mindlin)"
 near "$(of slip ball.json figures displacement high)" 0.1422 0.005 "  the displacement is 11.02 % above the linear one: 1.2 times this and 1 %"
 near "$(of slip ball.json figures displacement low)" 0.0782 0.005 "  and 0.8 times this less 1 %"
+# a ball that --radius adds to a flat map: the commands add it again to the heights of the file
+rc-synth wave --amplitude 1e-15 --wavelength 640um --nx 128 --dx 5um -o flat-ball.rcg
+scene --load 240N --radius 7.5mm $steel --yield 0.7GPa flat-ball.rcg >flat-ball.json
+claim "with --radius the commands are named" eval 'effect yield flat-ball.json | grep -q "\"--radius\",\"7.5mm\"" && [ "$(of yield flat-ball.json refused)" = null ]'
 claim "like bodies do not feel friction" test "$(of dissimilar ball.json verdict)/$(of dissimilar ball.json basis)" = negligible/exact
 # slow sliding: T = 3 pi/8 q a/(2 K), q = mu V P/(pi a^2), a = 227.6 um
 near "$(of heat ball.json numbers temperature_at_rest)" "$(awk 'BEGIN { pi = atan2(0, -1); a = (3 * 240 * 7.5e-3 / (4 * 210e9 / 1.82)) ^ (1 / 3); print 3 * pi / 8 * 0.3 * 1e-6 * 240 / (pi * a * a) * a / 100 }')" 2e-3 \
