@@ -118,6 +118,29 @@ claim "  the power of the unit is raised" shows seal.svg 'm<tspan dy="-[0-9.]*" 
 claim "  the axis has a power of ten if its marks have none" eval 'printf "load/N\tflow_rate/m3/s\n1\t1e-12\n2\t2e-13\n" | rc-render --log --curve load:flow_rate -o z.svg && ! shows z.svg ">0\\.000" && shows z.svg ">Flow rate \\(10<"'
 claim "other columns have normal points there" eval 'sed s/flow_rate/y/ seal.tsv | rc-render --log --curve mean_pressure:y -o z.svg && shows z.svg ">2 points at or below 0<"'
 claim "a note that is too long continues on the next line" eval 'sed "1s/x/pressure_over_the_whole_map/" few.tsv | rc-render --curve pressure_over_the_whole_map:y --spread --width 85mm -o n.svg && ! grep -q "…</text>" n.svg && shows n.svg "standard deviation</text>"'
+printf 'time/s\tload/N\tmean_pressure/Pa\tflow_rate/m3/s\n0\t5\t1\t1e-9\n1\t5\t1.1\t1e-12\n2\t5\t1.2\t0\n3\t5\t1.3\t0\n' >relaxes.tsv
+claim "  in a report of times the times are sealed" eval 'rc-render --log y --curve time:flow_rate -o seal.svg relaxes.tsv && shows seal.svg ">2 times sealed \(no flow\)<"'
+claim "    whatever x is" eval 'rc-render --log y --curve mean_pressure:flow_rate -o seal.svg relaxes.tsv && shows seal.svg ">2 times sealed \(no flow\)<"'
+
+# ---- units of logarithmic axes, equal entries of a legend ----
+
+# axis X/UNIT FIRST LAST: the title of a logarithmic axis x from FIRST to LAST.
+log_axis() {
+    printf '%s\ty\n%s\t1\n%s\t2\n' "$@" >log.tsv && rc-render --log x --curve "${1%%/*}:y" -o log.svg log.tsv &&
+        sed 's/<tspan[^>]*>//g; s/<\/tspan>//g' log.svg | grep -o '>[^<]*([^<]*)<' | head -n 1
+}
+claim "a logarithmic axis has the unit of its smallest mark" test "$(log_axis distance/m 1e-3 10)" = '>Sliding distance (mm)<'
+claim "  also if the smallest point is below this mark" test "$(log_axis distance/m 0.96e-3 10)" = '>Sliding distance (mm)<'
+claim "  pressures too" test "$(log_axis mean_pressure/Pa 2e6 3e9)" = '>Mean pressure (MPa)<'
+claim "  areas too" test "$(log_axis area/m2 1e-12 1e-7)" = '>area (µm2)<'
+claim "  less than a decade has the unit of the largest value" test "$(log_axis distance/m 0.4 2)" = '>Sliding distance (m)<'
+claim "  a unit without a prefix stays" test "$(log_axis wear_volume/m3 1e-15 1e-12)" = '>Worn volume (m3)<'
+claim "equal entries of a legend are joined, and their curves have one colour" eval 'printf "x\ty\n1\t2\n2\t3\n" >one.tsv && mkdir -p other && printf "x\ty\n1\t3\n2\t4\n" >other/one.tsv &&
+    rc-render --curve x:y --legend "steel;steel" -o l.svg one.tsv other/one.tsv && [ "$(grep -o ">steel<" l.svg | wc -l)" = 1 ] &&
+    [ "$(points l.svg | grep solid | cut -d " " -f 1 | sort -u | wc -l)" = 1 ]'
+claim "  other entries stay" eval 'rc-render --curve x:y --legend "steel;brass" -o l.svg one.tsv other/one.tsv && shows l.svg ">steel<" && shows l.svg ">brass<" &&
+    [ "$(points l.svg | grep solid | cut -d " " -f 1 | sort -u | wc -l)" = 2 ]'
+
 printf 'mat\ty/N\nsteel\t1\nrubber\t3\nsteel\t2\nPTFE, filled with bronze\t2\n' >words.tsv
 # Prints the positions of the markers across the plot, 0 to 1.
 across() {

@@ -42,6 +42,10 @@ claim "values between two rows lie between their values" awk '
 claim "there are no bands: colours change by at most a hundredth down to 30 um" awk '
     NR > 262 && last - $1 > 3 { bad++ } { last = $1 } END { exit bad > 0 }' rows.txt
 
+rc-render -o place.svg line.rcg
+claim "the line under the title says where a section lies" grep -q 'section y = 0' place.svg
+rc-pick --set at= line.rcg | rc-render -o place.svg
+claim "  a section of the largest values says so" grep -q 'largest over all y' place.svg
 claim "contours of a section are drawn" rc-render --width 1200 --contour -o line.svg line.rcg
 read -r x y w h <<<"$(plot line.svg)"
 # marks of 0 to 40 MPa: lines at 10, 20, 30 MPa lie at 10, 20, 30 um

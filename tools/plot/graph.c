@@ -44,24 +44,24 @@ notes_of(const struct page *p)
 
 /* ---- axes ---- */
 
-/* Square metres get the prefix of a length. A unit without a prefix is kept if the marks are powers of
- * ten. */
+/* The unit for a number. Square metres get the prefix of a length. Where the marks are powers of ten the
+ * number is the smallest one, which is at least 1 in its unit; a unit without a prefix is then kept. */
 static void
-choose_scale(struct scale *s, double largest, const char *unit, bool powers)
+choose_scale(struct scale *s, double number, const char *unit, bool powers)
 {
     static const struct {
         double size;
         const char *unit;
     } areas[] = {{1, "m²"}, {1e-6, "mm²"}, {1e-12, "µm²"}, {1e-18, "nm²"}};
 
-    if (largest < nothing) { /* no power of ten is left to divide by */
+    if (number < nothing) { /* no power of ten is left to divide by */
         scale_choose(s, 1, unit);
         return;
     }
     if (strcmp(unit, "m2") == 0) {
         size_t k = 0;
 
-        while (k < 3 && largest < 0.01 * areas[k].size)
+        while (k < 3 && number < (powers ? 1 : 0.01) * areas[k].size)
             k++;
         s->size = areas[k].size;
         strcpy(s->unit, areas[k].unit);
@@ -70,12 +70,12 @@ choose_scale(struct scale *s, double largest, const char *unit, bool powers)
     if (strncmp(unit, "1/", 2) == 0) { /* 1/GPa */
         struct scale of;
 
-        scale_choose(&of, pow(1000, ceil(-log10(largest) / 3 - 1e-12)), unit + 2);
+        scale_choose(&of, pow(1000, ceil(-log10(number) / 3 - 1e-12)), unit + 2);
         s->size = 1 / of.size;
         snprintf(s->unit, sizeof s->unit, "1/%.40s", of.unit);
         return;
     }
-    scale_choose(s, largest, unit);
+    scale_choose(s, number, unit);
     if (powers && strncmp(s->unit, "10", 2) == 0) {
         s->size = 1;
         unit_text_to(s->unit, strcmp(unit, "1") == 0 ? "" : unit);
@@ -142,6 +142,15 @@ extremes(const struct graph *g, bool up, double *lo, double *hi)
     *hi = isnan(a->hi) ? *hi : a->hi;
 }
 
+/* The smallest power of ten on a logarithmic axis from lo to hi; NAN: there is none. */
+static double
+first_mark(double lo, double hi)
+{
+    const double air = AIR * log10(hi / lo), first = pow(10, ceil(log10(lo) - air - 1e-9));
+
+    return (1 + 2 * AIR) * log10(hi / lo) >= 1 ? first : NAN;
+}
+
 /* The unit in brackets, unless the text already contains the requested unit. */
 static void
 label(struct axis *s, const struct graph_axis *a)
@@ -161,7 +170,7 @@ static enum rc_status
 set_range(struct axis *s, const struct graph *g, bool up, struct rc_err *err)
 {
     const struct graph_axis *a = up ? &g->y : &g->x;
-    double lo, hi, air;
+    double lo, hi, air, first;
 
     s->log = a->log;
     s->minor = true;
@@ -181,9 +190,10 @@ set_range(struct axis *s, const struct graph *g, bool up, struct rc_err *err)
                    ? rc_err_set(err, "no point lies above 0 on its logarithmic axes: leave out "
                                      "--log, or give it one axis, x or y")
                    : rc_err_set(err, "%s: no point has a number on both axes", a->quantity);
+    first = a->log ? first_mark(lo, hi) : NAN;
     if (a->shown == NULL || !scale_given(&s->scale, a->shown, a->unit))
-        choose_scale(&s->scale, fmax(fabs(lo), fabs(hi)), a->unit,
-                     a->log && (1 + 2 * AIR) * log10(hi / lo) >= 1);
+        choose_scale(&s->scale, isnan(first) ? fmax(fabs(lo), fabs(hi)) : first, a->unit,
+                     !isnan(first));
     label(s, a);
     if (!a->log && fmax(fabs(lo), fabs(hi)) < nothing)
         lo = hi = 0;
@@ -599,6 +609,23 @@ draw_sample(struct page *p, size_t sample, double x, double y, size_t n)
     }
 }
 
+/* True if an earlier series has the same name and look. */
+static bool
+is_repeated(const struct graph *g, size_t k)
+{
+    const struct graph_series *s = &g->series[k];
+
+    for (size_t i = 0; i < k; i++) {
+        const struct graph_series *e = &g->series[i];
+
+        if (s->name != NULL && e->name != NULL && strcmp(s->name, e->name) == 0 &&
+            s->kind == e->kind &&
+            (s->kind == GRAPH_LAW || (s->place == e->place && s->mark == e->mark)))
+            return true;
+    }
+    return false;
+}
+
 static void
 set_legend(struct page *p)
 {
@@ -607,8 +634,8 @@ set_legend(struct page *p)
     char text[LINE];
 
     for (size_t k = 0; k < g->n; k++)
-        legend_add(p, 1 + k, g->series[k].name);
-    snprintf(text, sizeof text, "%zu %s%s %s", notes->sunk, g->zero == NULL ? "point" : "load",
+        legend_add(p, 1 + k, is_repeated(g, k) ? NULL : g->series[k].name);
+    snprintf(text, sizeof text, "%zu %s%s %s", notes->sunk, g->zero == NULL ? "point" : g->row,
              notes->sunk == 1 ? "" : "s", g->zero == NULL ? "at or below 0" : g->zero);
     legend_add(p, 1 + g->n + SUNK, notes->sunk > 0 ? text : NULL);
     legend_add(p, 1 + g->n + HOLLOW, g->hollow);

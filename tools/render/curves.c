@@ -36,6 +36,7 @@ enum helper {
     SPEED,
     SOURCE, /* these two are words that distinguish pieces */
     LOAD,
+    TIME,
     HELPERS
 };
 static const char *const helper_name[HELPERS] = {"nx",
@@ -53,7 +54,8 @@ static const char *const helper_name[HELPERS] = {"nx",
                                                  "jumps",
                                                  "speed",
                                                  "source",
-                                                 "load"};
+                                                 "load",
+                                                 "time"};
 
 /* The columns of the command line. */
 struct choice {
@@ -874,6 +876,17 @@ describe(struct curves *c)
         begin_small(x);
 }
 
+/* True if the rows of a report are times, of creep or of a seal that relaxes. */
+static bool
+has_times(const struct curves *c)
+{
+    for (size_t f = 0; f < c->tables; f++)
+        for (size_t k = 0; k < c->table[f].rows; k++)
+            if (isfinite(helper(c, &c->table[f], TIME)[k]))
+                return true;
+    return false;
+}
+
 static struct canvas *
 draw(struct curves *c, struct drawn *drawn)
 {
@@ -884,6 +897,7 @@ draw(struct curves *c, struct drawn *drawn)
               c->word, c->words},
         .y = {c->axis, unit_of(c->table, 1), false, NAN, NAN},
         .zero = flow ? "sealed (no flow)" : NULL,
+        .row = has_times(c) ? "time" : "load",
         .n = c->means.n,
         .note = *c->note == '\0' ? NULL : c->note,
     };

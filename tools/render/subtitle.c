@@ -65,7 +65,7 @@ static const struct {
     {"source", "", NULL, false},          {"case", "case ", NULL, false},
     {"load", "load ", "N", true},         {"distance", "distance ", "m", true},
     {"time", "time ", "s", true},         {"speed", "speed ", "m/s", true},
-    {"position", "position ", "m", true}, {"section", "section ", NULL, false},
+    {"position", "position ", "m", true}, {"section", "", NULL, false},
     {"depth", "depth ", "m", false},      {"material", "", NULL, false}}; /* a separate word */
 
 enum {
@@ -94,8 +94,10 @@ piece_text(char text[TICKS_TEXT], const struct rc_grid *g, size_t p)
     if (strcmp(pieces[p].key, "material") == 0)
         return (name = media_name(text, g)) == NULL ? "?" : name;
     if (strcmp(pieces[p].key, "section") == 0) {
-        snprintf(text, TICKS_TEXT, "%.1s = %.40s", name,
-                 rc_grid_number(g, "at", &number) ? scale_value(number, "m") : "all");
+        if (rc_grid_number(g, "at", &number))
+            snprintf(text, TICKS_TEXT, "section %.1s = %.40s", name, scale_value(number, "m"));
+        else
+            snprintf(text, TICKS_TEXT, "largest over all %.1s", name);
         return text;
     }
     if (pieces[p].unit != NULL && rc_grid_number(g, pieces[p].key, &number))

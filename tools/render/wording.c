@@ -81,6 +81,20 @@ set_names(struct tool *t, char *text, struct graph_series *series, size_t n)
     }
 }
 
+/* Series of one name get one look, and one entry in the legend. */
+static void
+join_names(struct graph_series *series, size_t n)
+{
+    for (size_t k = 1; k < n; k++)
+        for (size_t i = 0; i < k; i++)
+            if (series[k].name != NULL && series[i].name != NULL &&
+                series[k].kind == series[i].kind && strcmp(series[k].name, series[i].name) == 0) {
+                series[k].place = series[i].place;
+                series[k].mark = series[i].mark;
+                break;
+            }
+}
+
 struct canvas *
 wording_graph(struct tool *t, const struct curve_style *s, const char *title, const char *subtitle,
               struct graph *graph, struct graph_series *series, struct drawn *drawn)
@@ -98,5 +112,6 @@ wording_graph(struct tool *t, const struct curve_style *s, const char *title, co
     set_axis(t, s, 'y', &graph->y);
     if (names != NULL)
         set_names(t, names, series, graph->n);
+    join_names(series, graph->n);
     return tool_made(t, NULL, graph_draw(graph, &t->err));
 }
