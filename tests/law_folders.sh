@@ -99,7 +99,7 @@ tools/plot          | libcontact/grid.h formats/core/core.h    | libcontact form
 tools/plot          | tools/canvas/canvas.h                    | tools/canvas
 tools/cost          | %public tools/cli/cli.h tools/plot/plot.h | %physics %cli %plot
 tools/cost          | formats/rcg/rcg.h                        | formats/rcg
-tools/scan          | %public tools/cli/cli.h tools/cost/cost.h | %physics %cli tools/cost
+tools/scan          | %public tools/cli/cli.h tools/cost/cost.h tools/plot/plot.h | %physics %cli tools/cost %plot
 tools/scan          | formats/rcg/rcg.h                        | formats/rcg
 tools/solve         | %public tools/cli/cli.h tools/plot/plot.h | %physics %cli %plot
 tools/solve         | tools/frames/frames.h tools/materials/materials.h | tools/frames tools/materials

@@ -23,7 +23,7 @@ static struct args {
 #define AT(field) .at = offsetof(struct args, field)
 #define ABOVE_0 .min = 0, .max = INFINITY, .above = true
 #define ONE_THING                                                                                  \
-    .against = RULES({.with = "tol|grid|vary|reference|of|budget|error|plot",                      \
+    .against = RULES({.with = "tol|grid|vary|reference|of|budget|error",                           \
                       .because = "one varies the map, the other the command",                      \
                       .remedy = "run rc-cost twice"})
 /* clang-format off */
@@ -43,7 +43,7 @@ static const struct opt opts[] = {
      .help = "bars: the standard deviation of the noise, and its correlation length"},
     {.name = "repeat", .type = OPT_TEXT, AT(scan.again), .result = true, .arg = "FILE",
      .against = RULES({.with = "noise", .because = "either gives the noise"},
-                      {.with = "tol|grid|vary|reference|of|budget|error|plot",
+                      {.with = "tol|grid|vary|reference|of|budget|error",
                        .because = "one varies the map, the other the command",
                        .remedy = "run rc-cost twice"}),
      .help = "the noise from a second scan of the same place"},
@@ -70,7 +70,7 @@ static const struct opt opts[] = {
     {.name = "limit", .type = OPT_NUMBER, .unit = UNIT_S, AT(limit), ABOVE_0, .arg = "TIME",
      .help = "time limit after the reference; trials that do not fit are left out (default 60s)"},
     {.name = "plot", .type = OPT_TEXT, AT(plot), .arg = "FILE",
-     .help = "draw error against time: a .png, .svg or .pdf"},
+     .help = "draw error against time, or the bars: a .png, .svg or .pdf"},
     {.name = "report", .type = OPT_REPORT, AT(report), .arg = "FILE",
      .help = "write one JSON object per trial, or a row of FILE.tsv or .csv"},
     {.name = "dry-run", .type = OPT_FLAG, AT(dry_run),
@@ -240,6 +240,26 @@ varies_map(void)
 }
 
 static void
+write_plot(struct tool *t, const struct cost_case *c, const struct scan *s)
+{
+    size_t bytes;
+    struct whole_file whole;
+    unsigned char *picture;
+    FILE *file;
+
+    if (args.plot == NULL)
+        return;
+    picture = s != NULL ? scan_plot(s, ending_of(args.plot), &bytes, &t->err)
+                        : cost_plot(c, ending_of(args.plot), &bytes, &t->err);
+    if (picture == NULL)
+        tool_die(t, "--plot %s: %s", args.plot, t->err.text);
+    if ((file = whole_file_open(&whole, args.plot)) == NULL ||
+        fwrite(picture, 1, bytes, file) != bytes || !whole_file_put(&whole, file))
+        tool_die(t, "--plot %s: %s", args.plot, strerror(errno));
+    free(picture);
+}
+
+static void
 study_map(struct tool *t, struct cost_case *c)
 {
     struct scan *s = &run.scan;
@@ -254,29 +274,12 @@ study_map(struct tool *t, struct cost_case *c)
         return;
     }
     scan_report(s, &run.report);
+    write_plot(t, c, s);
     if (!t->output.report_alone)
         scan_show_table(s, t->output.file);
 }
 
 /* ---- results ---- */
-
-static void
-write_plot(struct tool *t, const struct cost_case *c)
-{
-    size_t bytes;
-    struct whole_file whole;
-    unsigned char *picture;
-    FILE *file;
-
-    if (args.plot == NULL)
-        return;
-    if ((picture = cost_plot(c, ending_of(args.plot), &bytes, &t->err)) == NULL)
-        tool_die(t, "--plot %s: %s", args.plot, t->err.text);
-    if ((file = whole_file_open(&whole, args.plot)) == NULL ||
-        fwrite(picture, 1, bytes, file) != bytes || !whole_file_put(&whole, file))
-        tool_die(t, "--plot %s: %s", args.plot, strerror(errno));
-    free(picture);
-}
 
 /* Ends the tool if --of is neither a frame nor a figure. */
 static void
@@ -312,7 +315,7 @@ study(struct tool *t, struct cost_case *c)
     check_of(t, c);
     cost_run_trials(c);
     cost_report(c, &run.report);
-    write_plot(t, c);
+    write_plot(t, c, NULL);
     cost_warn(c);
     if (t->output.report_alone)
         return;

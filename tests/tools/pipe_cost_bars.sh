@@ -197,3 +197,18 @@ interrupted() {
     [ "$status" = 130 ] && [ -z "$(ls scratch)" ] && [ -z "$(pgrep -P "$tool")" ] && grep -q '^# noise 6.*: left out: interrupted' cut.txt && awk "BEGIN { exit !($late < 0.5) }"
 }
 claim "SIGINT ends the study within half a second and leaves no file" interrupted
+
+# ---- the picture of the bars ----
+
+claim "--plot draws the bars" rc-cost --quiet --noise 2nm --resolution --plot bars.svg --report drawn.json -o drawn.txt true.rcg -- rc-solve --periodic --mean-pressure 20MPa,50MPa --estar 100GPa
+# The circles are the bars: place and decades of the axis of per cent, between two of its marks, give their values.
+perl -0777 -ne '
+    my ($left, $top, $w, $h) = /<clipPath id="\w+"><rect x="([\d.]+)" y="([\d.]+)" width="([\d.]+)" height="([\d.]+)"/ or die;
+    my @dots; push @dots, $2 while /<path d="M([\d.]+) ([\d.]+)L\1 \2"/g;
+    my %mark; while (/<text x="[\d.]+" y="([\d.]+)" font-size="([\d.]+)" text-anchor="end"[^>]*>(0?\.?[0-9.]+)</g) { $mark{$3} = $1 - 0.36 * $2 }
+    my ($a, $b) = sort { $a <=> $b } keys %mark; die "two marks\n" unless defined $b;
+    printf "%.6g\n", $a * ($b / $a) ** (($mark{$a} - $_) / ($mark{$a} - $mark{$b})) for grep { $_ < $top + $h } @dots' bars.svg | sort -g >dots.txt
+perl -MJSON::PP -ne 'my $r = decode_json($_); printf "%.6g\n", 100 * $r->{bar_relative} if $r->{what} eq "figure" && $r->{case} == 2 && ($r->{bar_relative} // 0) > 0' drawn.json | sort -g >bars.txt
+claim "  each bar of the last case has a circle at its value" bash -c '[ "$(wc -l <bars.txt)" -gt 4 ] && paste bars.txt dots.txt | awk "{ r = \$1 / \$2 } !(r > 0.98 && r < 1.02) { exit 1 }"'
+claim "  the legend names the sources that were studied" bash -c 'grep -q ">bar, 90 %<" bars.svg && grep -q ">noise<" bars.svg && grep -q ">grid<" bars.svg && ! grep -q ">patch<" bars.svg'
+claim "  the axis names the figures" grep -q '>contact fraction<' bars.svg

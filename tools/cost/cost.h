@@ -268,5 +268,9 @@ void cost_report(const struct cost_case *c, struct report *out);
  * frees. */
 unsigned char *cost_plot(const struct cost_case *c, const char *ending, size_t *bytes,
                          struct rc_err *err);
+/* The same for any graph. */
+struct graph;
+unsigned char *cost_picture(struct tool *tool, const char *title, const struct graph *graph,
+                            const char *ending, size_t *bytes, struct rc_err *err);
 
 #endif

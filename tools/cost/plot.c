@@ -138,22 +138,18 @@ draw_trials(const struct cost_case *c, struct drawing *d)
 }
 
 unsigned char *
-cost_plot(const struct cost_case *c, const char *ending, size_t *bytes, struct rc_err *err)
+cost_picture(struct tool *t, const char *title, const struct graph *graph, const char *ending,
+             size_t *bytes, struct rc_err *err)
 {
-    const struct picture_text text[] = {{"Title", "What accuracy costs"},
-                                        {"Description", tool_history(c->tool)},
-                                        {"Software", "rc-cost"}};
-    struct drawing *d = calloc(1, sizeof *d);
-    struct canvas *canvas;
+    const struct picture_text text[] = {
+        {"Title", title}, {"Description", tool_history(t)}, {"Software", "rc-cost"}};
     char *picture = NULL, warning[512];
     enum rc_status status = RC_FAIL;
+    struct canvas *canvas;
     FILE *file;
 
     rc_err_set(err, "out of memory");
-    if (d == NULL)
-        return NULL;
-    draw_trials(c, d);
-    canvas = graph_draw(&d->graph, err);
+    canvas = graph_draw(graph, err);
     if (canvas != NULL && (file = open_memstream(&picture, bytes)) != NULL) {
         status = canvas_write(canvas, canvas_format(ending), text, sizeof text / sizeof *text, file,
                               err);
@@ -161,12 +157,27 @@ cost_plot(const struct cost_case *c, const char *ending, size_t *bytes, struct r
             status = RC_FAIL;
     }
     if (canvas != NULL && canvas_warning(canvas, warning, sizeof warning) != NULL)
-        tool_warn(c->tool, "%s", warning);
+        tool_warn(t, "%s", warning);
     canvas_free(canvas);
-    free(d);
     if (status != RC_OK) {
         free(picture);
         picture = NULL;
     }
     return (unsigned char *)picture;
+}
+
+unsigned char *
+cost_plot(const struct cost_case *c, const char *ending, size_t *bytes, struct rc_err *err)
+{
+    struct drawing *d = calloc(1, sizeof *d);
+    unsigned char *picture;
+
+    if (d == NULL) {
+        rc_err_set(err, "out of memory");
+        return NULL;
+    }
+    draw_trials(c, d);
+    picture = cost_picture(c->tool, "What accuracy costs", &d->graph, ending, bytes, err);
+    free(d);
+    return picture;
 }

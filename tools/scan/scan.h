@@ -91,4 +91,10 @@ void scan_show_plan(const struct scan *s, FILE *out);
 void scan_show_table(const struct scan *s, FILE *out);
 void scan_report(const struct scan *s, struct report *out);
 
+/* ---- plot.c ---- */
+
+/* A picture of the bars of the last case in memory, which the caller frees. */
+unsigned char *scan_plot(const struct scan *s, const char *ending, size_t *bytes,
+                         struct rc_err *err);
+
 #endif
