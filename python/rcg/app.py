@@ -43,9 +43,10 @@ HEADERS = {'Cache-Control': 'no-store', 'X-Content-Type-Options': 'nosniff', 'Re
            "default-src 'none'; script-src 'self'; style-src 'self'; img-src 'self' blob:; "
            "connect-src 'self'; base-uri 'none'; form-action 'none'; frame-ancestors 'none'"}
 # Options that the page sets itself, that write further files, or whose files a later run would continue.
-HIDDEN = tools.HIDDEN | {'checkpoint', 'resume', 'interval', 'keep-going', 'psd-map'}
-MAKERS = ('rc-render', 'rc-info', 'rc-export', 'rc-report', 'rc-scene')
-OF_SURFACE = ('rc-report', 'rc-scene')  # about the surface that is pressed
+HIDDEN = tools.HIDDEN | {'checkpoint', 'resume', 'interval', 'keep-going', 'psd-map', 'plot'}
+MAKERS = ('rc-render', 'rc-info', 'rc-export', 'rc-report', 'rc-scene', 'rc-cost')
+OF_SURFACE = ('rc-report', 'rc-scene', 'rc-cost')  # about the surface that is pressed
+REPORTS = ('rc-scene', 'rc-cost')  # their report is the result
 ACTIVE, ENDED_WELL = ('waiting', 'running'), ('done', 'short')
 
 
@@ -119,7 +120,8 @@ class Step:
         self.tool, self.output = tool, stem + '.rcg'
         self.report = stem + '.tsv' if tables()[tool]['report'] else None
         report = ['--report', self.report] if self.report else []
-        self.command = [tool] + words_of(tool, options, files) + report + ['-o', self.output, source]
+        self.own = [tool] + words_of(tool, options, files)
+        self.command = self.own + report + ['-o', self.output, source]
         self.state, self.words, self.progress, self.doing, self.seconds = 'waiting', '', None, '', None
 
 
@@ -441,22 +443,26 @@ class Request(http.server.BaseHTTPRequestHandler):
         self.send(bytes(tools.draw([ramp], raw=True, quiet=True)), 'image/png')
 
     def get_made(self):
-        """What a tool makes of a step, of rc-scene the report; the command is in a header."""
+        """What a tool makes of a step, of rc-scene and rc-cost the report; the command is in a header."""
         (run, step, _), tool, options = self.output(), self.query['tool'], json.loads(self.query['options'])
         if tool not in MAKERS:
             raise Refused('%s makes no file here' % tool)
         source = step.report if any(name == 'curve' for name, _ in options) else step.output
         if source is None:
             raise Refused('%s writes no report, so it has no curves: choose another result' % step.tool, 422)
-        if tool in OF_SURFACE:
-            source = next((s.command[-1] for s in run.steps if s.tool == 'rc-solve'), source)
+        contact = next((s for s in run.steps if s.tool == 'rc-solve'), None)
+        if tool == 'rc-cost' and contact is None:
+            raise Refused('rc-cost studies a contact, and this run has none', 422)
+        if tool in OF_SURFACE and contact is not None:
+            source = contact.command[-1]
+        study = ['--'] + contact.own if tool == 'rc-cost' else []
         words, name = [tool] + words_of(tool, options, self.server.files), safe_name(self.query['name'])
-        words += ['-o', os.devnull, '--report'] if tool == 'rc-scene' else ['-o']
+        words += ['-o', os.devnull, '--report'] if tool in REPORTS else ['-o']
         with tempfile.TemporaryDirectory(dir=self.server.folder) as folder:
-            status, said = self.server.execute(words + [os.path.join(folder, name), source], run.folder)
+            status, said = self.server.execute(words + [os.path.join(folder, name), source] + study, run.folder)
             if status not in (0, 3):
                 raise Refused(said or '%s ended with status %d' % (tool, status), 422)
-            command, said = urllib.parse.quote(shlex.join(words + [name, source])), urllib.parse.quote(said)
+            command, said = urllib.parse.quote(shlex.join(words + [name, source] + study)), urllib.parse.quote(said)
             self.send_file(os.path.join(folder, name), X_Command=command, X_Words=said,
                            Content_Disposition='attachment')
 

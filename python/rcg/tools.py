@@ -128,7 +128,7 @@ def execute(command, data=None, timeout=None, progress=False, folder=None, start
     if timeout is not None and not 0 <= timeout <= threading.TIMEOUT_MAX:
         raise ValueError('timeout=%r: it must be a number of seconds' % (timeout,))
     try:
-        child = subprocess.Popen([place(command[0])] + command[1:] + ['--progress=json'] * (shown is not None),
+        child = subprocess.Popen([place(command[0])] + ['--progress=json'] * (shown is not None) + command[1:],
                                  stdout=subprocess.PIPE, stderr=subprocess.PIPE, cwd=folder,
                                  stdin=subprocess.DEVNULL if data is None else subprocess.PIPE)
     except FileNotFoundError:

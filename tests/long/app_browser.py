@@ -1,10 +1,11 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Checks of rc-app in headless Chromium for pipe_app_browser.sh: app_browser.py CHROMIUM ADDRESS FOLDER.
 
-FOLDER has rough-steel.x3p, broken.x3p, big.x3p (2048 x 2048) and node.rcg, and receives downloads and pictures.
+FOLDER has rough-steel.x3p, broken.x3p, big.x3p (2048 x 2048), node.rcg and spike.rcg, and receives downloads and pictures.
 """
 import base64
 import os
+import re
 import sys
 import time
 
@@ -14,7 +15,7 @@ CHROMIUM, ADDRESS, FOLDER = sys.argv[1:4]
 
 
 def ok(sentence, true, more=''):
-    print('%s: %s%s' % ('ok' if true else 'NOT OK', sentence, ' (%s)' % more if more else ''), flush=True)
+    print('%s: %s%s' % ('ok' if true else 'NOT OK', sentence, ' (%s)' % ' '.join(more.split()) if more else ''), flush=True)
 
 
 def place(name):
@@ -102,7 +103,11 @@ def by_keyboard(page):
         shown(page, view)
         ok('by keyboard: ' + view, page.evaluate('''() => document.querySelector('#picture').naturalWidth > 300 || !document.querySelector('#picture').checkVisibility()'''))
         picture(page, view.lower())
-    ok('  numbers have units', 'contact_area\t21400 µm²' in page.inner_text('#numbers'), page.inner_text('#numbers')[:40].replace('\n', ' '))
+        if view == 'Curves':
+            ok('  one load is a value, no curve', 'contact area' in page.inner_text('#numbers') and not page.is_visible('#picture'), page.inner_text('#numbers'))
+    numbers = page.inner_text('#numbers')
+    ok('  numbers have units', re.search(r'contact_area\t[0-9]{1,4}(\.[0-9]+)? µm²', numbers), numbers[:60].replace('\n', ' '))
+    ok('  the first table is short', page.locator('#numbers > table tr').count() <= 10 and 'figures of the report' in numbers)
     page.focus('#views input:checked')
     page.keyboard.press('ArrowRight')
     shown(page, 'Map')
@@ -115,6 +120,40 @@ def by_keyboard(page):
     ok('by keyboard: a command is copied', page.evaluate('() => navigator.clipboard.readText()').startswith('rc-'))
     with open(place('commands'), 'w') as file:
         file.write('\n'.join(page.locator('#steps .command code').all_text_contents()) + '\n')
+
+
+def words(page):
+    """The forms have words, materials and no indenter; a spike does not take the colours."""
+    labels = page.locator('#steps .option label').all_text_contents()
+    ok('options have titles in words', 'Load' in labels and 'Material, body 1' in labels and 'Remove spikes above' in labels, ', '.join(labels))
+    ok('  the names of the tools are in the line below', page.locator('[data-name="load"] .hint').inner_text().startswith('--load: total normal force'))
+    ok('  no text has a %s', '%s' not in page.inner_text('#steps') and '%s' not in ''.join(page.locator('option').all_text_contents()))
+    ok('  materials are offered', '100Cr6' in page.locator('[data-name="body1"] datalist option').evaluate_all('all => all.map(o => o.value)'))
+    ok('  the first form has no indenter', page.locator('[data-name="radius"]').count() == 0)
+
+
+def spikes(page):
+    page.set_input_files('#file', place('spike.rcg'))
+    page.wait_for_selector('#source:has-text("spike.rcg")')
+    page.check('#views input[value=Map]', force=True)
+    page.wait_for_selector('#at:has-text("100 × 100 nodes")')
+    page.wait_for_selector('#at:has-text("; colours from")')
+    low, high = page.evaluate('() => [map.low, map.high]')
+    ok('a spike does not take the colours', high < 1.1e-6 and low > -1.1e-6, page.inner_text('#at'))
+    picture(page, 'spike')
+
+
+def accuracy(page):
+    """The bars of the figures, as rc-cost gives them."""
+    page.check('#views input[value=Map]', force=True)
+    shown(page, 'Map')
+    page.click('#accuracy summary')
+    page.click('#measure')
+    page.wait_for_selector('body[data-measured]', state='attached')
+    table = page.inner_text('#bars')
+    ok('the contact has bars', re.search(r'contact area\t[0-9.]+ µm²\t± [0-9.]+ %\tmostly by ', table), table[:400])
+    page.locator('#accuracy').scroll_into_view_if_needed()
+    picture(page, 'accuracy')
 
 
 def errors(page):
@@ -168,16 +207,17 @@ def effects(page):
     page.click('#effects summary')
     for name, value in (('coefficient', '1e-6mm3/Nm'), ('distance', '1m')):
         page.select_option('#known select', value=name)
-        page.locator('#known .option:has(label:text-is("%s")) input' % name).fill(value)
+        page.locator('#known [data-name="%s"] input' % name).fill(value)
     judge()
     table = page.inner_text('#verdicts')
     ok('the contact is judged', 'hardness\tcalls for it: changes the largest pressure by ' in table and 'Data are missing for: ' in table, table[:200])
     picture(page, 'effects')
     page.click('#verdicts [name=wear]')
     ok('  wear is added as a step', command('rc-wear').startswith('rc-wear --coefficient 1e-6mm3/Nm --distance 1m '), command('rc-wear'))
-    page.click('#verdicts [name=tilt]')
+    page.click('#verdicts [name=hardness]')
     solve = command('rc-solve')
-    ok('  a free tilt as an option of the contact', '--tilt free' in solve and '--load 60N' in solve and '--hardness' in solve, solve)
+    ok('  a hardness as an option of the contact', '--hardness 6GPa' in solve and '--load 60N' in solve and '--E1' in solve, solve)
+    page.click('details:has(> summary code:text("rc-wear")) > button:text-is("Remove")')
 
 
 def remove(page):
@@ -240,7 +280,7 @@ def large(page):
 with sync_playwright() as playwright:
     wide = Browser(playwright)
     page = wide.open()
-    for check in (by_keyboard, errors, effects, remove, crop, large):
+    for check in (by_keyboard, words, errors, effects, accuracy, remove, crop, spikes, large):
         try:
             check(page)
         except Exception as e:

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 # rc-app in headless Chromium: a real scan from the choice of the file to downloads by keyboard alone, a broken file,
-# a wrong unit, a cancelled run, a large map, a narrow window and dark colours.
+# a wrong unit, a cancelled run, titles, effects and bars, a spike, a large map, a narrow window and dark colours.
 . "$(dirname "$0")/../pipe.sh"
 . "$RC_SOURCE/tests/python.sh"
 
@@ -16,12 +16,15 @@ mkdir -p "$folder/shots" pasted
 cp "$RC_SOURCE/sample_surfaces/rough-steel.x3p" "$folder"
 head -c 3000 "$folder/rough-steel.x3p" >"$folder/broken.x3p"
 rc-synth selfaffine --nx 2048 --dx 1um --hurst 0.8 --rms-slope 0.05 --rolloff 500um --short-cut 8um --seed 1 | rc-export --format x3p -o "$folder/big.x3p"
-"$python" - "$folder/node.rcg" <<'END'
+"$python" - "$folder/node.rcg" "$folder/spike.rcg" <<'END'
 import sys, numpy, rcg
 pressure = numpy.zeros((2048, 2048))
 pressure[1234, 567] = 1e9
 pressure[700, 1300] = 3e8
 rcg.write(sys.argv[1], rcg.frame('pressure', pressure, dx=1e-6))
+height = 1e-6 * numpy.sin(numpy.arange(10000)).reshape(100, 100)
+height[40, 60] = 1e-3
+rcg.write(sys.argv[2], rcg.frame('height', height, dx=1e-6))
 END
 "$python" -m rcg.app --no-browser >address &
 app=$!

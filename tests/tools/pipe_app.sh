@@ -87,6 +87,7 @@ for name in shown/*; do
     fi
 done
 claim "the effects of the contact are judged" check effects
+claim "the contact gets the bars of rc-cost" check accuracy
 claim "frames and colours are those of the tools" check frames
 claim "a run uses the results of an earlier one; one that is removed leaves the others" check again
 claim "two runs at once, a third waits; cancelled, their tools end" check cancel

@@ -3,6 +3,7 @@
 import http.client
 import json
 import os
+import re
 import subprocess
 import sys
 import threading
@@ -200,7 +201,7 @@ def options():
                                 ('rc-solve', ['load', '1N\n'], 'without a folder'), ('rc-solve', ['counter', '/etc/passwd'], 'without a folder'),
                                 ('rc-solve', ['yield', '../a.tsv'], 'without a folder'), ('rc-solve', ['kernel', 'ftt'], 'did you mean'),
                                 ('rc-solve', ['load', ['1N']], 'no option'), ('rc-solve', ['load', True], 'needs a value'),
-                                ('rc-cost', [], 'not understood'), ('sh', [], 'not understood'), ('rc-render', [], 'not a step')):
+                                ('rc-cost', [], 'not a step'), ('sh', [], 'not understood'), ('rc-render', [], 'not a step')):
         body = json.dumps({'file': SAMPLE, 'start': False, 'steps': [{'tool': tool, 'options': [option] if option else [], 'from': 0}]})
         refused(400, words, 'steps', body=body)
     refused(400, 'not understood', 'steps', body='{')
@@ -242,6 +243,20 @@ def effects():
     assert scene['hardness']['command'][0] == 'rc-solve' and '--hardness' in scene['hardness']['command']
     assert scene['wear']['sentence'] is None and scene['wear']['missing'] == 'coefficient distance', scene['wear']
     assert urllib.parse.unquote(headers['X-Command']).startswith('rc-scene '), headers['X-Command']
+
+
+def accuracy():
+    """rc-cost gives the bars of the contact that was pressed; the command that is shown makes them again."""
+    number = max(runs())
+    status, headers, text = ask('made', {'run': number, 'step': 3, 'tool': 'rc-cost', 'options': json.dumps([['noise', '2nm'], ['resolution', True]]), 'name': 'bars.json'})
+    assert status == 200, text
+    rows = [json.loads(line) for line in text.decode().strip().split('\n')]
+    bars = {row['name']: row for row in rows if row['what'] == 'figure' and row['case'] == 1}
+    assert bars['contact_area']['bar_relative'] > 0 and bars['contact_area']['unit'] == 'm2', bars
+    shown = urllib.parse.unquote(headers['X-Command'])
+    assert re.match('rc-cost --noise 2nm --resolution -o /dev/null --report bars.json 3-detrend.rcg -- rc-solve --', shown), shown
+    status, _, text = ask('made', {'run': number, 'step': 0, 'tool': 'rc-cost', 'options': json.dumps([['plot', 'a.png']]), 'name': 'a'})
+    assert status == 400 and b'no option --plot' in text, text
 
 
 def frames():

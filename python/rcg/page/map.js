@@ -32,6 +32,15 @@ function halved({values, nx, ny}, keep) {
   return {values: half, nx: mx, ny: my};
 }
 
+// Colours of heights from 0.5 % to 99.5 % of the nodes, where the others would take half of the range: spikes.
+function clipped(values, low, high) {
+  const step = Math.ceil(values.length / 65536), some = [];
+  for (let k = 0; k < values.length; k += step) if (values[k] === values[k]) some.push(values[k]);
+  some.sort((a, b) => a - b);
+  const part = share => some[Math.round(share * (some.length - 1))];
+  return part(0.995) - part(0.005) < (high - low) / 2 && part(0.995) > part(0.005) ? [part(0.005), part(0.995)] : [low, high];
+}
+
 class MapView {
   constructor(canvas, tell) {
     Object.assign(this, {canvas, tell, frame: null, pointer: null});
@@ -69,7 +78,8 @@ class MapView {
       if (v > high) high = v;
     }
     if (low > high) low = high = 0;
-    Object.assign(this, {frame, keep, levels, low, high, table: await colours(low, high)});
+    const [from, to] = keep === 'mean' ? clipped(frame.values, low, high) : [low, high];
+    Object.assign(this, {frame, keep, levels, least: low, most: high, low: from, high: to, table: await colours(from, to)});
     if (same) this.draw(); else this.fit();
   }
   // The part of the canvas that has the map, and its middle, in pixels of the page.

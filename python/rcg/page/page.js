@@ -8,7 +8,7 @@ const STEPS = {
   import: ['Read the file'],
   pick: ['Crop, resample, turn'],
   detrend: ['Level and filter', {poly: '2', spikes: '5', fill: true}],
-  solve: ['Press', {load: '60N', radius: '3.75mm', estar: '114GPa', hardness: '6GPa'}],
+  solve: ['Press', {load: '10N', body1: 'steel', body2: 'steel', hardness: '6GPa'}],
   stress: ['Stresses below', {nu: '0.28', section: 'y=0', depths: '0:40um:41'}],
   slip: ['Friction', {mu: '0.3', nu: '0.28', tangential: ''}],
   wear: ['Wear', {coefficient: '', distance: ''}],
@@ -21,6 +21,20 @@ const STEPS = {
 const VIEWS = {
   Map: [], Figure: [], Relief: [['view', '30,40']], Profile: [['cut', 'y=0']],
   Distribution: [['histogram', true]], Curves: [['curve', 'load:contact_area']], Numbers: [],
+};
+// Titles of options whose name says too little.
+const TITLES = {
+  nx: 'Nodes along x', ny: 'Nodes along y', dx: 'Spacing along x', dy: 'Spacing along y', load: 'Load',
+  estar: 'Modulus E* of both bodies', E1: 'Young’s modulus, body 1', nu1: 'Poisson’s ratio, body 1',
+  E2: 'Young’s modulus, body 2', nu2: 'Poisson’s ratio, body 2', nu: 'Poisson’s ratio', body1: 'Material, body 1',
+  body2: 'Material, body 2', radius: 'Ball of radius', cylinder: 'Roller of radius', mu: 'Friction coefficient',
+  periodic: 'The map repeats', poly: 'Remove form of degree', plane: 'Remove tilt', sphere: 'Remove sphere',
+  spikes: 'Remove spikes above', outliers: 'Remove outliers above', fill: 'Fill missing points', taper: 'Taper the edges',
+  highpass: 'Remove waves longer than', lowpass: 'Remove waves shorter than', robust: 'Robust filters',
+  crop: 'Cut out a part', resample: 'New spacing or size', set: 'Set a key', section: 'Section at', depths: 'Depths',
+  tol: 'Tolerance', yield: 'Yield stress', tangential: 'Tangential force', coefficient: 'Wear coefficient',
+  distance: 'Sliding distance', speed: 'Sliding speed', pass: 'Passes along', view: 'Direction of view', cut: 'Cut at',
+  psd: 'Power spectrum', areal: 'Areal parameters', output: 'Frames to write', mean: 'Mean',
 };
 // What the page says of the states of steps and of runs.
 const STATES = {running: 'running', short: 'accuracy not reached', failed: 'failed', stopped: 'cancelled'};
@@ -70,6 +84,9 @@ const plain = rule => rule.options.filter(({word}) => !word).map(({name}) => nam
 const excludes = (row, name) => row.against.some(rule => !rule.words.length && plain(rule).includes(name));
 const clash = (rows, a, b) => a !== b && rows.some(row => row.name === a && excludes(row, b) || row.name === b && excludes(row, a) ||
   row.one_of.some(rule => plain(rule).includes(a) && plain(rule).includes(b)));
+// Words for people: the title of an option, and its help with the words that it takes.
+const named = name => TITLES[name] ?? name[0].toUpperCase() + name.slice(1).replaceAll('-', ' ');
+const helped = ({help, words}) => help.replaceAll('%s', words.join(', '));
 const given = options => options.filter(([, value]) => value !== '' && value !== false);
 // changed() follows a new value, redo() another number of the options [[name, value], ...].
 function form(tool, options, changed, redo) {
@@ -79,20 +96,23 @@ function form(tool, options, changed, redo) {
   const drop = option => { options.splice(options.indexOf(option), 1); redo(); };
   const enter = name => { options.push([name, isFlag(row(name)) || '']); redo(); };
   return make('div', {}, ...options.map(option => formRow(row(option[0]), option, changed, drop)),
-    choice('Add an option of ' + tool, free.map(({name, help}) => [`${name}: ${help}`, name]), enter));
+    choice(tool === 'known' ? 'Add what you know' : 'Add an option of ' + tool, free.map(one => [`${named(one.name)}: ${helped(one)}`, one.name]), enter));
 }
 function formRow(row, option, changed, drop) {
   const {name, words, units, rules} = row, key = isFlag(row) ? 'checked' : 'value', id = 'field' + ++ids;
   const chosen = row.only_words && row.type === 'choice', type = isFlag(row) ? 'checkbox' : 'text';
+  const offers = chosen || !words.length ? [] : [make('datalist', {id: id + 'words'}, ...words.map(word => new Option(word)))];
   const field = chosen ? make('select', {id}, ...words.map(word => new Option(word)))
     : make('input', {id, type, spellcheck: false, autocomplete: 'off', placeholder: row.argument ?? ''});
+  if (offers.length) field.setAttribute('list', id + 'words');
   if (chosen) option[1] ||= words[0];
   field[key] = option[1];
   field.oninput = () => { option[1] = field[key]; changed(); };
   const unit = units.length ? ` Units: ${units.join(', ')}; without a unit it is ${row.unit}.` : '';
-  return make('div', {className: 'option'}, make('label', {htmlFor: id, textContent: name}), field,
-    button('✕', () => drop(option), {'aria-label': 'Remove ' + name}),
-    hint(row.help.replace('%s', words.join(', ')) + (rules && '; ' + rules) + '.' + unit));
+  const label = make('label', {htmlFor: id, textContent: named(name)});
+  return make('div', {className: 'option', 'data-name': name}, label, field, ...offers,
+    button('✕', () => drop(option), {'aria-label': 'Remove ' + named(name)}),
+    hint(`--${name}: ${helped(row)}${rules && '; ' + rules}.${unit}`));
 }
 
 // ---- steps ----
@@ -211,7 +231,9 @@ const collect = trying(async () => {
   frames = found;
   $('result').hidden = !frames.length;
   $('effects').hidden = !run.steps.some(step => step.tool === 'rc-solve' && well(step));
+  $('accuracy').hidden = $('effects').hidden;
   $('verdicts').replaceChildren(); // they belong to the contact before
+  $('bars').replaceChildren();
   $('channel').replaceChildren(...frames.map((f, k) => new Option(f.name, k)));
   const last = ['pressure', 'height', frames.at(-1)?.channel].map(name => f => f.channel === name);
   const places = [f => f.name === kept, ...last].map(test => frames.findLastIndex(test));
@@ -251,7 +273,9 @@ async function showMap(f, valid) {
     g.drawImage(await createImageBitmap(await answer.blob()), 0, 0);
     return new Uint32Array(g.getImageData(0, 0, 257, 1).data.buffer);
   });
-  $('at').textContent = `${size}, ${shown(map.low, unit)} to ${shown(map.high, unit)}. ` +
+  const clips = map.low > map.least || map.high < map.most;
+  $('at').textContent = `${size}, ${shown(map.least, unit)} to ${shown(map.most, unit)}` +
+    (clips ? `; colours from ${shown(map.low, unit, 3)} to ${shown(map.high, unit, 3)}. ` : '. ') +
     'Wheel or + and − zoom, drag or arrow keys move, 0 shows all.';
   $('map').setAttribute('aria-label', `Map of ${channel}: ${$('at').textContent}`);
 }
@@ -283,12 +307,16 @@ async function showMade(f, valid) {
   if (free('look')) $('look').replaceChildren(make('div'), form(tool, options, redo, again));
   const answer = await made(tool, words, numbers ? 'numbers.txt' : 'figure.png'), blob = await answer.blob();
   const header = name => decodeURIComponent(answer.headers.get(name)), text = numbers && await blob.text();
-  const table = numbers && run.steps[f.step].report ? await ask('file', {...place(), of: 'report'}) : null;
-  const report = await table?.text() ?? '';
+  const curve = !numbers && given(options).find(([name]) => name === 'curve')?.[1];
+  const table = (numbers || curve) && run.steps[f.step].report ? await ask('file', {...place(), of: 'report'}) : null;
+  const report = await table?.text() ?? '', lines = report.trim().split('\n').map(line => line.split('\t'));
   if (!valid()) return;
+  $('numbers').hidden = !numbers && !(curve && lines.length === 2);
+  $('picture').hidden = !$('numbers').hidden;
   $('look').firstChild.replaceWith(command(header('X-Command')));
   $('at').textContent = header('X-Words');
-  if (numbers) return showNumbers(report.trim().split('\n').map(line => line.split('\t')), text);
+  if (numbers) return showNumbers(lines, text);
+  if (!$('numbers').hidden) return showPoint(...lines, curve.split(/[:,]/));
   URL.revokeObjectURL($('picture').src);
   Object.assign($('picture'), {src: URL.createObjectURL(blob), alt: `${view} of ${f.channel}`});
 }
@@ -310,14 +338,31 @@ function sliders(f, option, redo) {
     return title ? make('label', {}, title + ' ', slider) : [];
   });
 }
+// The figures of the first table, if the report has them.
+const FIRST = ['load', 'mean_pressure', 'contact_area', 'contact_fraction', 'max_pressure', 'approach', 'mean_gap',
+  'nodes_per_patch', 'pressure_error_estimate', 'converged'];
 // A report has a column for each figure, the page a line. Curves take the same names.
 function showNumbers([heads, ...rows], textContent) {
   const lines = heads.map((head, k) => [head.split('/'), rows.map(row => row[k])]);
   const known = lines.filter(([, values]) => values.some(value => value !== '' && value !== 'NaN'));
-  const text = (value, unit) => (value === '' || isNaN(value) ? value : shown(+value, unit.join('/') || '1'));
-  $('numbers').replaceChildren(make('table', {}, ...known.map(([[name, ...unit], values]) =>
-    make('tr', {}, make('th', {textContent: name}),
-      ...values.map(value => make('td', {textContent: text(value, unit)}))))), make('pre', {textContent}));
+  const first = known.filter(([[name]]) => FIRST.includes(name)), all = make('details', {});
+  all.append(make('summary', {textContent: `All ${known.length} figures of the report`}), numberTable(known));
+  $('numbers').replaceChildren(...(first.length ? [numberTable(first), all] : [numberTable(known)]),
+    make('pre', {textContent}));
+}
+const valued = (value, unit) => (value === '' || isNaN(value) ? value : shown(+value, unit.join('/') || '1', 4));
+function numberTable(lines) {
+  return make('table', {}, ...lines.map(([[name, ...unit], values]) => make('tr', {}, make('th', {textContent: name}),
+    ...values.map(value => make('td', {textContent: valued(value, unit)})))));
+}
+// One load has no curve: the value of each column, in words.
+function showPoint(heads, row, columns) {
+  const text = name => {
+    const k = heads.findIndex(head => head.split('/')[0] === name);
+    return k < 0 ? '' : `${name.replaceAll('_', ' ')} ${valued(row[k], heads[k].split('/').slice(1))}`;
+  };
+  $('numbers').replaceChildren(make('p', {textContent: columns.map(text).filter(Boolean).join(', ') + '.'}),
+    hint('A curve needs several loads in the step “Press”, as in 1N:60N:log:8.'));
 }
 const save = trying(async (tool, options, name) => {
   tell(`${tool} makes ${name} …`);
@@ -395,6 +440,25 @@ function addEffect({command, title: what}) {
   tell(`The steps have this effect now: ${what}. Run the steps to see it.`);
 }
 
+// ---- accuracy: the bars of rc-cost, for the noise and the resolution of the scan ----
+
+const measure = trying(async () => {
+  if (!pressed()) throw new Error('Add the step “Press” first: the bars are those of its contact.');
+  const noise = $('noise').value.trim(), words = [...(noise ? [['noise', noise]] : []), ['resolution', true]];
+  tell('rc-cost solves the contact again with other noise and resolution …');
+  const answer = await made('rc-cost', words, 'bars.json');
+  const rows = (await answer.text()).trim().split('\n').map(line => JSON.parse(line)), number = +(frame?.case ?? 1);
+  const figures = rows.filter(row => row.what === 'figure' && row.case === number && (row.bar_relative || row.why));
+  const per = value => (value ? `± ${shown(100 * value, '1', 2)} %` : '');
+  $('bars').replaceChildren(command(decodeURIComponent(answer.headers.get('X-Command'))),
+    make('table', {}, ...figures.map(row => make('tr', {}, make('th', {textContent: row.name.replaceAll('_', ' ')}),
+      ...[shown(row.value, row.unit ?? '1', 4), per(row.bar_relative), row.dominant ? 'mostly by ' + row.dominant : '',
+        row.why ?? ''].map(textContent => make('td', {textContent}))))),
+    hint('In 90 % of the cases the value of the true surface is within the bar.'));
+  document.body.dataset.measured = figures.length;
+  tell('The table below the result has the bars.');
+});
+
 // ---- the beginning ----
 
 const upload = trying(async chosen => {
@@ -426,7 +490,7 @@ trying(async () => {
   } else if (opened !== null) begin(desk.files[opened]);
 })();
 const CLICKS = {
-  judge,
+  judge, measure,
   go: () => start(99), cancel: () => drop(run.number), remove: () => drop(run.number), crop,
   all: () => map.fit(), in: () => map.zoom(1.5), out: () => map.zoom(1 / 1.5),
   quit: trying(async () => {
