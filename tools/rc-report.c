@@ -1291,7 +1291,7 @@ check_effects(struct run *run)
         struct relaxation_law law;
         char modulus[RC_NUMBER_SIZE];
 
-        if (relaxation_law_read(&law, args.relaxation, 1, &t->err) != RC_OK)
+        if (relaxation_law_read(&law, args.relaxation, NULL, &t->err) != RC_OK)
             tool_usage(t, "--relaxation %s: %s", args.relaxation, t->err.text);
         rc_number_text(modulus, 1 / law.material->instant); /* a compliance */
         rc_relaxation_free(law.material);

@@ -174,7 +174,7 @@ read_data(struct run *run)
     double worn[2] = {0, 0};
 
     if (args.relaxation != NULL) {
-        if (relaxation_law_read(&run->material, args.relaxation, 1, &t->err) != RC_OK)
+        if (relaxation_law_read(&run->material, args.relaxation, NULL, &t->err) != RC_OK)
             tool_usage(t, "--relaxation %s: %s", args.relaxation, t->err.text);
         a->relaxes = 1 / run->material.material->instant;
         d->material = run->material.material;

@@ -73,6 +73,51 @@ near "$(field approach wlf.json)" "$(field approach factor.json)" 1e-7 "--shift 
 $solve $solid --shift "$(awk 'BEGIN { printf "%.12g", exp(50e3 / 8.314462618 * (1 / 353.15 - 1 / 293.15)) }')" --load 0.2mN --time 1ms --report factor.json -o t.rcg ball.rcg
 $solve $solid --shift arrhenius,50e3,293.15K --temperature 80degC --load 0.2mN --time 1ms --report arrhenius.json -o t.rcg ball.rcg
 near "$(field approach arrhenius.json)" "$(field approach factor.json)" 1e-7 "  and --shift arrhenius"
+# a case for each factor or temperature: body 1 is where it would be at the time t/a
+$solve $solid --shift 10,1,0.1 --load 0.2mN --time 5ms --report list.json -o list.rcg ball.rcg
+for case in 1:5e-4 2:5e-3 3:5e-2; do
+    sed -n "${case%:*}p" list.json >case.json
+    near "$(field approach case.json)" "$(ball "${case#*:}")" "$coarse_grid" "--shift 10,1,0.1: case ${case%:*} has Hertz's approach at t/a"
+    near "$(field time case.json)" 5e-3 "$rounding" "  and its own time"
+done
+claim "  frames have this time" bash -c "[ \$(rc-info --json list.rcg | grep -c '\"time\": *\"0.005\"') = 6 ]"
+$solve $solid --shift wlf,17.44,51.6,20degC --temperature 10degC:30degC:3 --load 0.2mN --time 2ms,3ms,20us --report list.json -o t.rcg ball.rcg
+for case in 1:10:2e-3 2:20:3e-3 3:30:2e-5; do
+    IFS=: read -r k degrees time <<<"$case"
+    sed -n "${k}p" list.json >case.json
+    a=$(awk -v d="$degrees" 'BEGIN { printf "%.12g", 10 ^ (-17.44 * (d - 20) / (51.6 + d - 20)) }')
+    near "$(field shift case.json)" "$a" 1e-9 "--temperature, a list: the factor at $degrees degC"
+    near "$(field temperature case.json)" "$(awk "BEGIN { print $degrees + 273.15 }")" 1e-9 "  its temperature"
+    near "$(field time case.json)" "$time" "$rounding" "  its time"
+    near "$(field approach case.json)" "$(ball "$(awk "BEGIN { print $time / $a }")")" "$coarse_grid" "  and Hertz's approach"
+done
+rc-synth wave --nx 32 --dx 1um --amplitude 0.1um --wavelength 32um -o wave.rcg
+slide="rc-solve --quiet --threads 1 --nu1 0.5 --E2 rigid --periodic --mean-pressure 0.1MPa"
+$slide $solid --shift 0.1,1,10 --speed 1mm/s,2mm/s,3mm/s --report slide.json -o slide.rcg wave.rcg
+k=0
+for case in 0.1:1e-3 1:2e-3 10:3e-3; do
+    k=$((k + 1))
+    sed -n "${k}p" slide.json >case.json
+    $slide $solid --shift "${case%:*}" --speed "${case#*:}" --report alone.json -o t.rcg wave.rcg
+    near "$(field friction case.json)" "$(field friction alone.json)" 1e-3 "--speed and --shift ${case%:*}: the friction of a run of its own"
+    near "$(field speed case.json)" "${case#*:}" "$rounding" "  its speed"
+    near "$(field dissipated_power case.json)" "$(awk "BEGIN { print $(field friction_force case.json) * ${case#*:} }")" 1e-5 "  power is force times speed"
+done
+# raw data of two decades at each of three temperatures make the master curve above
+awk 'BEGIN { print "T/degC,frequency/Hz,storage/MPa,loss/MPa"; split("10 20 35", T, " ")
+    for (k = 1; k <= 3; k++) for (i = 0; i <= 16; i++) { f = 10 * 10 ^ (i / 8); if (k == 1) f /= 10
+        w = 6.283185307 * f * 10 ^ (-17.44 * (T[k] - 20) / (51.6 + T[k] - 20)); print T[k] "," f "," 1 + 9 * w * w / (1e6 + w * w) "," 9e3 * w / (1e6 + w * w) } }' |
+    sed '1s/^T/temperature/' >raw.csv
+$solve --relaxation raw.csv --shift wlf,17.44,51.6,20degC --temperature 20degC --load 0.2mN --time 50ms --report raw.json -o t.rcg ball.rcg
+near "$(field approach raw.json)" "$(field approach typed.json)" 5e-3 "raw moduli at three temperatures make a master curve"
+awk -F, 'NR == 1 { print "omega/(rad/s),storage/MPa,loss/MPa" } NR > 1 {
+    printf "%.12g,%s,%s\n", 6.283185307179586 * $2 * 10 ^ (-17.44 * ($1 - 20) / (51.6 + $1 - 20)), $3, $4 }' raw.csv >reduced.csv
+$solve --relaxation reduced.csv --load 0.2mN --time 50ms --report reduced.json -o t.rcg ball.rcg
+near "$(field approach raw.json)" "$(field approach reduced.json)" 1e-6 "  that of reduced frequencies"
+near "$(field relaxation_misfit raw.json)" "$(field relaxation_misfit reduced.json)" 1e-3 "  with its misfit"
+$solve --relaxation raw.csv --shift wlf,17.44,51.6,20degC --temperature 26degC --load 0.2mN --time 1us --report warm.json -o t.rcg ball.rcg
+$solve --relaxation reduced.csv --shift "$(awk 'BEGIN { printf "%.12g", 10 ^ (-17.44 * 6 / 57.6) }')" --load 0.2mN --time 1us --report reduced.json -o t.rcg ball.rcg
+near "$(field approach warm.json)" "$(field approach reduced.json)" 1e-6 "  also for another temperature"
 printf 'E;tau\nMPa;ms\n1;inf\n9;1,0\n' >terms.csv
 $solve --relaxation terms.csv --load 0.2mN --time 50ms --report same.json -o t.rcg ball.rcg
 near "$(field approach same.json)" "$(field approach typed.json)" "$same" "a table of terms in other units"
@@ -161,7 +206,12 @@ refuses 2 'line 7: the relaxed modulus .inf. is given twice' "two relaxed moduli
 refuses 2 'give its unit, K or degC' "a temperature without a unit" "$solve $solid --shift wlf,17.44,51.6,20degC --temperature 40 --time 0 $more"
 refuses 2 '--shift wlf .*needs --temperature' "a law without a temperature" "$solve $solid --shift wlf,17.44,51.6,20degC --time 0 $more"
 refuses 2 '--temperature .*without --shift' "a temperature without a law" "$solve $solid --shift 2 --temperature 20degC --time 0 $more"
-refuses 2 'it must be a factor, wlf,C1,C2,T0 or arrhenius,EA,T0' "half a law" "$solve $solid --shift wlf,17.44 --temperature 20degC --time 0 $more"
+refuses 2 'it must be factors, wlf,C1,C2,T0 or arrhenius,EA,T0' "half a law" "$solve $solid --shift wlf,17.44 --temperature 20degC --time 0 $more"
+refuses 2 'relaxes less than the one before' "falling temperatures" "$solve $solid --shift wlf,17.44,51.6,20degC --temperature 40degC,20degC --time 1ms $more"
+refuses 2 '--time has 2 values, and --shift or --temperature 3' "lists of other lengths" "$solve $solid --shift 3,2,1 --time 1ms,2ms $more"
+refuses 2 'give their unit, K or degC' "temperatures without units" "$solve $solid --shift wlf,17.44,51.6,20degC --temperature 20,40 --time 1ms $more"
+refuses 2 'a history has one temperature' "several loads with several factors" "$solve $solid --shift 2,1 --time 0,1ms --load 0.1mN,0.2mN -o t.rcg ball.rcg"
+refuses 2 'needs a law that shifts its rows' "raw data without a law" "$solve --relaxation raw.csv --time 1ms $more"
 refuses 2 'at .* it has no value: C2' "a temperature below the range of WLF" "$solve $solid --shift wlf,17.44,51.6,20degC --temperature -40degC --time 0 $more"
 printf 'tau E\n1 9\n' >bare.txt
 refuses 2 'bare.txt: line 2: E: give its unit' "a table of moduli without a unit" "$solve --relaxation bare.txt --time 0 $more"

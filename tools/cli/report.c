@@ -447,6 +447,8 @@ static const struct rc_figure own[] = {
     {.name = "cylinder", .unit = "m", .title = "Radius of the cylinder"},
     {.name = "depth", .unit = "m", .title = "Depth"},
     {.name = "pass", .title = "Pass"},
+    {.name = "shift", .title = "Shift factor"},
+    {.name = "temperature", .unit = "K", .title = "Temperature"},
     {.name = "strain_gain", .title = "Plastic strain of a pass"},
     {.name = "q", .unit = "rad/m", .title = "Wavenumber"},
     {.name = "c", .unit = "m4", .title = "Power spectral density"},

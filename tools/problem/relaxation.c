@@ -74,6 +74,7 @@ enum kind {
     STORAGE,
     LOSS,
     TAN_DELTA,
+    TEMPERATURE,
     KINDS
 };
 static const struct wanted_column wanted[KINDS] = {
@@ -94,15 +95,19 @@ static const struct wanted_column wanted[KINDS] = {
               .optional = true,
               .needs_unit = true},
     [TAN_DELTA] = {.names = "tandelta tan(delta) tand lossfactor", .ignored = true},
+    [TEMPERATURE] = {.names = "temperature temp",
+                     .unit = UNIT_K,
+                     .optional = true,
+                     .needs_unit = true},
 };
 
-/* True if the table has these columns and no others. */
+/* True if the table has these columns and no others, except temperatures. */
 static bool
 has(const struct columns *c, unsigned kinds)
 {
     unsigned there = 0;
 
-    for (unsigned k = 0; k < KINDS; k++)
+    for (unsigned k = 0; k < TEMPERATURE; k++)
         there |= c->v[k] != NULL ? 1U << k : 0;
     return there == kinds;
 }
@@ -185,17 +190,51 @@ take_table(struct relaxation_law *law, struct columns *c, double shift, struct r
                       "storage loss`");
 }
 
-enum rc_status
-relaxation_law_read(struct relaxation_law *law, const char *text, double shift, struct rc_err *err)
+static double factor_at(const struct relaxation_shift *s, double kelvin);
+
+/* Shifts each row of a table from its temperature to T0: a time there is a_T times as long. Equal times of two
+ * temperatures are made different, far below what a fit resolves. */
+static enum rc_status
+reduce(const struct columns *c, const struct relaxation_shift *shift, struct rc_err *err)
 {
+    static const enum kind inverse[] = {FREQUENCY, OMEGA};
+
+    if (c->v[TAU] != NULL)
+        return rc_err_set(err, "a table of terms has no temperatures: leave out that column");
+    if (shift == NULL || !(shift->wlf || shift->arrhenius))
+        return rc_err_set(err, "the column temperature needs a law that shifts its rows to one "
+                               "temperature: --shift wlf,C1,C2,T0 or arrhenius,EA,T0");
+    for (size_t k = 0; k < c->n; k++) {
+        double a = factor_at(shift, c->v[TEMPERATURE][k]) * (1 + 1e-7 * (double)k / (double)c->n);
+
+        if (!(a > 0) || isinf(a))
+            return rc_err_set(err, "line %zu: at %g K the law of --shift has no value", c->line[k],
+                              c->v[TEMPERATURE][k]);
+        if (c->v[TIME] != NULL)
+            c->v[TIME][k] /= a;
+        for (size_t i = 0; i < sizeof inverse / sizeof *inverse; i++)
+            if (c->v[inverse[i]] != NULL)
+                c->v[inverse[i]][k] *= a;
+    }
+    return RC_OK;
+}
+
+enum rc_status
+relaxation_law_read(struct relaxation_law *law, const char *text,
+                    const struct relaxation_shift *shift, struct rc_err *err)
+{
+    const double factor = shift != NULL && shift->factor.n == 1 ? shift->factor.v[0] : 1;
     struct columns c;
     enum rc_status status;
 
+    law->shift = shift != NULL && shift->factor.n > 1 ? shift : NULL;
     if (strchr(text, ':') != NULL || !columns_file(text))
-        return read_terms(law, text, shift, err);
+        return read_terms(law, text, factor, err);
     status = columns_read(&c, text, wanted, KINDS, true, err);
+    if (status == RC_OK && c.v[TEMPERATURE] != NULL)
+        status = reduce(&c, shift, err);
     if (status == RC_OK)
-        status = take_table(law, &c, shift, err);
+        status = take_table(law, &c, factor, err);
     columns_free(&c);
     return status;
 }
@@ -222,44 +261,110 @@ read_temperature(const char *text, double *kelvin, struct rc_err *err)
     return rc_err_set(err, "temperature %s: give its unit, K or degC, as in 40degC", text);
 }
 
-/* Ferry 1980, Viscoelastic properties of polymers, chapter 11: log10 aT = -C1 (T - T0)/(C2 + T - T0), and ln
- * aT = EA/R (1/T - 1/T0). */
-enum rc_status
-relaxation_shift_read(const char *text, const char *temperature, double *shift, struct rc_err *err)
+/* A temperature, or a list of them. */
+static enum rc_status
+read_temperatures(const char *text, struct numbers *kelvin, struct rc_err *err)
 {
-    static const char *const forms = "it must be a factor, wlf,C1,C2,T0 or arrhenius,EA,T0";
+    const char *unit = text + strcspn(text, "KC");
+
+    if (strpbrk(text, ",:") == NULL) {
+        if ((kelvin->v = malloc(sizeof *kelvin->v)) == NULL)
+            return rc_err_set(err, "out of memory");
+        kelvin->n = 1;
+        return read_temperature(text, kelvin->v, err);
+    }
+    if (*unit == '\0')
+        return rc_err_set(err, "temperatures %s: give their unit, K or degC, as in 20degC,40degC",
+                          text);
+    if (unit_numbers(text, UNIT_K, kelvin, err) != RC_OK)
+        return RC_FAIL;
+    for (size_t k = 0; k < kelvin->n; k++)
+        if (!(kelvin->v[k] > 0))
+            return rc_err_set(err, "temperature %g K: it must be above 0 K", kelvin->v[k]);
+    return RC_OK;
+}
+
+/* Ferry 1980, Viscoelastic properties of polymers, chapter 11: log10 aT = -C1 (T - T0)/(C2 + T - T0), and ln
+ * aT = EA/R (1/T - 1/T0). NAN below the range of WLF. */
+static double
+factor_at(const struct relaxation_shift *s, double kelvin)
+{
     const double gas = 8.314462618; /* J/(mol K) */
-    const bool wlf = strncmp(text, "wlf,", 4) == 0;
-    double c[2], t, t0;
+    const double above = kelvin - s->t0;
+
+    if (s->wlf)
+        return s->c[1] + above > 0 ? pow(10, -s->c[0] * above / (s->c[1] + above)) : NAN;
+    return exp(s->c[0] / gas * (1 / kelvin - 1 / s->t0));
+}
+
+static const char forms[] = "it must be factors, wlf,C1,C2,T0 or arrhenius,EA,T0";
+
+static enum rc_status
+read_factors(const char *text, const char *temperature, struct relaxation_shift *s,
+             struct rc_err *err)
+{
+    struct rc_err why;
+
+    if (unit_numbers(text, UNIT_NONE, &s->factor, &why) != RC_OK)
+        return rc_err_set(err, "%s; a factor is above 0", forms);
+    for (size_t k = 0; k < s->factor.n; k++)
+        if (!(s->factor.v[k] > 0) || isinf(s->factor.v[k]))
+            return rc_err_set(err, "%s; a factor is above 0", forms);
+    return temperature == NULL
+               ? RC_OK
+               : rc_err_set(err, "--temperature has no effect without --shift wlf or arrhenius");
+}
+
+static enum rc_status
+read_law(const char *text, struct relaxation_shift *s, struct rc_err *err)
+{
     char *end;
 
-    if (!wlf && strncmp(text, "arrhenius,", 10) != 0) {
-        *shift = strtod(text, &end);
-        if (end == text || *end != '\0' || !(*shift > 0) || isinf(*shift))
-            return rc_err_set(err, "%s; a factor is above 0", forms);
-        return temperature == NULL
-                   ? RC_OK
-                   : rc_err_set(err,
-                                "--temperature has no effect without --shift wlf or arrhenius");
-    }
-    if (temperature == NULL)
-        return rc_err_set(err, "--shift %s needs --temperature", wlf ? "wlf" : "arrhenius");
     text = strchr(text, ',');
-    for (int k = 0; k < (wlf ? 2 : 1); k++) {
-        c[k] = strtod(text + 1, &end);
-        if (end == text + 1 || *end != ',' || !(c[k] > 0) || isinf(c[k]))
+    for (int k = 0; k < (s->wlf ? 2 : 1); k++) {
+        s->c[k] = strtod(text + 1, &end);
+        if (end == text + 1 || *end != ',' || !(s->c[k] > 0) || isinf(s->c[k]))
             return rc_err_set(err, "%s, with numbers above 0 and T0 in K or degC", forms);
         text = end;
     }
-    if (read_temperature(text + 1, &t0, err) != RC_OK ||
-        read_temperature(temperature, &t, err) != RC_OK)
+    return read_temperature(text + 1, &s->t0, err);
+}
+
+enum rc_status
+relaxation_shift_read(const char *text, const char *temperature, struct relaxation_shift *s,
+                      struct rc_err *err)
+{
+    *s = (struct relaxation_shift){.wlf = strncmp(text, "wlf,", 4) == 0,
+                                   .arrhenius = strncmp(text, "arrhenius,", 10) == 0};
+    if (!s->wlf && !s->arrhenius)
+        return read_factors(text, temperature, s, err);
+    if (temperature == NULL)
+        return rc_err_set(err, "--shift %s needs --temperature", s->wlf ? "wlf" : "arrhenius");
+    if (read_law(text, s, err) != RC_OK || read_temperatures(temperature, &s->kelvin, err) != RC_OK)
         return RC_FAIL;
-    if (wlf && !(c[1] + t - t0 > 0))
-        return rc_err_set(err, "at %s it has no value: C2 = %g K reaches down to %g K", temperature,
-                          c[1], t0 - c[1]);
-    *shift = wlf ? pow(10, -c[0] * (t - t0) / (c[1] + t - t0)) : exp(c[0] / gas * (1 / t - 1 / t0));
-    return *shift > 0 && !isinf(*shift)
-               ? RC_OK
-               : rc_err_set(err, "at %s the factor is %g: the law does not reach so far",
-                            temperature, *shift);
+    if ((s->factor.v = malloc(s->kelvin.n * sizeof *s->factor.v)) == NULL)
+        return rc_err_set(err, "out of memory");
+    s->factor.n = s->kelvin.n;
+    for (size_t k = 0; k < s->kelvin.n; k++) {
+        double t = s->kelvin.v[k], a = s->factor.v[k] = factor_at(s, t);
+
+        if (isnan(a))
+            return rc_err_set(err, "at %g K it has no value: C2 = %g K reaches down to %g K", t,
+                              s->c[1], s->t0 - s->c[1]);
+        if (!(a > 0) || isinf(a))
+            return rc_err_set(err, "at %g K the factor is %g: the law does not reach so far", t, a);
+    }
+    return RC_OK;
+}
+
+double
+relaxation_factor(const struct relaxation_shift *s, size_t k)
+{
+    return s == NULL || s->factor.n == 0 ? 1 : s->factor.v[s->factor.n > 1 ? k : 0];
+}
+
+double
+relaxation_kelvin(const struct relaxation_shift *s, size_t k)
+{
+    return s == NULL || s->kelvin.n == 0 ? NAN : s->kelvin.v[s->kelvin.n > 1 ? k : 0];
 }

@@ -8,19 +8,34 @@
 #include "libcontact/contact.h"
 #include "tools/cli/cli.h"
 
-struct relaxation_law {
-    struct rc_relaxation *material; /* Young's modulus */
-    double misfit;                  /* of a master curve; NAN: the terms were given */
+/* What --shift and --temperature say. */
+struct relaxation_shift {
+    bool wlf, arrhenius;
+    double c[2], t0;       /* C1 and C2 (K), or EA (J/mol); T0 in K        */
+    struct numbers factor; /* of all times; 1 without --shift              */
+    struct numbers kelvin; /* the temperatures of a law; n = 0: none       */
 };
 
-/* The factor of all times of --shift: a number; wlf,C1,C2,T0 or arrhenius,EA,T0 at a temperature, which is
- * NULL if there is none. T and T0 in K or degC, C2 in K, EA in J/mol. */
-enum rc_status relaxation_shift_read(const char *text, const char *temperature, double *shift,
-                                     struct rc_err *err);
+struct relaxation_law {
+    struct rc_relaxation
+        *material; /* Young's modulus, at the temperature if there is one, else at T0 */
+    double misfit; /* of a master curve; NAN: the terms were given */
+    const struct relaxation_shift
+        *shift; /* of several factors, one for each case; NULL: there is one */
+};
 
-/* "Einf,E1:tau1,...", or a table with a heading: `tau E`, or `frequency storage loss` (Hz; `omega`: rad/s).
- * All times are multiplied by `shift`. */
-enum rc_status relaxation_law_read(struct relaxation_law *law, const char *text, double shift,
-                                   struct rc_err *err);
+/* --shift: a list of factors of all times; wlf,C1,C2,T0 or arrhenius,EA,T0 at a list of temperatures, which is NULL
+ * if there is none. T and T0 in K or degC, C2 in K, EA in J/mol. */
+enum rc_status relaxation_shift_read(const char *text, const char *temperature,
+                                     struct relaxation_shift *shift, struct rc_err *err);
+
+/* "Einf,E1:tau1,...", or a table with a heading: `tau E`, `time E`, or `frequency storage loss` (Hz; `omega`: rad/s).
+ * A table of measured moduli may have a column of temperatures, whose rows the law shifts to T0. All times are
+ * multiplied by the factor of `shift`, if it is one; NULL: 1. */
+enum rc_status relaxation_law_read(struct relaxation_law *law, const char *text,
+                                   const struct relaxation_shift *shift, struct rc_err *err);
+/* The factor of case k, and its temperature (K; NAN: none). */
+double relaxation_factor(const struct relaxation_shift *shift, size_t k);
+double relaxation_kelvin(const struct relaxation_shift *shift, size_t k);
 
 #endif

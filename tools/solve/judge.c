@@ -20,10 +20,14 @@ solve_where(const struct run *run, const struct rc_grid *g, char *text, size_t s
     size_t at = 0;
 
     for (size_t k = 0; k < RC_AXES && at < sizeof axes; k++)
-        if (k != RC_LOAD && k != RC_APPROACH && (run->d.point[run->d.at].given >> k & 1))
-            at += (size_t)snprintf(
-                axes + at, sizeof axes - at, ", %s %s", rc_axis_info(k)->name,
-                shown_in_unit(run->d.point[run->d.at].at[k], rc_axis_info(k)->unit));
+        if (k != RC_LOAD && k != RC_APPROACH && (run->d.point[run->d.at].given >> k & 1)) {
+            double value = run->asked != NULL && (k == RC_TIME || k == RC_SPEED)
+                               ? run->asked[run->d.at]
+                               : run->d.point[run->d.at].at[k];
+
+            at += (size_t)snprintf(axes + at, sizeof axes - at, ", %s %s", rc_axis_info(k)->name,
+                                   shown_in_unit(value, rc_axis_info(k)->unit));
+        }
     if (source == NULL)
         source = run->d.t.input.source == NULL ? "standard input" : run->d.t.input.source;
     if (a->load.n > 0) {

@@ -20,7 +20,16 @@ static struct {
 } args;
 
 static struct relaxation_law law;
+static struct relaxation_shift shift;
 static double shortest; /* s, between two times; 0: there are no times */
+
+static struct {
+    struct numbers times; /* of the points */
+    struct numbers real;  /* the times asked for, if several shifts make others of them */
+    bool before;          /* the load acts before the first asked time */
+    size_t increments;    /* on the command line; 0: auto */
+    const struct rc_viscoelastic_figures *found;
+} own;
 
 /* clang-format off */
 static const struct opt options[] = {
@@ -37,13 +46,13 @@ static const struct opt options[] = {
                        .remedy = "solve a coarser map in a second command instead"}),
      .help = "body 1 is viscoelastic: relaxed modulus and terms of E(t), or a file (instead of --E1)"},
     {.name = "shift", .type = OPT_TEXT, .base = &args.shift, .result = true,
-     .arg = "FACTOR|wlf,C1,C2,T0|arrhenius,EA,T0",
+     .arg = "LIST|wlf,C1,C2,T0|arrhenius,EA,T0",
      .needs = RULES({.with = "relaxation"}),
-     .help = "multiply all times of --relaxation, by a factor (default 1) or by the law of Williams, "
+     .help = "multiply all times of --relaxation, by factors (default 1) or by the law of Williams, "
              "Landel and Ferry, or of Arrhenius, for --temperature; EA in J/mol"},
-    {.name = "temperature", .type = OPT_TEXT, .base = &args.temperature, .result = true, .arg = "T",
+    {.name = "temperature", .type = OPT_TEXT, .base = &args.temperature, .result = true, .arg = "LIST",
      .needs = RULES({.with = "shift", .because = "it needs a law"}),
-     .help = "temperature of body 1 for --shift, as 40degC or 313K"},
+     .help = "temperatures of body 1 for --shift, as 40degC or 313K; several are a case each"},
     {.name = NULL},
 };
 static const struct opt time_options[] = {
@@ -68,18 +77,6 @@ forget_relief(struct run *run)
     run->relief = "";
 }
 
-/* The factor of all times. */
-static double
-find_shift(struct tool *t)
-{
-    double shift = 1;
-
-    if (args.shift != NULL &&
-        relaxation_shift_read(args.shift, args.temperature, &shift, &t->err) != RC_OK)
-        tool_usage(t, "--shift %s: %s", args.shift, t->err.text);
-    return shift;
-}
-
 static bool
 ask(struct run *run)
 {
@@ -88,7 +85,10 @@ ask(struct run *run)
 
     if (args.law == NULL)
         return false;
-    if (relaxation_law_read(&law, args.law, find_shift(t), &t->err) != RC_OK)
+    if (args.shift != NULL &&
+        relaxation_shift_read(args.shift, args.temperature, &shift, &t->err) != RC_OK)
+        tool_usage(t, "--shift %s: %s", args.shift, t->err.text);
+    if (relaxation_law_read(&law, args.law, args.shift == NULL ? NULL : &shift, &t->err) != RC_OK)
         tool_usage(t, "--relaxation %s: %s", args.law, t->err.text);
     a->relaxes = 1 / law.material->instant;
     run->material = &law;
@@ -164,6 +164,13 @@ report(struct report *r, const struct run *run)
     report_number(r, "modulus_relaxed", law.material->relaxed, "Pa");
 }
 
+void
+solve_report_shift(struct report *r, const struct run *run)
+{
+    report_number(r, "shift", relaxation_factor(&shift, run->d.at - own.before), NULL);
+    report_number(r, "temperature", relaxation_kelvin(&shift, run->d.at - own.before), "K");
+}
+
 const struct effect solve_effect_relaxation = {
     .name = "relaxation",
     .title = "time",
@@ -181,18 +188,51 @@ const struct effect solve_effect_relaxation = {
 
 /* ---- times ---- */
 
-static struct {
-    struct numbers times; /* of the points */
-    bool before;          /* the load acts before the first asked time */
-    size_t increments;    /* on the command line; 0: auto */
-    const struct rc_viscoelastic_figures *found;
-} own;
-
 static bool
 ask_time(struct run *run)
 {
     (void)run;
     return args.time.n > 0;
+}
+
+/* A list of shifts: body 1 at the factor a and the time t is that at the factor 1 and the time t/a. */
+static void
+reduce_times(struct run *run)
+{
+    const size_t n = shift.factor.n, times = args.time.n;
+    struct tool *t = &run->d.t;
+    double *reduced;
+
+    if (run->steps->n > 1)
+        tool_usage(t, "a list of --shift or --temperature needs one load or approach with --time: "
+                      "a history has one temperature");
+    if (times != 1 && times != n)
+        tool_usage(t,
+                   "--time has %zu values, and --shift or --temperature %zu: give lists of equal "
+                   "length, or one time",
+                   times, n);
+    own.real = (struct numbers){tool_room(t, n, sizeof *own.real.v, "the times"), n, false, false};
+    reduced = tool_room(t, n, sizeof *reduced, "the times");
+    for (size_t k = 0; k < n; k++) {
+        own.real.v[k] = args.time.v[times > 1 ? k : 0];
+        reduced[k] = own.real.v[k] / shift.factor.v[k];
+        if (k > 0 && !(reduced[k] > reduced[k - 1]))
+            tool_usage(t,
+                       "case %zu relaxes less than the one before, %g s over the factor %g: put "
+                       "the cases in the order of their times over their factors, as rising "
+                       "temperatures are",
+                       k + 1, own.real.v[k], shift.factor.v[k]);
+    }
+    free(args.time.v);
+    args.time.v = reduced;
+    args.time.n = n;
+}
+
+/* The time of a case as it was asked for. */
+static double
+real_time(const struct run *run)
+{
+    return run->asked != NULL ? run->asked[run->d.at] : own.found->time;
 }
 
 /* The time of the first load is 0. One load acts from 0 on, also if the first asked time is later. */
@@ -233,6 +273,12 @@ set_times(struct run *run)
     own.times.n = args.time.n + before;
     own.times.v = tool_room(&run->d.t, own.times.n, sizeof *own.times.v, "the times");
     memcpy(own.times.v + before, args.time.v, args.time.n * sizeof *own.times.v);
+    if (own.real.n > 0) {
+        double *asked = tool_room(&run->d.t, own.times.n, sizeof *asked, "the times");
+
+        memcpy(asked + before, own.real.v, own.real.n * sizeof *asked);
+        run->asked = asked;
+    }
 }
 
 static void
@@ -248,6 +294,8 @@ read_time(struct run *run)
     refuse(run, a->layer.n != a->relaxing_layers, "--layer",
            "all layers must relax alike: give " LAYER_RELAXES
            " for the modulus of each, as in 1mm," LAYER_RELAXES ",0.49");
+    if (shift.factor.n > 1)
+        reduce_times(run);
     check_times(run);
     set_times(run);
     if (text == NULL || strcmp(text, "auto") == 0)
@@ -415,15 +463,20 @@ end(struct run *run, const char *where, const struct solution *s)
 static void
 set_keys(struct run *run, struct rc_grid *g)
 {
-    tool_set_number(&run->d.t, g, "time", own.found->time);
+    tool_set_number(&run->d.t, g, "time", real_time(run));
 }
 
 static void
 report_time(struct report *r, const struct run *run)
 {
-    const struct figures from[] = {{rc_figures("viscoelastic"), own.found}, {NULL, NULL}};
+    struct rc_viscoelastic_figures shown = {0};
+    const struct figures from[] = {{rc_figures("viscoelastic"), own.found == NULL ? NULL : &shown},
+                                   {NULL, NULL}};
 
-    (void)run;
+    if (own.found != NULL) {
+        shown = *own.found;
+        shown.time = real_time(run);
+    }
     report_named(r, from, "time equivalent_load");
 }
 
@@ -449,4 +502,5 @@ const struct effect solve_effect_time = {
     .end = end,
     .keys = set_keys,
     .report = report_time,
+    .report_last = solve_report_shift,
 };

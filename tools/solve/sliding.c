@@ -21,6 +21,8 @@ static struct {
 static struct {
     struct rc_relaxation *material; /* of E/(1 - nu^2) */
     const struct rc_sliding_figures *found;
+    struct rc_sliding_figures shown; /* the same at the speed asked for    */
+    struct numbers real;             /* speeds asked for, if several shifts make others of them */
 } own;
 
 /* clang-format off */
@@ -82,6 +84,32 @@ ask(struct run *run)
     return args.speed.n > 0;
 }
 
+/* A list of shifts: body 1 at the factor a and the speed v is that at the factor 1 and the speed a v. */
+static void
+reduce_speeds(struct run *run)
+{
+    const struct numbers *factor = &run->material->shift->factor;
+    const size_t n = factor->n, speeds = args.speed.n;
+    struct tool *t = &run->d.t;
+    double *reduced;
+
+    if (speeds != 1 && speeds != n)
+        tool_usage(t,
+                   "--speed has %zu values, and --shift or --temperature %zu: give lists of equal "
+                   "length, or one speed",
+                   speeds, n);
+    own.real = (struct numbers){tool_room(t, n, sizeof *own.real.v, "the speeds"), n, false, false};
+    reduced = tool_room(t, n, sizeof *reduced, "the speeds");
+    for (size_t k = 0; k < n; k++) {
+        own.real.v[k] = args.speed.v[speeds > 1 ? k : 0];
+        reduced[k] = own.real.v[k] * factor->v[k];
+    }
+    free(args.speed.v);
+    args.speed.v = reduced;
+    args.speed.n = n;
+    run->asked = own.real.v;
+}
+
 static void
 read(struct run *run)
 {
@@ -93,6 +121,8 @@ read(struct run *run)
         tool_usage(
             t, "--relaxation: the relaxed modulus is 0: body 2 would sink without end, and there "
                "is no steady state for --speed");
+    if (run->material->shift != NULL)
+        reduce_speeds(run);
     if (run->steps->n > 1 && args.speed.n > 1 && run->steps->n != args.speed.n)
         tool_usage(t,
                    "--speed has %zu values, and the list of loads or approaches %zu: give lists of "
@@ -133,13 +163,17 @@ look(struct run *run, struct rc_model *m, struct solution *s)
     const struct rc_sliding_figures *f = own.found = rc_sliding_result(m);
     struct rc_contact *c = &s->contact;
 
-    (void)run;
     c->approach = f->approach;
     c->iterations = f->iterations;
     c->convolutions = f->convolutions;
     c->pressure_error = f->pressure_error;
     c->elastic_energy = f->elastic_energy;
     c->converged = f->converged;
+    own.shown = *f;
+    if (own.real.n > 0) {
+        own.shown.speed = own.real.v[run->d.at];
+        own.shown.dissipated_power = f->friction_force * fabs(own.shown.speed);
+    }
     return true;
 }
 
@@ -191,13 +225,15 @@ end(struct run *run, const char *where, const struct solution *s)
 static void
 set_keys(struct run *run, struct rc_grid *g)
 {
-    tool_set_number(&run->d.t, g, "speed", run->d.point[run->d.at].at[RC_SPEED]);
+    tool_set_number(&run->d.t, g, "speed",
+                    own.real.n > 0 ? own.real.v[run->d.at] : run->d.point[run->d.at].at[RC_SPEED]);
 }
 
 static void
 report_by_name(struct report *r, const char *names)
 {
-    const struct figures from[] = {{rc_figures("sliding"), own.found}, {NULL, NULL}};
+    const struct figures from[] = {{rc_figures("sliding"), own.found == NULL ? NULL : &own.shown},
+                                   {NULL, NULL}};
 
     report_named(r, from, names);
 }
@@ -214,8 +250,8 @@ report(struct report *r, const struct run *run)
 static void
 report_last(struct report *r, const struct run *run)
 {
-    (void)run;
     report_by_name(r, "friction_by_heights");
+    solve_report_shift(r, run);
 }
 
 static const char *

@@ -71,7 +71,9 @@ struct run {
     const struct solve_args *args;
     struct physics *physics;                    /* of args; `ask` of a row may change it */
     const struct effect *active[SOLVE_EFFECTS]; /* rows; the last is NULL */
-    const struct relaxation_law *material;      /* of a viscoelastic body 1; NULL: it is elastic */
+    const double *
+        asked; /* the times or speeds of the points, if several shifts make others of them; or NULL */
+    const struct relaxation_law *material; /* of a viscoelastic body 1; NULL: it is elastic */
     const char *relief;          /* advice against high pressures, before "a smaller load" */
     const struct numbers *steps; /* the list of loads or approaches               */
     size_t step;                 /* index in the list, from 0 */
@@ -151,5 +153,8 @@ void solve_report_named(struct report *r, const struct run *run, const char *nam
 void solve_demand_memory(struct run *run, const struct rc_problem *problem);
 /* Prints which effects will be computed, which are left out, and the cost. */
 void solve_plan(struct run *run, const struct rc_problem *problem);
+
+/* relaxation.c: the factor of all times of this case, and the temperature. */
+void solve_report_shift(struct report *report, const struct run *run);
 
 #endif
