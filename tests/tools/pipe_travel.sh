@@ -63,20 +63,21 @@ claim "  the resumed run gives the same bits" bash -c "
 # As after a power failure: the file ends after each of its states, also of a position where nothing flows.
 short="${line/-24um:22um:24/-2um:2um:3} --passes 2 --interval 0"
 $short --checkpoint all.rcg --report all.json -o all-out.rcg flat.rcg
-states=$(grep -ac '^RCGEND 1$' all.rcg)
+states=$(grep -ac '^checkpoint.numbers=' all.rcg) # the last frame of each has its numbers
+before_release && every=1 || every=3
 goes_on() {
     local k
-    for k in $(seq "$states"); do
-        perl -e 'local $/; open F, "all.rcg"; print join "", (<F> =~ /RCG1\n.*?RCGEND 1\n/gs)[0 .. $ARGV[0] - 1]' "$k" >part.rcg
-        $short --checkpoint part.rcg --resume --report part.json -o part-out.rcg flat.rcg || return
+    for k in $(seq 1 $every "$states"); do
+        perl -e 'local $/; open F, "all.rcg"; print join "", (<F> =~ /\G.*?^checkpoint.numbers=.*?RCGEND 1\n/gms)[0 .. $ARGV[0] - 1]' "$k" >part.rcg
+        ${short/--interval 0/} --checkpoint part.rcg --resume --report part.json -o part-out.rcg flat.rcg || return
         tail -n 1 part.json >>ends.json
     done
 }
-claim "  a run continues from each of its $states states" goes_on
+claim "  a run continues from its $states states, each ${every}th is tried" goes_on
 claim "  with the same largest pressure" bash -c "
     right=\$(tail -n 1 all.json | grep -o '\"max_pressure\": [^,]*' | cut -d' ' -f2)
     grep -o '\"max_pressure\": [^,]*' ends.json | cut -d' ' -f2 |
-        awk -v right=\$right -v n=$states '{ d = \$1 / right - 1 } d * d > 1e-8 { exit 1 } END { exit NR != n }'"
+        awk -v right=\$right -v n=$(((states + every - 1) / every)) '{ d = \$1 / right - 1 } d * d > 1e-8 { exit 1 } END { exit NR != n }'"
 
 # Below the limit the body carries the passes with the residual stress that they left (Melan); without it,
 # it would yield. The strain is constant in each slab, so that the excess at the edges of slabs falls with
