@@ -70,12 +70,13 @@ claim "another warning is another kind" bash -c 'sed "s/3 m/9 nm/g; s/nm$/pm/" l
 
 # ---- processes of one tool share the cores ----
 
+unset RC_THREADS
 # A copy with a name of its own, so that no other test runs it at the same time. Two wait for their input.
 cp "$RC_BIN/rc-solve" rc-shares
 if [ -r /proc/self/comm ]; then
     mkfifo one two
-    threads() { ./rc-shares --quiet --load 1mN --estar 1GPa --report threads.json -o /dev/null scans/1.rcg && field threads threads.json; }
-    alone=$(threads)
+    threads() { ./rc-shares --quiet --load 1mN --estar 1GPa --report threads.json -o "$1" scans/1.rcg && field threads threads.json; }
+    alone=$(threads alone.rcg)
     near "$alone" "$(nproc)" "$same" "alone a process has all cores"
     ./rc-shares --quiet --load 1N --estar 1GPa -o /dev/null <one 2>/dev/null &
     ./rc-shares --quiet --load 1N --estar 1GPa -o /dev/null <two 2>/dev/null &
@@ -84,7 +85,8 @@ if [ -r /proc/self/comm ]; then
         [ "$(cat /proc/[0-9]*/comm 2>/dev/null | grep -cx rc-shares)" = 2 ] && break
         sleep 0.2
     done
-    near "$(threads)" "$((alone > 3 ? alone / 3 : 1))" "$same" "beside two others it has a third of them, one at least"
+    near "$(threads beside.rcg)" "$((alone > 3 ? alone / 3 : 1))" "$same" "beside two others it has a third of them, one at least"
+    claim "  and writes the same bytes" cmp alone.rcg beside.rcg
     RC_THREADS=2 ./rc-shares --quiet --load 1mN --estar 1GPa --report threads.json -o /dev/null scans/1.rcg
     near "$(field threads threads.json)" 2 "$same" "RC_THREADS has priority"
     exec 8>&- 9>&-

@@ -24,11 +24,12 @@
 /* Cores of this process, shared with the other processes of this tool: ten that start together do not each take all
  * of them. Processes that share a map have their cores from mpirun. */
 static size_t
-shared_cores(const struct tool *t)
+shared_cores(struct tool *t)
 {
     const size_t cores = rc_threads_available();
     const size_t n = t->ranks == NULL ? machine_siblings("").n : 1;
 
+    t->part = n > 1;
     return cores > n ? cores / n : 1;
 }
 

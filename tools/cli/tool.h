@@ -177,6 +177,7 @@ struct tool {
     void *args;
     /* the options of every tool */
     size_t threads; /* at least 1 */
+    bool part;      /* threads are a part of the cores, because other processes of this tool run */
     size_t memory;  /* bytes; 0: no limit */
     bool quiet, verbose;
     bool debug;              /* verbose too, and prints the memory */

@@ -52,7 +52,7 @@ put_command(const struct cost_case *c, const struct cost_trial *t, FILE *out)
             fputs(i > 0 ? " " : "", out);
             shown_shell_word(out, word[i]);
         }
-        if (tool->threads != rc_threads_available())
+        if (tool->threads != rc_threads_available() && !tool->part)
             fprintf(out, " --threads %zu", tool->threads);
         if (k == 0 && own)
             put_files(tool, out);
