@@ -448,7 +448,7 @@ solve(struct rc_steady *d, double dv[2])
     size_t m = 0;
 
     rest[0] = d->space.first;
-    while (m < STEPS && fabs(rest[m]) > inner_tol * rest[0]) {
+    while (m < STEPS && fabs(rest[m]) > inner_tol * d->space.first) {
         double size;
         if (m > 0)
             next_vector(d, m);
@@ -475,7 +475,7 @@ solve(struct rc_steady *d, double dv[2])
         l.y[k] /= h[k][k];
     }
     l.m = m;
-    d->found.left = m > 0 ? fabs(rest[m]) / rest[0] : 0;
+    d->found.left = m > 0 ? fabs(rest[m]) / d->space.first : 0;
     dv[0] = dv[1] = 0;
     for (size_t k = 0; k < m; k++) {
         for (size_t i = 0; i <= k + 1; i++)
