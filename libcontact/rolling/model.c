@@ -959,11 +959,25 @@ exchange_faces(struct rc_steady *d, struct rc_state *s)
     }
 }
 
+/* The tractions due to v, which may be those of an earlier step. */
+static void
+exchange_border(struct rc_steady *d, struct rc_state *s)
+{
+    rc_state_count(s, &d->motion.slipping, d->n);
+    rc_state_finite(s, 4, d->motion.of_sum);
+    for (size_t k = 0; k < 4 * d->n; k++) {
+        float *at = d->motion.due[k / 2 % 2][k % 2] + k / 4;
+        double due = *at;
+        rc_state_finite(s, 1, &due);
+        *at = (float)due;
+    }
+}
+
 static void
 state(struct rc_model *m, struct rc_state *s)
 {
     struct rolling *f = (struct rolling *)m;
-    const bool path = f->problem.path;
+    const bool path = f->problem.path, border = f->problem.force && !path && !rc_state_is_copy(s);
     struct level *l;
     bool there;
 
@@ -995,7 +1009,7 @@ state(struct rc_model *m, struct rc_state *s)
         }
     }
     there = path && f->stage == THERE;
-    if (!rc_state_holds(s, (there ? 9 : path ? 4 : 2) * l->d->n + 8))
+    if (!rc_state_holds(s, (there ? 9 : path ? 4 : border ? 6 : 2) * l->d->n + (border ? 13 : 8)))
         return;
     rc_state_finite(s, 2, l->d->v);
     RC_STATE_OPEN(s, &l->d->found.estimate);
@@ -1013,6 +1027,8 @@ state(struct rc_model *m, struct rc_state *s)
     }
     if (there)
         exchange_faces(l->d, s);
+    if (border)
+        exchange_border(l->d, s);
 }
 
 static void

@@ -45,6 +45,9 @@ struct rc_steady_space {
 /* If the force is given: the change of v, an unknown of the linear iteration. */
 struct rc_steady_motion {
     float *due[2][2]; /* tractions due to v, by the preconditioner             */
+    size_t slipping;  /* nodes that slipped when they were found; SIZE_MAX: never */
+    bool kept;        /* due and of_sum are those of a state                   */
+    double limit;     /* Pa: the largest sum of q                              */
     double of_sum[4]; /* by rows: the change of v that a sum of tractions needs */
     double weight;    /* of a change of v, beside a vector */
     double rest[RC_STEADY_STEPS + 1][2]; /* the part of a vector that is a change of v */
