@@ -733,7 +733,7 @@ struct rc_friction_law {
     size_t max_steps;
     /* 0: all */
     size_t threads;
-    /* must be NULL: friction cannot be shared among processes */
+    /* processes that share the map; the model of friction takes those of its inner model. NULL: one */
     const struct rc_ranks *ranks;
 };
 

@@ -108,6 +108,7 @@ static const struct tool_info info = {
                 "      --report loop.tsv -o loop.rcg contact.rcg\n",
     .opts = opts,
     .figures = (const char *const[]){"friction", "rolling", NULL},
+    .shares = true,
     .fill = materials_fill,
     .of_materials = (const char *const[]){"E1", "nu1", "E2", "nu2", NULL},
     .reads = READS_STREAM,
@@ -144,6 +145,11 @@ main(int argc, char **argv)
 
     tool_start(&run.d.t, &info, argc, argv, &args);
     check_arguments(&run);
+    if (ranks_of(&run.d.t) != NULL && args.drive.checkpoint != NULL)
+        tool_usage(&run.d.t, "--checkpoint does not work on several processes: leave it out, or "
+                             "take one process");
+    if (ranks_of(&run.d.t) != NULL && run.motion != &slip_motion_path)
+        tool_usage(&run.d.t, "rolling does not work on several processes: take one process");
     run.d.beside = beside;
     drive_open(&run.d, NULL);
     while (tool_interrupted() == 0 &&

@@ -183,7 +183,7 @@ find_shift(const struct rc_discs *d, struct moved *m, const double load[2], doub
     /* Damping of Newton's method for a node: at the start, and where only rounding is left. Not
      * sensitive: half and double change no convolution (52 runs of bench/constants.py). */
     static const double first = 1e-6, least = 1e-14;
-    double at[SUMS], damping = first * (double)d->n;
+    double at[SUMS], damping = first * (double)d->all;
 
     m->nu[0] = m->nu[1] = 0;
     carried(d, m, at);
@@ -207,7 +207,7 @@ find_shift(const struct rc_discs *d, struct moved *m, const double load[2], doub
         }
         if (off <= 1e-12 * size && hypot(load[0] - there[0], load[1] - there[1]) >= off)
             return true; /* the rest is rounding */
-        damping = fmax(damping / 10, least * (double)d->n);
+        damping = fmax(damping / 10, least * (double)d->all);
         memcpy(at, there, sizeof at);
     }
     return hypot(load[0] - at[0], load[1] - at[1]) <= 1e-9 * size;
@@ -288,13 +288,22 @@ rest_of(const struct rc_discs *d, size_t k, const void *with, double *sum)
     sum[1] += y[1][k];
 }
 
+/* Tiles have 16 x 16 nodes, and are nearly square in metres. Their rows are a power of two, so that tiles end
+ * where ranks do. */
+static size_t
+tile_rows(const struct rc_tangential *t)
+{
+    const double part = fmin(fmax(TILE / sqrt(t->shape.dy / t->shape.dx), 1), TILE * TILE);
+
+    return (size_t)exp2(round(log2(floor(part))));
+}
+
 /* Moves the end y of a step back to the discs. */
 static void
 back(const struct rc_discs *d, double *const y[2])
 {
-    /* the tiles have 16 x 16 nodes, and are nearly square in metres */
-    double part = TILE / sqrt(d->t->shape.dy / d->t->shape.dx), slips[3], rest[2];
-    size_t high = (size_t)fmin(fmax(part, 1), TILE * TILE), wide = TILE * TILE / high;
+    double slips[3], rest[2];
+    const size_t high = tile_rows(d->t), wide = TILE * TILE / high;
     size_t across = (d->nx + wide - 1) / wide, down = (d->ny + high - 1) / high;
     struct moved m = {.y = y, .who = STICKING};
 
@@ -401,24 +410,75 @@ beside(size_t i, int step, size_t n, bool round)
     return i;
 }
 
+enum {
+    BESIDE = 3 /* numbers of a node: its slip, and whether it sticks or wants to */
+};
+
+static bool
+wants_to_stick(const struct rc_discs *d, size_t k)
+{
+    return d->face[k] == STICK || d->face[k] == INWARDS;
+}
+
+/* Fetches the rows beside those held here. */
+static void
+fetch_beside(struct rc_discs *d)
+{
+    const size_t each = BESIDE * d->nx, ends[2] = {0, d->ny - 1};
+    double *v = d->beside;
+    bool has[2];
+
+    if (d->t->rows.ranks == NULL)
+        return;
+    for (size_t end = 0; end < 2 && d->ny > 0; end++)
+        for (size_t i = 0; i < d->nx; i++) {
+            const size_t k = ends[end] * d->nx + i;
+            double *to = v + end * each + BESIDE * i;
+            for (int c = 0; c < 2; c++)
+                to[c] = slip_of(d, c, k);
+            to[2] = wants_to_stick(d, k);
+        }
+    rc_ranks_beside(&d->t->rows, d->t->boundary.y, each * sizeof *v, v, v + each, v + 2 * each,
+                    v + 3 * each, has);
+}
+
+/* A node in column x of row y of the map: its slip; false: it does not want to stick. */
+static bool
+sticking_at(const struct rc_discs *d, size_t x, size_t y, double slip[2])
+{
+    const struct rc_rows *rows = &d->t->rows;
+    const double *v;
+    size_t k;
+
+    if (y >= rows->first && y < rows->first + rows->n) {
+        k = (y - rows->first) * d->nx + x;
+        if (!wants_to_stick(d, k))
+            return false;
+        slip[0] = slip_of(d, 0, k);
+        slip[1] = slip_of(d, 1, k);
+        return true;
+    }
+    v = d->beside + BESIDE * ((y == (rows->first + rows->n) % rows->ny ? 3 : 2) * d->nx + x);
+    memcpy(slip, v, 2 * sizeof *slip);
+    return v[2] > 0;
+}
+
 /* True if the residuals of its neighbours would push a sticking node out of its disc again. */
 static bool
 is_pushed_out(const struct rc_discs *d, size_t i, size_t j)
 {
     const struct rc_boundary round = d->t->boundary;
-    size_t k = j * d->nx + i;
-    double sum = 0, own[2] = {-slip_of(d, 0, k), -slip_of(d, 1, k)};
+    const size_t k = j * d->nx + i, row = d->t->rows.first + j, ny = d->t->rows.ny;
+    double sum = 0, own[2] = {-slip_of(d, 0, k), -slip_of(d, 1, k)}, slip[2];
 
     for (int b = -1; b <= 1; b++)
         for (int a = -1; a <= 1; a++) {
-            size_t x = beside(i, a, d->nx, round.x), y = beside(j, b, d->ny, round.y), at;
+            size_t x = beside(i, a, d->nx, round.x), y = beside(row, b, ny, round.y);
             double r = hypot(a * d->t->shape.dx, b * d->t->shape.dy);
-            if ((a == 0 && b == 0) || x == d->nx || y == d->ny)
+            if ((a == 0 && b == 0) || x == d->nx || y == ny)
                 continue;
-            at = y * d->nx + x;
-            if (d->face[at] == STICK || d->face[at] == INWARDS)
-                sum += (d->q[0][k] * (own[0] + slip_of(d, 0, at)) +
-                        d->q[1][k] * (own[1] + slip_of(d, 1, at))) /
+            if (sticking_at(d, x, y, slip))
+                sum += (d->q[0][k] * (own[0] + slip[0]) + d->q[1][k] * (own[1] + slip[1])) /
                        (r * r * r);
         }
     return sum > 0;
@@ -456,6 +516,8 @@ find_faces(struct rc_discs *d, bool sift)
         if (d->face[k] != OFF)
             first_look(d, k);
     }
+    if (sift)
+        fetch_beside(d);
 #pragma omp parallel for num_threads(d->threads) schedule(static)
     for (size_t j = 0; j < d->ny; j++)
         for (size_t i = 0; i < d->nx && sift; i++)
@@ -605,8 +667,8 @@ has_mean(const struct rc_discs *d, double mean[2])
     double at[5];
 
     sum_nodes(d, load_of, d->r, 5, at);
-    mean[0] = at[0] / (double)d->n;
-    mean[1] = at[1] / (double)d->n;
+    mean[0] = at[0] / (double)d->all;
+    mean[1] = at[1] / (double)d->all;
     return hypot(mean[0], mean[1]) > 1e-6 * d->found.slip;
 }
 
@@ -797,6 +859,7 @@ to_first_circle(struct rc_discs *d, const double mean[2])
         double along = d->q[0][k] * x + d->q[1][k] * y, across = d->q[1][k] * x - d->q[0][k] * y;
         far = fmin(far, sqrt(fmax(d->g[k] * d->g[k] - across * across, 0)) - along);
     }
+    far = -rc_ranks_most(d->t->rows.ranks, -far);
     for (size_t k = 0; k < d->n; k++) {
         d->q[0][k] += far * x;
         d->q[1][k] += far * y;
@@ -839,11 +902,16 @@ rc_discs_check_datum(const struct rc_discs *d, double length, struct rc_err *err
     double width;
 
     for (size_t k = 0; k < d->n && rc_repeats(d->t->boundary) == 1; k++) {
-        const size_t at = across ? k / d->nx : k % d->nx;
+        const size_t at = across ? d->t->rows.first + k / d->nx : k % d->nx;
         if (d->g[k] > 0) {
             first = at < first ? at : first;
             end = at + 1 > end ? at + 1 : end;
         }
+    }
+    if (rc_repeats(d->t->boundary) == 1) { /* whole numbers below 2^53 */
+        end = (size_t)rc_ranks_most(d->t->rows.ranks, (double)end);
+        first =
+            (size_t)-rc_ranks_most(d->t->rows.ranks, first == SIZE_MAX ? -0x1p53 : -(double)first);
     }
     width = end > 0 ? (double)(end - first) * cell * length : 0;
     if (d->t->boundary.datum * length > width / 4 || width == 0)
@@ -914,6 +982,15 @@ set_pair(double *to[2], double *map, size_t n)
     to[1] = map + n;
 }
 
+static enum rc_status
+has_memory(const struct rc_discs *d, bool has, struct rc_err *err)
+{
+    const struct rc_shape *all = &d->t->shape;
+
+    return rc_ranks_need(d->t->rows.ranks, has, err,
+                         "out of memory for the friction of %zu x %zu nodes", all->nx, all->ny);
+}
+
 /* The maps of a problem lie in one block. */
 static enum rc_status
 allocate_own(struct rc_discs *d, struct rc_err *err)
@@ -921,8 +998,8 @@ allocate_own(struct rc_discs *d, struct rc_err *err)
     double *map = rc_store_zeros(&d->own, OWN * d->n, sizeof *map);
 
     d->face = rc_store_zeros(&d->own, d->n, 1);
-    if (d->own.failed)
-        return rc_err_set(err, "out of memory for the friction of %zu x %zu nodes", d->nx, d->ny);
+    if (has_memory(d, !d->own.failed, err) != RC_OK)
+        return RC_FAIL;
     set_pair(d->q, map, d->n);
     set_pair(d->u, map + 2 * d->n, d->n);
     return RC_OK;
@@ -932,11 +1009,15 @@ allocate_own(struct rc_discs *d, struct rc_err *err)
 static enum rc_status
 allocate_work(struct rc_discs *d, struct rc_err *err)
 {
+    const struct rc_ranks *ranks = d->t->rows.ranks;
     double *map = rc_store_zeros(&d->own, WORK * d->n, sizeof *map);
     float *single = rc_store_take(&d->own, SINGLE * d->n, sizeof *single);
+    const enum rc_status sums = rc_sums_new(&d->rows, ranks, d->ny, SUMS, MOSTS, d->threads);
 
-    if (rc_sums_new(&d->rows, NULL, d->ny, SUMS, MOSTS, d->threads) != RC_OK || d->own.failed)
-        return rc_err_set(err, "out of memory for the friction of %zu x %zu nodes", d->nx, d->ny);
+    if (ranks != NULL)
+        d->beside = rc_store_zeros(&d->own, 4 * BESIDE * d->nx, sizeof *d->beside);
+    if (has_memory(d, sums == RC_OK && !d->own.failed, err) != RC_OK)
+        return RC_FAIL;
     d->g = map;
     set_pair(d->w, map + d->n, d->n);
     set_pair(d->way.d, map + 3 * d->n, d->n);
@@ -954,12 +1035,18 @@ rc_discs_new(struct rc_tangential *t, struct rc_err *err)
 {
     RC_OWN(rc_discs, d) = calloc(1, sizeof *d);
 
-    if (d == NULL)
-        return rc_err_null(err, "out of memory for friction");
+    if (rc_ranks_need(t->rows.ranks, d != NULL, err, "out of memory for friction") != RC_OK)
+        return NULL;
+    if (t->rows.ranks != NULL && rc_rows_unit(t->shape.nx) % tile_rows(t) != 0)
+        return rc_err_null(err,
+                           "dy is %g times dx: processes cannot share the map, because a tile of "
+                           "friction has %zu rows: take one process, or square cells",
+                           t->shape.dy / t->shape.dx, tile_rows(t));
     *d = (struct rc_discs){.t = t,
                            .nx = t->shape.nx,
-                           .ny = t->shape.ny,
-                           .n = t->shape.nx * t->shape.ny,
+                           .ny = t->rows.n,
+                           .n = t->shape.nx * t->rows.n,
+                           .all = t->shape.nx * t->shape.ny,
                            .threads = t->threads,
                            .asked.most = 200};
     return allocate_own(d, err) == RC_OK && allocate_work(d, err) == RC_OK ? rc_give(&d) : NULL;
@@ -970,8 +1057,8 @@ rc_discs_beside(const struct rc_discs *other, struct rc_err *err)
 {
     RC_OWN(rc_discs, d) = calloc(1, sizeof *d);
 
-    if (d == NULL)
-        return rc_err_null(err, "out of memory for friction");
+    if (rc_ranks_need(other->t->rows.ranks, d != NULL, err, "out of memory for friction") != RC_OK)
+        return NULL;
     *d = *other;
     d->borrows = true;
     d->own = (struct rc_store){0};

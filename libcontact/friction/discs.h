@@ -27,7 +27,8 @@ struct rc_discs_asked {
 
 struct rc_discs {
     struct rc_tangential *t; /* the caller's */
-    size_t nx, ny, n;
+    size_t nx, ny, n;        /* rows and nodes held here */
+    size_t all;              /* nodes of the map         */
     int threads;
     /* Maps. The caller sets g and w, and q to start the iteration from it, before rc_discs_begin. After
      * the last step only q, u and face are still needed. */
@@ -35,8 +36,9 @@ struct rc_discs {
     float *r[2], *z[2];             /* residual along free directions; M r, then the direction */
     float *curve;                   /* D of slipping nodes */
     unsigned char *face;            /* enum rc_face                               */
-    double delta[2];                /* m: the given or computed displacement */
-    double limit;                   /* sum of g                                   */
+    double *beside; /* on ranks: slip and face of the first and last row, and of their neighbours */
+    double delta[2]; /* m: the given or computed displacement */
+    double limit;    /* sum of g                                   */
     struct rc_discs_asked asked;
     struct {
         double estimate; /* estimated relative L1 error of q */

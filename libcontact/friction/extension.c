@@ -22,28 +22,6 @@ power(const void *of, double q)
     return rc_tangential_power(of, q);
 }
 
-/* The grid of the fields: the map with its padding. */
-static struct rc_shape
-framed(const struct rc_shape *s, struct rc_boundary boundary)
-{
-    struct rc_frame f = rc_tangential_frame(s, boundary);
-
-    return (struct rc_shape){s->nx + 2 * f.x, s->ny + 2 * f.y, s->dx, s->dy};
-}
-
-static struct rc_pyramid_base
-base_of(const struct rc_shape *s, struct rc_boundary boundary, int threads)
-{
-    struct rc_shape grid = framed(s, boundary);
-
-    return (struct rc_pyramid_base){.shape = grid,
-                                    .n = grid.ny,
-                                    .count = 1,
-                                    .boundary = boundary,
-                                    .pairs = true,
-                                    .threads = threads};
-}
-
 void
 rc_extension_free(struct rc_extension *e)
 {
@@ -58,22 +36,28 @@ struct rc_extension *
 rc_extension_new(struct rc_tangential *t, struct rc_err *err)
 {
     RC_OWN(rc_extension, e) = calloc(1, sizeof *e);
-    struct rc_pyramid_base base = base_of(&t->shape, t->boundary, t->threads);
-    size_t n = t->shape.nx * t->shape.ny, all = base.shape.nx * base.shape.ny;
+    struct rc_pyramid_base base = rc_pyramid_base_of(&t->shape, t->boundary, t->frame, &t->rows);
+    size_t n = t->shape.nx * t->rows.n, all = base.shape.nx * base.n;
 
-    if (e == NULL)
-        return rc_err_null(err, "out of memory for friction");
-    e->known = rc_store_take(&e->own, n, sizeof *e->known);
-    e->tie = rc_store_take(&e->own, n, sizeof *e->tie);
-    for (size_t k = 0; k < 3; k++)
-        e->n[k] = rc_store_take(&e->own, n, sizeof *e->n[k]);
-    for (size_t c = 0; c < 2; c++)
-        e->v[c] = rc_store_take(&e->own, all, sizeof *e->v[c]);
-    e->row = rc_store_take(&e->own, 3 * (size_t)t->threads * base.shape.nx, sizeof *e->row);
-    if (e->own.failed)
-        return rc_err_null(err, "out of memory for the friction of %zu nodes", n);
+    base.pairs = true;
+    base.threads = t->threads;
+    if (e != NULL) {
+        e->known = rc_store_take(&e->own, n, sizeof *e->known);
+        e->tie = rc_store_take(&e->own, n, sizeof *e->tie);
+        for (size_t k = 0; k < 3; k++)
+            e->n[k] = rc_store_take(&e->own, n, sizeof *e->n[k]);
+        for (size_t c = 0; c < 2; c++)
+            e->v[c] = rc_store_take(&e->own, all, sizeof *e->v[c]);
+        e->row = rc_store_take(&e->own, 3 * (size_t)t->threads * base.shape.nx, sizeof *e->row);
+    }
+    if (rc_ranks_need(t->rows.ranks, e != NULL && !e->own.failed, err,
+                      "out of memory for the friction of %zu x %zu nodes", t->shape.nx,
+                      t->shape.ny) != RC_OK)
+        return NULL;
     e->t = t;
-    e->grid = base.shape;
+    e->first = base.first;
+    e->nx = base.shape.nx;
+    e->ny = base.n;
     e->self = self_of_wave * rc_tangential_wave(t, around / fmin(t->shape.dx, t->shape.dy));
     e->pyramid = rc_pyramid_new(&base, power, t, err);
     return e->pyramid != NULL ? rc_give(&e) : NULL;
@@ -91,9 +75,9 @@ struct pass {
 static bool
 on_map(const struct rc_extension *e, size_t *j, float **to)
 {
-    if (*j < e->t->frame.y || *j - e->t->frame.y >= e->t->shape.ny)
+    if (*j < e->t->above || *j - e->t->above >= e->t->rows.n)
         return false;
-    *j -= e->t->frame.y;
+    *j -= e->t->above;
     *to += e->t->frame.x;
     return true;
 }
@@ -131,7 +115,7 @@ static void
 field_row(const void *of, int c, size_t j, float weight, float *to)
 {
     const struct rc_extension *e = of;
-    size_t nx = e->grid.nx;
+    size_t nx = e->nx;
     const float *v = e->v[c] + j * nx;
 
     for (size_t i = 0; i < nx; i++)
@@ -148,7 +132,7 @@ no_row(const void *of, int c, size_t j, float weight, float *to)
 static float *
 rows_of(const struct rc_extension *e, size_t j, int count)
 {
-    size_t nx = e->grid.nx;
+    size_t nx = e->nx;
     float *row = e->row + 3 * (size_t)omp_get_thread_num() * nx;
 
     for (int c = 0; c < count; c++)
@@ -167,12 +151,13 @@ static struct place
 place_of(const struct rc_extension *e, size_t i, size_t j)
 {
     const struct rc_frame f = e->t->frame;
-    size_t nx = e->t->shape.nx, ny = e->t->shape.ny;
+    const size_t nx = e->t->shape.nx, above = e->t->above;
 
-    if (i >= f.x && i < f.x + nx && j >= f.y && j < f.y + ny)
-        return (struct place){true, (j - f.y) * nx + i - f.x, 1};
+    if (i >= f.x && i < f.x + nx && j >= above && j < above + e->t->rows.n)
+        return (struct place){true, (j - above) * nx + i - f.x, 1};
     return (struct place){false, 0,
-                          rc_frame_fade(i, f.x, nx, f.x) * rc_frame_fade(j, f.y, ny, f.y)};
+                          rc_frame_fade(i, f.x, nx, f.x) *
+                              rc_frame_fade(e->first + j, f.y, e->t->shape.ny, f.y)};
 }
 
 /* ---- fields without a mean ---- */
@@ -181,13 +166,13 @@ place_of(const struct rc_extension *e, size_t i, size_t j)
 static void
 mean_of_field(const struct rc_extension *e, double out[2])
 {
-    size_t n = e->grid.nx * e->grid.ny;
+    const double all = (double)e->t->shape.nx * (double)e->t->shape.ny;
 
     for (int c = 0; c < 2; c++) {
         struct rc_total sum = {0};
-        for (size_t k = 0; k < n; k++)
+        for (size_t k = 0; k < e->nx * e->ny; k++)
             rc_total_add(&sum, (double)e->v[c][k]);
-        out[c] = rc_total_value(&sum) / (double)n;
+        out[c] = rc_ranks_total(e->t->rows.ranks, sum) / all;
     }
 }
 
@@ -197,11 +182,11 @@ static void
 extend(struct rc_extension *e, float *const r[2], const double beyond[2], float *const z[2])
 {
     const struct pass pass = {e, r};
-    size_t nx = e->grid.nx;
+    size_t nx = e->nx;
 
     rc_pyramid_extend(e->pyramid, r == NULL ? no_row : residual_row, &pass, beyond);
 #pragma omp parallel for num_threads(e->t->threads) schedule(static)
-    for (size_t j = 0; j < e->grid.ny; j++) {
+    for (size_t j = 0; j < e->ny; j++) {
         const float *row = rows_of(e, j, 2);
         for (size_t i = 0; i < nx; i++) {
             struct place p = place_of(e, i, j);
@@ -256,7 +241,7 @@ static void
 know(struct rc_extension *e, const float *curve)
 {
 #pragma omp parallel for num_threads(e->t->threads) schedule(static)
-    for (size_t k = 0; k < e->t->shape.nx * e->t->shape.ny; k++) {
+    for (size_t k = 0; k < e->t->shape.nx * e->t->rows.n; k++) {
         double c = e->face[k] == RC_FACE_OFF ? 0 : 1, x = e->q[0][k], y = e->q[1][k], over;
         e->tie[k] = 0;
         e->n[0][k] = e->n[1][k] = (float)c;
@@ -281,11 +266,11 @@ share(struct rc_extension *e)
     /* Keeps shares above the rounding of single precision. Half and double change no bit (52 runs of
      * bench/constants.py). */
     static const double least = 1e-3;
-    size_t nx = e->t->shape.nx, all = e->grid.nx;
+    size_t nx = e->t->shape.nx, all = e->nx;
 
 #pragma omp parallel for num_threads(e->t->threads) schedule(static)
-    for (size_t j = 0; j < e->t->shape.ny; j++) {
-        const float *row = rows_of(e, j + e->t->frame.y, 3) + e->t->frame.x;
+    for (size_t j = 0; j < e->t->rows.n; j++) {
+        const float *row = rows_of(e, j + e->t->above, 3) + e->t->frame.x;
         for (size_t i = 0; i < nx; i++) {
             size_t k = j * nx + i;
             double a = 1 - (double)row[i], b = 1 - (double)row[all + i],
@@ -339,10 +324,10 @@ rc_extension_extend(struct rc_extension *e, float *const r[2])
 void
 rc_extension_row(const struct rc_extension *e, size_t j, const float *row[2])
 {
-    const float *first = rows_of(e, j + e->t->frame.y, 2) + e->t->frame.x;
+    const float *first = rows_of(e, j + e->t->above, 2) + e->t->frame.x;
 
     row[0] = first;
-    row[1] = first + e->grid.nx;
+    row[1] = first + e->nx;
 }
 
 /* ---- E' A E ---- */
@@ -352,10 +337,10 @@ rc_extension_row(const struct rc_extension *e, size_t j, const float *row[2])
 static void
 to_neighbours(struct rc_extension *e, bool first, const double eta[2], float *const z[2])
 {
-    size_t nx = e->grid.nx;
+    size_t nx = e->nx;
 
 #pragma omp parallel for num_threads(e->t->threads) schedule(static)
-    for (size_t j = 0; j < e->grid.ny; j++)
+    for (size_t j = 0; j < e->ny; j++)
         for (size_t i = 0; i < nx; i++) {
             struct place p = place_of(e, i, j);
             size_t at = j * nx + i, k = p.k;
@@ -398,11 +383,11 @@ rc_extension_apply(struct rc_extension *e, float *const r[2], float *const z[2])
         rc_pyramid_gather(e->pyramid, field_row, e, NULL);
     }
 #pragma omp parallel for num_threads(e->t->threads) schedule(static)
-    for (size_t j = 0; j < e->t->shape.ny; j++) {
-        const float *row = rows_of(e, j + e->t->frame.y, 2) + e->t->frame.x;
+    for (size_t j = 0; j < e->t->rows.n; j++) {
+        const float *row = rows_of(e, j + e->t->above, 2) + e->t->frame.x;
         for (size_t i = 0; i < nx; i++) {
             size_t k = j * nx + i;
-            double back[2] = {(double)row[i], (double)row[e->grid.nx + i]};
+            double back[2] = {(double)row[i], (double)row[e->nx + i]};
             rc_free_part(e->face[k], e->q[0][k], e->q[1][k], &back[0], &back[1]);
             for (int c = 0; c < 2; c++)
                 z[c][k] += (float)((double)e->known[k] * back[c]);

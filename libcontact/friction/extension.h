@@ -46,7 +46,8 @@ enum rc_face {
 struct rc_extension {
     struct rc_tangential *t;
     struct rc_pyramid *pyramid;
-    struct rc_shape grid;      /* grid of the fields: the map with its padding */
+    size_t first, nx, ny; /* grid of the fields, the map with its frame: the first row held here,
+                                  columns, rows held here */
     const unsigned char *face; /* the caller's array, like q */
     double *const *q;
     float

@@ -46,8 +46,9 @@ struct work {
 };
 
 struct rc_friction_solver {
-    struct rc_shape shape;
-    size_t n;
+    struct rc_shape shape; /* the whole map */
+    struct rc_rows rows;   /* held here     */
+    size_t n;              /* their nodes   */
     int threads;
     struct law law;
     double cell;
@@ -78,21 +79,26 @@ enum rc_status
 rc_friction_solver_set_pressure(struct rc_friction_solver *s, const double *p, const double *gap,
                                 struct rc_err *err)
 {
-    struct rc_total load = {0}, limit = {0};
+    struct rc_total of[2] = {{0, 0}, {0, 0}}; /* load, limit */
+    double sum[2], touches = 0;
+    size_t bad = 0;
 
-    for (size_t k = 0; k < s->n && p != NULL; k++)
-        if (!(p[k] >= 0) || isinf(p[k]))
-            return rc_err_set(err, "pressure %g Pa at node %zu: it must be finite and not negative",
-                              p[k], k);
-    s->apart = true;
+    while (p != NULL && bad < s->n && p[bad] >= 0 && !isinf(p[bad]))
+        bad++;
+    if (rc_ranks_need(s->rows.ranks, p == NULL || bad == s->n, err,
+                      "pressure %g Pa at node %zu: it must be finite and not negative", p[bad],
+                      s->rows.first * s->shape.nx + bad) != RC_OK)
+        return RC_FAIL;
     for (size_t k = 0; k < s->n; k++) {
         s->discs->g[k] = p == NULL ? 0 : reach(&s->law, p[k]);
-        rc_total_add(&load, p == NULL ? 0 : p[k]);
-        rc_total_add(&limit, s->discs->g[k]);
-        s->apart = s->apart && s->discs->g[k] == 0;
+        rc_total_add(&of[0], p == NULL ? 0 : p[k]);
+        rc_total_add(&of[1], s->discs->g[k]);
+        touches = s->discs->g[k] == 0 ? touches : 1;
     }
-    s->now.load = rc_total_value(&load) * s->cell;
-    s->now.limit = rc_total_value(&limit) * s->cell;
+    rc_ranks_totals(s->rows.ranks, 2, of, sum, 1, &touches);
+    s->apart = touches == 0;
+    s->now.load = sum[0] * s->cell;
+    s->now.limit = sum[1] * s->cell;
     s->now.gap = gap;
     if (s->coupled && p != NULL)
         rc_tangential_pressure(s->t, p, s->pushed);
@@ -304,7 +310,7 @@ rc_friction_solver_keep(struct rc_friction_solver *s)
         struct rc_total sum = {0};
         for (size_t k = 0; k < s->n; k++)
             rc_total_add(&sum, d->q[c][k]);
-        s->past.force[c] = rc_total_value(&sum);
+        s->past.force[c] = rc_ranks_total(s->rows.ranks, sum);
     }
     s->asked = s->begun = s->done = s->tried = false;
 }
@@ -329,7 +335,7 @@ dissipated(const struct rc_friction_solver *s)
     for (size_t k = 0; k < s->n; k++)
         for (int c = 0; c < 2; c++)
             rc_total_add(&sum, dissipated_at(s, c, k));
-    return rc_total_value(&sum) * s->cell * s->unit;
+    return rc_ranks_total(s->rows.ranks, sum) * s->cell * s->unit;
 }
 
 void
@@ -362,7 +368,7 @@ rc_friction_solver_result(struct rc_friction_solver *s, struct rc_friction_incre
         struct rc_total sum = {0};
         for (size_t k = 0; k < s->n; k++)
             rc_total_add(&sum, d->q[c][k]);
-        f->force[c] = rc_total_value(&sum) * s->cell;
+        f->force[c] = rc_ranks_total(s->rows.ranks, sum) * s->cell;
         f->displacement[c] = d->delta[c] * s->unit;
     }
     if (d->found.stick + d->found.slipping > 0)
@@ -458,8 +464,6 @@ rc_friction_solver_check(const struct rc_shape *shape, const struct rc_friction_
 {
     if (rc_shape_check(shape, err) != RC_OK)
         return RC_FAIL;
-    if (p->ranks != NULL)
-        return rc_err_set(err, "friction cannot share its maps among processes: take one process");
     if (!(p->mu > 0) || isinf(p->mu))
         return rc_err_set(err, "coefficient of friction %g: it must be positive and finite", p->mu);
     if (!(p->tau_max >= 0))
@@ -482,10 +486,11 @@ allocate(struct rc_friction_solver *s)
 }
 
 static enum rc_status
-no_memory(const struct rc_shape *shape, struct rc_err *err)
+has_memory(const struct rc_friction_solver *s, bool has, struct rc_err *err)
 {
-    return rc_err_set(err, "out of memory for the friction of %zu x %zu nodes", shape->nx,
-                      shape->ny);
+    return rc_ranks_need(s->rows.ranks, has, err,
+                         "out of memory for the friction of %zu x %zu nodes", s->shape.nx,
+                         s->shape.ny);
 }
 
 /* Takes work k of the main solver, and makes it where it is missing. */
@@ -503,8 +508,8 @@ take_work(struct rc_friction_solver *s, size_t k, double tol, size_t most, struc
             return RC_FAIL;
         for (int c = 0; c < 2 && main->coupled; c++)
             w->pushed[c] = rc_store_zeros(&main->own, main->n, sizeof *w->pushed[c]);
-        if (main->own.failed)
-            return no_memory(&main->shape, err);
+        if (has_memory(main, !main->own.failed, err) != RC_OK)
+            return RC_FAIL;
         w->discs->asked.tol = tol > 0 ? tol : usual;
         if (most > 0)
             w->discs->asked.most = most;
@@ -525,23 +530,25 @@ rc_friction_solver_new(const struct rc_shape *shape, const struct rc_friction_la
 
     if (rc_friction_solver_check(shape, p, &shear, err) != RC_OK)
         return NULL;
-    if ((s = calloc(1, sizeof *s)) == NULL)
-        return rc_err_null(err, "out of memory for friction");
+    s = calloc(1, sizeof *s);
+    if (rc_ranks_need(p->ranks, s != NULL, err, "out of memory for friction") != RC_OK)
+        return NULL;
     *s = (struct rc_friction_solver){.shape = *shape,
-                                     .n = shape->nx * shape->ny,
+                                     .rows = rc_rows_of(p->ranks, shape),
                                      .threads = rc_useful_threads(shape, p->threads),
                                      .law = {shear, p->mu, p->tau_max > 0 ? p->tau_max : INFINITY},
                                      .cell = shape->dx * shape->dy,
                                      .length = sqrt(shape->dx) * sqrt(shape->dy),
                                      .coupled = shear.beta != 0 && !p->uncoupled,
                                      .apart = true};
+    s->n = s->rows.n * shape->nx;
     s->unit = s->length / shear.estar;
     unit = (struct rc_shape){shape->nx, shape->ny, shape->dx / s->length, shape->dy / s->length};
     boundary.datum /= s->length;
     inside = (struct rc_shear){1, shear.kap, s->coupled ? shear.beta : 0};
-    if (!allocate(s))
-        return (void)no_memory(shape, err), NULL;
-    s->t = rc_tangential_new(&unit, boundary, &inside, p->threads, err);
+    if (has_memory(s, allocate(s), err) != RC_OK)
+        return NULL;
+    s->t = rc_tangential_new(s->rows.ranks, &unit, boundary, &inside, p->threads, err);
     if (s->t == NULL || take_work(s, 0, p->tol, p->max_steps, err) != RC_OK)
         return NULL;
     return rc_give(&s);
@@ -552,9 +559,10 @@ rc_friction_solver_beside(struct rc_friction_solver *main, double tol, struct rc
 {
     RC_OWN(rc_friction_solver, s) = calloc(1, sizeof *s);
 
-    if (s == NULL)
-        return rc_err_null(err, "out of memory for friction");
+    if (rc_ranks_need(main->rows.ranks, s != NULL, err, "out of memory for friction") != RC_OK)
+        return NULL;
     *s = (struct rc_friction_solver){.shape = main->shape,
+                                     .rows = main->rows,
                                      .n = main->n,
                                      .threads = main->threads,
                                      .law = main->law,
@@ -565,8 +573,8 @@ rc_friction_solver_beside(struct rc_friction_solver *main, double tol, struct rc
                                      .t = main->t,
                                      .coupled = main->coupled,
                                      .apart = true};
-    if (!allocate(s))
-        return (void)no_memory(&s->shape, err), NULL;
+    if (has_memory(s, allocate(s), err) != RC_OK)
+        return NULL;
     return take_work(s, 1, tol, main->discs->asked.most, err) == RC_OK ? rc_give(&s) : NULL;
 }
 

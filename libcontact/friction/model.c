@@ -87,17 +87,19 @@ static const struct rc_frame_kind frames[] = {
 
 /* Copies maps of n values. Returns the L1 norm of the change over the L1 norm of the new values. */
 static double
-take(size_t n, int maps, const double *const v[], double *const to[])
+take(const struct friction *f, int maps, const double *const v[], double *const to[])
 {
-    struct rc_total change = {0}, all = {0};
+    struct rc_total of[2] = {{0, 0}, {0, 0}}; /* the change, all */
+    double sum[2];
 
     for (int c = 0; c < maps; c++)
-        for (size_t k = 0; k < n; k++) {
-            rc_total_add(&change, fabs(v[c][k] - to[c][k]));
-            rc_total_add(&all, fabs(v[c][k]));
+        for (size_t k = 0; k < f->n; k++) {
+            rc_total_add(&of[0], fabs(v[c][k] - to[c][k]));
+            rc_total_add(&of[1], fabs(v[c][k]));
             to[c][k] = v[c][k];
         }
-    return rc_total_value(&all) > 0 ? rc_total_value(&change) / rc_total_value(&all) : 0;
+    rc_ranks_totals(f->base.rows.ranks, 2, of, sum, 0, NULL);
+    return sum[1] > 0 ? sum[0] / sum[1] : 0;
 }
 
 /* The change by all further passes over the last change: c/(1 - c), if each change is c times the previous
@@ -160,7 +162,8 @@ lower_heights(struct friction *f, struct way *w, struct rc_err *err)
     rc_friction_solver_normal(w->slip, w->less);
     for (size_t k = 0; k < f->n; k++)
         w->less[k] = f->h[k] - w->less[k];
-    w->lowered = rc_highest(f->h, f->n) - rc_highest(w->less, f->n);
+    w->lowered = rc_ranks_highest(f->base.rows.ranks, f->h, f->n) -
+                 rc_ranks_highest(f->base.rows.ranks, w->less, f->n);
     return rc_model_set_heights(w->inner, w->less, err);
 }
 
@@ -258,7 +261,7 @@ step_contact(struct friction *f, struct way *w, struct rc_err *err)
         rc_model_frame(inner, "gap", w->gap, err) != RC_OK)
         return RC_FAIL;
     if (f->alternates)
-        w->pressure_change = take(f->n, 1, &p, &w->p);
+        w->pressure_change = take(f, 1, &p, &w->p);
     w->convolutions += rc_model_number(inner, "convolutions");
     error = rc_model_number(inner, "pressure_error_estimate");
     w->pressure_error = isnan(error) ? 0 : error; /* NAN: the bodies are separated */
@@ -295,7 +298,7 @@ slide(struct friction *f, struct way *w, struct rc_err *err)
         return status;
     w->passes++;
     if (f->alternates && !apart(w)) {
-        w->traction_change = take(f->n, 2, q, w->before);
+        w->traction_change = take(f, 2, q, w->before);
         w->factor = left_over(w->passes, w->traction_change, before);
         if (!(w->factor * w->traction_change <= w->tol / 2 &&
               w->factor * w->pressure_change <= w->tol / 2)) {
@@ -320,7 +323,7 @@ added(const struct friction *f, const struct way *w, double error, double limit,
 
     for (size_t k = 0; k < f->n; k++)
         rc_total_add(&sum, hypot(q[0][k], q[1][k]));
-    size = rc_total_value(&sum);
+    size = rc_ranks_total(f->base.rows.ranks, sum);
     add[0] = size > 0 ? error * size : 0;
     add[1] = w->pressure_error * limit / (f->base.shape.dx * f->base.shape.dy);
     return size;
@@ -385,7 +388,7 @@ begin_fewer(struct friction *f, struct way *w, size_t k, size_t n, struct rc_err
     rc_friction_solver_start(w->slip, q);
     if (f->alternates) {
         memcpy(w->p, f->way->p, f->n * sizeof *w->p);
-        take(f->n, 2, q, w->before);
+        take(f, 2, q, w->before);
     }
     return begin_increment(f, w, &at, err);
 }
@@ -482,16 +485,16 @@ tractions(const struct friction *f, const struct way *w, int c)
 static double
 distance(const struct friction *f, const struct way *a, const struct way *b, double *const lag[2])
 {
-    double sum = 0;
+    struct rc_total sum = {0};
 
     for (size_t k = 0; k < f->n; k++) {
         double d[2];
         for (int c = 0; c < 2; c++)
             d[c] = tractions(f, a, c)[k] - (b == NULL ? 0 : tractions(f, b, c)[k]) -
                    (lag == NULL ? 0 : lag[c][k]);
-        sum += hypot(d[0], d[1]);
+        rc_total_add(&sum, hypot(d[0], d[1]));
     }
-    return sum;
+    return rc_ranks_total(f->base.rows.ranks, sum);
 }
 
 /* The relative error of the increments; NAN: unknown. */
@@ -802,7 +805,7 @@ make_way(struct friction *f, size_t j, const double *h, struct rc_err *err)
         return RC_FAIL;
     if (h == NULL)
         return RC_OK;
-    rc_contact_apart(NULL, &f->base.shape, h, w->gap, &contact);
+    rc_contact_apart(f->base.rows.ranks, &f->base.shape, h, w->gap, &contact);
     return begin(w, w->gap, err);
 }
 
@@ -812,7 +815,8 @@ make(struct friction *f, const double *h, struct rc_err *err)
     const struct rc_friction_problem *o = &f->problem;
     struct rc_shear shear;
 
-    f->n = f->base.shape.nx * f->base.shape.ny;
+    f->n = rc_model_nodes(&f->base);
+    f->problem.law.ranks = f->base.rows.ranks;
     f->known_only = h == NULL;
     f->problem.law.uncoupled = o->coupling == RC_COUPLING_NONE;
     f->way->inner = f->base.inner;

@@ -17,14 +17,43 @@ sample(const struct rc_tangential *t, const struct rc_kernel *kernel, double *to
     size_t nx = t->shape.nx, ny = t->shape.ny;
 
 #pragma omp parallel for num_threads(t->threads) schedule(static)
-    for (size_t i = 0; i < t->columns; i++)
+    for (size_t c = 0; c < t->columns.n; c++)
         for (size_t j = 0; j < t->cy; j++) {
+            const size_t i = t->columns.first + c;
             /* a wave of two nodes is 0 at all nodes in a direction in which the kernel is odd */
             bool none = (i == 0 && j == 0) || (2 * i == nx && kernel->parity & RC_ODD_X) ||
                         (2 * j == ny && kernel->parity & RC_ODD_Y);
-            to[i * t->cy + j] =
+            to[c * t->cy + j] =
                 none ? 0 : kernel->symbol(kernel->of, rc_fft_qx(t->fft, i), rc_fft_qy(t->fft, j));
         }
+}
+
+/* Where a column of a spectrum goes. */
+struct keep {
+    const struct rc_tangential *t;
+    double *to;
+};
+
+static void
+keep_column(void *ctx, size_t i, size_t n, double *column)
+{
+    const struct keep *k = ctx;
+
+    rc_keep_column(k->to, i - k->t->columns.first, n, column);
+}
+
+/* The waves along x and along y, for all ranks. */
+static void
+set_axes(struct rc_tangential *t, size_t columns)
+{
+    const double *x = t->quarter[RC_SHEAR_XX], *y = t->quarter[RC_SHEAR_YY];
+
+    for (size_t c = 0; c < t->columns.n; c++)
+        t->axis[0][t->columns.first + c] = (x[c * t->cy] + y[c * t->cy]) / 2;
+    for (size_t j = 0; j < t->cy && t->columns.n > 0 && t->columns.first == 0; j++)
+        t->axis[1][j] = (x[j] + y[j]) / 2;
+    rc_ranks_each_sum(t->rows.ranks, columns, t->axis[0]); /* the others have zeros */
+    rc_ranks_each_sum(t->rows.ranks, t->cy, t->axis[1]);
 }
 
 static enum rc_status
@@ -37,13 +66,14 @@ set_spectra(struct rc_tangential *t, struct rc_err *err)
     for (int k = 0; k < RC_SHEAR_KERNELS; k++) {
         const struct rc_shear_field field = {&t->shear, (enum rc_shear_which)k};
         const struct rc_kernel kernel = rc_shear_kernel(&field);
+        struct keep keep = {t, t->quarter[k]};
 
         if (t->quarter[k] == NULL)
             continue;
         if (passing == NULL)
             sample(t, &kernel, t->quarter[k]);
-        else if (rc_spectrum_set_by(passing, t->fft, &kernel, t->boundary, rc_keep_column,
-                                    t->quarter[k], err) != RC_OK)
+        else if (rc_spectrum_set_by(passing, t->fft, &kernel, t->boundary, keep_column, &keep,
+                                    err) != RC_OK)
             return RC_FAIL;
     }
     return RC_OK;
@@ -73,7 +103,8 @@ static double
 along(const struct rc_tangential *t, bool x, double q)
 {
     size_t nodes[2], n, wave[2];
-    double at, value[2];
+    double at;
+    const double *value;
 
     rc_fft_period(&t->shape, t->boundary, &nodes[0], &nodes[1]);
     n = nodes[x ? 0 : 1];
@@ -82,11 +113,8 @@ along(const struct rc_tangential *t, bool x, double q)
         return NAN;
     wave[0] = (size_t)at;
     wave[1] = (size_t)ceil(at);
-    for (int k = 0; k < 2; k++) {
-        size_t place = x ? wave[k] * t->cy : wave[k];
-        value[k] = (t->quarter[RC_SHEAR_XX][place] + t->quarter[RC_SHEAR_YY][place]) / 2;
-    }
-    return value[0] + (at - floor(at)) * (value[1] - value[0]);
+    value = t->axis[x ? 0 : 1];
+    return value[wave[0]] + (at - floor(at)) * (value[wave[1]] - value[wave[0]]);
 }
 
 /* The mean of two values; if one is NAN, the other. */
@@ -115,19 +143,55 @@ rc_tangential_power(const struct rc_tangential *t, double q)
     return isnan(power) ? 1 : power;
 }
 
+/* The first column of each rank, where this rank has those from `own` on. */
+static void
+gather_first(const struct rc_tangential *t, size_t own, size_t all, size_t *first)
+{
+    rc_ranks_gather(t->rows.ranks, sizeof own, &own, first);
+    first[rc_ranks_count(t->rows.ranks)] = all;
+}
+
+/* The columns of a kernel that this rank multiplies in single precision. */
+static void
+move_columns(const struct rc_tangential *t, size_t all, enum rc_shear_which kernel, size_t *first,
+             double *to)
+{
+    size_t *single = first + rc_ranks_count(t->rows.ranks) + 1;
+
+    gather_first(t, t->columns.first, all, first);
+    gather_first(t, t->single_columns.first, all, single);
+    rc_ranks_move(t->rows.ranks, t->cy * sizeof *to, first, single, 0, t->quarter[kernel], to);
+}
+
 /* The inverse of (XX -XY; -XY YY), wave by wave; 0 for the mean. The caller chooses units for single
  * precision. */
-static void
-set_inverse(struct rc_tangential *t)
+static enum rc_status
+set_inverse(struct rc_tangential *t, size_t all, struct rc_err *err)
 {
-    for (size_t i = 0; i < t->columns * t->cy; i++) {
-        double a = t->quarter[RC_SHEAR_XX][i], c = t->quarter[RC_SHEAR_YY][i];
-        double b = t->quarter[RC_SHEAR_XY][i], determinant = a * c - b * b;
+    const size_t n = t->single_columns.n * t->cy, ranks = rc_ranks_count(t->rows.ranks);
+    const bool moves = t->rows.ranks != NULL;
+    RC_OWNED double *moved = moves ? rc_alloc(3 * n, sizeof *moved) : NULL;
+    RC_OWNED size_t *first = moves ? rc_alloc(2 * (ranks + 1), sizeof *first) : NULL;
+    const double *of[3];
+
+    if (rc_ranks_need(t->rows.ranks, !moves || (moved != NULL && first != NULL), err,
+                      "out of memory for the shear of %zu x %zu nodes", t->shape.nx,
+                      t->shape.ny) != RC_OK)
+        return RC_FAIL;
+    for (int k = 0; k < 3; k++) {
+        of[k] = moves ? moved + (size_t)k * n : t->quarter[k];
+        if (moves)
+            move_columns(t, all, (enum rc_shear_which)k, first, moved + (size_t)k * n);
+    }
+    for (size_t i = 0; i < n; i++) {
+        double a = of[RC_SHEAR_XX][i], c = of[RC_SHEAR_YY][i];
+        double b = of[RC_SHEAR_XY][i], determinant = a * c - b * b;
         double over = determinant > 0 ? 1 / determinant : 0;
         t->single[RC_SHEAR_XX][i] = (float)(c * over);
         t->single[RC_SHEAR_YY][i] = (float)(a * over);
         t->single[RC_SHEAR_XY][i] = (float)(-b * over);
     }
+    return RC_OK;
 }
 
 /* ---- plan ---- */
@@ -144,17 +208,24 @@ rc_tangential_free(struct rc_tangential *t)
 }
 
 static bool
-allocate(struct rc_tangential *t)
+allocate(struct rc_tangential *t, size_t columns)
 {
-    rc_fft_waves(t->fft, &t->columns, &t->cy);
+    const size_t n = t->columns.n * t->cy, single = t->single_columns.n * t->cy;
+    size_t waves;
+
     t->length = rc_fft_length(t->fft);
     for (int k = 0; k < RC_SHEAR_KERNELS; k++)
         if (k < RC_SHEAR_XZ || t->shear.beta != 0)
-            t->quarter[k] = rc_store_take(&t->own, t->columns * t->cy, sizeof(double));
+            t->quarter[k] = rc_store_take(&t->own, n, sizeof(double));
     for (int k = 0; k < 3; k++)
-        t->single[k] = rc_store_take(&t->own, t->columns * t->cy, sizeof(float));
+        t->single[k] = rc_store_take(&t->own, single, sizeof(float));
+    t->axis[0] = rc_store_zeros(&t->own, columns, sizeof(double));
+    t->axis[1] = rc_store_zeros(&t->own, t->cy, sizeof(double));
+    waves = t->columns.n * sizeof(double);
+    if (t->single_columns.n * sizeof(float) > waves)
+        waves = t->single_columns.n * sizeof(float);
     for (int k = 0; k < 2; k++)
-        t->waves[k] = rc_store_take(&t->own, 2 * t->columns * t->length, sizeof(double));
+        t->waves[k] = rc_store_take(&t->own, 2 * waves * t->length, 1);
     return rc_fft_fold(t->fft, &t->own, &t->wave, &t->mirror);
 }
 
@@ -168,33 +239,43 @@ rc_tangential_frame(const struct rc_shape *shape, struct rc_boundary boundary)
 }
 
 struct rc_tangential *
-rc_tangential_new(const struct rc_shape *shape, struct rc_boundary boundary,
-                  const struct rc_shear *shear, size_t threads, struct rc_err *err)
+rc_tangential_new(const struct rc_ranks *ranks, const struct rc_shape *shape,
+                  struct rc_boundary boundary, const struct rc_shear *shear, size_t threads,
+                  struct rc_err *err)
 {
     RC_OWN(rc_tangential, t) = calloc(1, sizeof *t);
+    size_t columns;
 
-    if (t == NULL)
-        return rc_err_null(err, "out of memory for a plan");
+    if (rc_ranks_need(ranks, t != NULL, err, "out of memory for a plan") != RC_OK)
+        return NULL;
     t->shape = *shape;
+    t->rows = rc_rows_of(ranks, shape);
     t->boundary = rc_boundary_on(shape, boundary);
     t->shear = *shear;
     t->threads = rc_useful_threads(shape, threads);
-    t->fft = rc_fft_new(NULL, NULL, shape, t->boundary, RC_DOUBLE, threads, err);
+    t->fft = rc_fft_new(ranks, NULL, shape, t->boundary, RC_DOUBLE, threads, err);
     if (t->fft == NULL)
         return NULL;
     t->frame = rc_tangential_frame(shape, boundary);
+    t->above = t->rows.n > 0 && t->rows.first == 0 ? t->frame.y : 0;
+    t->below = t->rows.n > 0 && t->rows.first + t->rows.n == shape->ny ? t->frame.y : 0;
     t->framed = rc_has_mean(boundary)
-                    ? rc_fft_new_framed(NULL, t->fft, shape, t->boundary, &t->frame, RC_SINGLE,
+                    ? rc_fft_new_framed(ranks, t->fft, shape, t->boundary, &t->frame, RC_SINGLE,
                                         threads, err)
-                    : rc_fft_new(NULL, t->fft, shape, boundary, RC_SINGLE, threads, err);
+                    : rc_fft_new(ranks, t->fft, shape, boundary, RC_SINGLE, threads, err);
     if (t->framed == NULL)
         return NULL;
-    if (!allocate(t))
-        return rc_err_null(err, "out of memory for the shear of %zu x %zu nodes", shape->nx,
-                           shape->ny);
-    if (set_spectra(t, err) != RC_OK)
+    rc_fft_waves(t->fft, &columns, &t->cy);
+    rc_fft_columns(t->fft, &t->columns.first, &t->columns.n);
+    rc_fft_columns(t->framed, &t->single_columns.first, &t->single_columns.n);
+    if (rc_ranks_need(ranks, allocate(t, columns), err,
+                      "out of memory for the shear of %zu x %zu nodes", shape->nx,
+                      shape->ny) != RC_OK ||
+        set_spectra(t, err) != RC_OK)
         return NULL;
-    set_inverse(t);
+    set_axes(t, columns);
+    if (set_inverse(t, columns, err) != RC_OK)
+        return NULL;
     t->norm = norm_of(t);
     return rc_give(&t);
 }

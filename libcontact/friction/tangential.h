@@ -15,7 +15,9 @@
 #include "libcontact/operator/operator.h"
 
 struct rc_tangential {
-    struct rc_shape shape;
+    struct rc_shape shape; /* the whole map  */
+    struct rc_rows rows;   /* of maps, held here */
+    size_t above, below;   /* rows of the frame before and after them, held here */
     struct rc_boundary boundary;
     struct rc_shear shear;
     int threads;
@@ -24,9 +26,13 @@ struct rc_tangential {
                               double precision */
     struct rc_frame frame; /* the padded map on which the inverse acts */
     struct rc_fft *fft, *framed;
-    size_t columns, length, cy; /* columns of waves; numbers in a column; rows of a quarter of a
-                                   column */
+    size_t length, cy; /* numbers in a column; rows of a quarter of a column */
+    /* Columns of waves held here, of fft and of framed, which differ among ranks. */
+    struct {
+        size_t first, n;
+    } columns, single_columns;
     double *quarter[RC_SHEAR_KERNELS];
+    double *axis[2];     /* of waves along x, along y: mean of XX and YY */
     float *single[3];    /* XX, YY, XY of the inverse */
     void *waves[2];      /* transforms of both maps */
     size_t *wave;        /* the row in the quarter of place t of a column */
@@ -34,9 +40,9 @@ struct rc_tangential {
     struct rc_store own;
 };
 
-struct rc_tangential *rc_tangential_new(const struct rc_shape *shape, struct rc_boundary boundary,
-                                        const struct rc_shear *shear, size_t threads,
-                                        struct rc_err *err);
+struct rc_tangential *rc_tangential_new(const struct rc_ranks *ranks, const struct rc_shape *shape,
+                                        struct rc_boundary boundary, const struct rc_shear *shear,
+                                        size_t threads, struct rc_err *err);
 void rc_tangential_free(struct rc_tangential *t); /* NULL is allowed */
 RC_OWNER(rc_tangential)
 

@@ -137,7 +137,8 @@ struct level {
     bool parts, shared;
     size_t own_first, own; /* computed here */
     size_t first, n;       /* held here     */
-    float *beside;         /* shared level: values of the rows before and after those held here */
+    /* Shared level: values of the rows before and after those held here, component by component. */
+    float *beside;
 };
 
 struct rc_pyramid {
@@ -242,7 +243,7 @@ level_new(struct rc_pyramid *p, struct level *l)
             l->most[c] = rc_store_take(&p->own, some(nodes(l)), sizeof(float));
     }
     if (l->shared)
-        l->beside = rc_store_take(&p->own, 2 * l->x.coarse, sizeof *l->beside);
+        l->beside = rc_store_take(&p->own, 2 * (size_t)p->weights * l->x.coarse, sizeof *l->beside);
     if (!l->parts || l->shared)
         return;
     p->room = rc_store_take(&p->own, some(l->own * l->x.coarse), sizeof *p->room);
@@ -262,6 +263,25 @@ deal(struct rc_pyramid *p)
     p->dealt[0] = 0;
     for (size_t r = 0; r < p->base.count; r++)
         p->dealt[r + 1] += p->dealt[r];
+}
+
+struct rc_pyramid_base
+rc_pyramid_base_of(const struct rc_shape *shape, struct rc_boundary boundary, struct rc_frame frame,
+                   const struct rc_rows *rows)
+{
+    size_t before = rows->first > 0 ? frame.y : 0; /* a rank without rows is the last one */
+    size_t above = rows->n > 0 && rows->first == 0 ? frame.y : 0;
+    size_t below = rows->n > 0 && rows->first + rows->n == rows->ny ? frame.y : 0;
+    size_t both = rc_rows_unit(shape->nx) | frame.y;
+
+    return (struct rc_pyramid_base){
+        .shape = {shape->nx + 2 * frame.x, shape->ny + 2 * frame.y, shape->dx, shape->dy},
+        .first = rows->first + before,
+        .n = above + rows->n + below,
+        .unit = both & (~both + 1), /* the largest power of 2 in both */
+        .count = rc_ranks_count(rows->ranks),
+        .boundary = boundary,
+        .ranks = rows->ranks};
 }
 
 struct rc_pyramid *
@@ -504,7 +524,7 @@ values(const struct level *l, int c, size_t k)
 
     if (k >= l->first && k < l->first + l->n)
         return l->value[c] + (k - l->first) * n;
-    return l->beside + (k == (l->first + l->n) % l->y.coarse ? n : 0);
+    return l->beside + (2 * (size_t)c + (k == (l->first + l->n) % l->y.coarse ? 1 : 0)) * n;
 }
 
 /* Row j, of level l - 1, of P of the values of level l. */
@@ -582,14 +602,17 @@ pairs_row(const struct level *l, enum down what, float k, float *const coarse[2]
 }
 
 static void
-share_beside(const struct rc_pyramid *p, const struct level *l)
+share_beside(const struct rc_pyramid *p, const struct level *l, int count)
 {
     const struct rc_rows rows = {p->base.ranks, l->y.coarse, l->first, l->n};
     size_t n = l->x.coarse;
     bool has[2];
 
-    rc_ranks_beside(&rows, p->base.boundary.y, n * sizeof(float), l->value[0],
-                    l->value[0] + (some(l->n) - 1) * n, l->beside, l->beside + n, has);
+    for (int c = 0; c < count; c++) {
+        float *to = l->beside + 2 * (size_t)c * n;
+        rc_ranks_beside(&rows, p->base.boundary.y, n * sizeof(float), l->value[c],
+                        l->value[c] + (some(l->n) - 1) * n, to, to + n, has);
+    }
 }
 
 /* A row of a level, from the values of the next level in `coarse`. */
@@ -633,7 +656,7 @@ down(struct rc_pyramid *p, enum down what)
         for (size_t j = 0; j < l->n; j++)
             down_row(p, l, what, j);
         if (l->shared)
-            share_beside(p, l);
+            share_beside(p, l, what == SURROUNDINGS ? p->weights : p->components);
     }
 }
 

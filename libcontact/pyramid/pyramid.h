@@ -39,10 +39,14 @@ struct rc_pyramid_base {
     size_t unit;  /* the first row of each rank is a multiple of this even number */
     size_t count; /* number of ranks that share it */
     struct rc_boundary boundary;
-    bool pairs; /* pairs of numbers, with matrices as weights; one rank only */
+    bool pairs; /* pairs of numbers, with matrices as weights */
     int threads;
     const struct rc_ranks *ranks; /* NULL: none                                              */
 };
+/* The same of a map of this shape in a frame, of which this rank holds these rows with their part of the
+ * frame. */
+struct rc_pyramid_base rc_pyramid_base_of(const struct rc_shape *shape, struct rc_boundary boundary,
+                                          struct rc_frame frame, const struct rc_rows *rows);
 /* The power a at wave number q (per unit of the spacings). */
 typedef double rc_power_at(const void *of, double q);
 /* NULL when memory is short on any rank. */

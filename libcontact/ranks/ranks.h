@@ -25,6 +25,7 @@
  *                         reserve (tiles.c)
  *   selection of nodes    depends on eight neighbours: neighbouring rows are fetched (working_set.c)
  *   edge of the contact   the same (result.c)
+ *   slip of neighbours    the same (discs.c)
  *   extension             each rank makes its rows of coarser grids, with the neighbouring rows; the first
  *                         grid that is small, or on which a rank would begin with an odd row, is sent to
  *                         all ranks as a whole, and from there on each does the same (pyramid.c)

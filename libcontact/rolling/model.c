@@ -1108,6 +1108,8 @@ make(struct rolling *f, struct rc_err *err)
 {
     struct rc_friction_law *o = &f->problem.law;
 
+    if (f->base.rows.ranks != NULL)
+        return rc_err_set(err, "rolling cannot share its maps among processes: take one process");
     if (rc_friction_solver_check(&f->base.shape, o, &f->shear, err) != RC_OK ||
         rc_model_same_boundary(&f->base, o->boundary, err) != RC_OK)
         return RC_FAIL;

@@ -891,7 +891,7 @@ rc_steady_new(const struct rc_shape *shape, struct rc_boundary boundary,
     d->n = shape->nx * shape->ny;
     d->asked.force = force;
     d->asked.path = path;
-    if ((d->t = rc_tangential_new(shape, boundary, shear, threads, err)) == NULL)
+    if ((d->t = rc_tangential_new(NULL, shape, boundary, shear, threads, err)) == NULL)
         return NULL;
     d->threads = d->t->threads;
     d->self = self_of(d->t);

@@ -183,27 +183,6 @@ make_room(struct rc_preconditioner *e, struct rc_err *err)
                       op->shape.ny);
 }
 
-/* The pyramid's finest grid, on a map shared by `count` ranks: this rank holds `rows`, with its part of the
- * frame. */
-static struct rc_pyramid_base
-base_of(const struct rc_shape *whole, struct rc_boundary boundary, struct rc_frame frame,
-        size_t count, const struct rc_rows *rows)
-{
-    double unit = sqrt(whole->dx) * sqrt(whole->dy);
-    size_t before = rows->first > 0 ? frame.y : 0; /* a rank without rows is the last one */
-    size_t above = rows->n > 0 && rows->first == 0 ? frame.y : 0;
-    size_t below = rows->n > 0 && rows->first + rows->n == rows->ny ? frame.y : 0;
-    size_t both = rc_rows_unit(whole->nx) | frame.y;
-
-    return (struct rc_pyramid_base){.shape = {whole->nx + 2 * frame.x, whole->ny + 2 * frame.y,
-                                              whole->dx / unit, whole->dy / unit},
-                                    .first = rows->first + before,
-                                    .n = above + rows->n + below,
-                                    .unit = both & (~both + 1), /* the largest power of 2 in both */
-                                    .count = count,
-                                    .boundary = boundary};
-}
-
 static bool
 splits(const struct rc_preconditioner *e)
 {
@@ -229,11 +208,12 @@ struct rc_preconditioner *
 rc_preconditioner_new(struct rc_operator *op, struct rc_err *err)
 {
     RC_OWN(rc_preconditioner, e) = calloc(1, sizeof *e);
-    struct rc_pyramid_base base =
-        base_of(&op->whole, op->boundary, op->frame, rc_ranks_count(op->rows.ranks), &op->rows);
+    const double unit = sqrt(op->whole.dx) * sqrt(op->whole.dy);
+    const struct rc_shape shape = {op->whole.nx, op->whole.ny, op->whole.dx / unit,
+                                   op->whole.dy / unit};
+    struct rc_pyramid_base base = rc_pyramid_base_of(&shape, op->boundary, op->frame, &op->rows);
     enum rc_status status;
 
-    base.ranks = op->rows.ranks;
     base.threads = rc_useful_threads(&op->shape, op->threads);
     if (e == NULL) {
         status = rc_err_set(err, "out of memory for the error estimate of %zu x %zu nodes",

@@ -436,8 +436,6 @@ test_nonsense_is_refused(void **state)
     refused(bad, "layers");
     bad = good, bad.pair = (struct rc_pair){.estar = 0};
     refused(bad, "moduli of both bodies are 0: give E*");
-    bad = good, bad.ranks = (const struct rc_ranks *)&shape; /* never looked at */
-    refused(bad, "processes");
 
     assert_int_equal(rc_friction_solver_step(slip, &err), RC_FAIL);
     assert_non_null(strstr(err.text, "neither a force nor a displacement"));

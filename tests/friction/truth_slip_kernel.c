@@ -246,7 +246,7 @@ test_free_sums_are_double_sums(void **state)
         const struct rc_shape *shape = &shapes[s];
         size_t nx = shape->nx, ny = shape->ny, n = nx * ny;
         const struct rc_lattice lattice = {shape->dx, shape->dy, 1, 1};
-        struct rc_tangential *t = rc_tangential_new(shape, RC_FREE, &shear, 2, NULL);
+        struct rc_tangential *t = rc_tangential_new(NULL, shape, RC_FREE, &shear, 2, NULL);
         struct maps m = maps_new(n, 3 + s);
         double *table[RC_SHEAR_KERNELS], *u[3], size[3] = {0, 0, 0};
 
@@ -319,7 +319,8 @@ test_sums_of_waves_are_double_sums(void **state)
             const struct line_pair pair = {shear.kap, shear.beta,
                                            rc_boundary_on(shape, boundaries[b]).datum};
             const bool along_x = boundaries[b].x;
-            struct rc_tangential *t = rc_tangential_new(shape, boundaries[b], &shear, 2, NULL);
+            struct rc_tangential *t =
+                rc_tangential_new(NULL, shape, boundaries[b], &shear, 2, NULL);
             struct maps m = maps_new(n, 3 + s), pushed = maps_new(n, 3 + s);
             struct dense d;
             double size = 0, off = 0;
@@ -373,7 +374,7 @@ test_the_inverse_in_single_precision(void **state)
 
     (void)state;
     for (size_t s = 0; s < SHAPES; s++) {
-        struct rc_tangential *t = rc_tangential_new(&shapes[s], RC_PERIODIC, &shear, 2, NULL);
+        struct rc_tangential *t = rc_tangential_new(NULL, &shapes[s], RC_PERIODIC, &shear, 2, NULL);
         struct maps m = maps_new(shapes[s].nx * shapes[s].ny, 5);
         float *u[2];
 
@@ -410,7 +411,7 @@ test_waves_of_planes_and_strips(void **state)
     const struct rc_shape plane = {256, 256, 1, 1}, strip = {4096, 1, 1, 1};
     const struct rc_lattice lattice = {1, 1, 1, 1};
     const struct rc_shear shear = {1, 0.5, 0};
-    struct rc_tangential *t = rc_tangential_new(&plane, RC_FREE, &shear, 2, NULL);
+    struct rc_tangential *t = rc_tangential_new(NULL, &plane, RC_FREE, &shear, 2, NULL);
     double self = 0, own, fall;
 
     (void)state;
@@ -427,7 +428,7 @@ test_waves_of_planes_and_strips(void **state)
         assert_true(fabs(rc_tangential_power(t, q) - 1) < 0.1);
     }
     rc_tangential_free(t);
-    t = rc_tangential_new(&strip, RC_FREE, &shear, 2, NULL);
+    t = rc_tangential_new(NULL, &strip, RC_FREE, &shear, 2, NULL);
     assert_non_null(t);
     fall = rc_tangential_wave(t, 0.01) - rc_tangential_wave(t, 0.02);
     print_message("a strip: falls by %.4f, as a logarithm by %.4f\n", fall,
@@ -466,7 +467,7 @@ test_waves_are_plane_and_antiplane(void **state)
                 couples += (k == 0 ? 1 : -1) * (1 - 2 * nu) / (2 * g);
             }
         assert_int_equal(rc_pair_shear(&pairs[p], NAN, &shear, NULL), RC_OK);
-        t = rc_tangential_new(&shape, RC_PERIODIC, &shear, 2, NULL);
+        t = rc_tangential_new(NULL, &shape, RC_PERIODIC, &shear, 2, NULL);
         assert_non_null(t);
         for (size_t w = 0; w < sizeof waves / sizeof *waves; w++) {
             double kx = 2 * exact_pi * waves[w][0] / (shape.dx * (double)shape.nx);
@@ -516,7 +517,7 @@ test_loads_and_displacements_are_reciprocal(void **state)
         for (int boundary = 0; boundary < 4; boundary++) {
             size_t n = shapes[s].nx * shapes[s].ny;
             struct rc_tangential *t = rc_tangential_new(
-                &shapes[s], rc_boundary_of(boundary & 1, boundary & 2), &shear, 2, NULL);
+                NULL, &shapes[s], rc_boundary_of(boundary & 1, boundary & 2), &shear, 2, NULL);
             struct maps a = maps_new(n, 11), b = maps_new(n, 12);
             double size = 0, there, back;
 

@@ -46,6 +46,18 @@ claim "wear" same "$wear --distance 0.1m,1m pressed.rcg"
 claim "wear to a contact area" same "$wear --distance 10m --until area=0.2 pressed.rcg"
 claim "wear of a track" same "$wear --motion track:1mm --distance 0.1m pressed-ball.rcg"
 claim "wear of two rough bodies" same "$wear --motion sliding --counter rough.rcg --tol 0.1 --distance 0.05m pressed.rcg"
+slip="rc-slip --mu 0.3 --quiet --output pressure,traction-x,traction-y,slip-x,slip-y,state,slip,dissipation"
+for edges in "" --periodic; do
+    rc-solve --quiet $edges --E1 3GPa --nu1 0.3 --E2 3GPa --nu2 0.3 --mean-pressure 60MPa -o similar$edges.rcg rough.rcg
+    rc-solve --quiet $edges --E1 3GPa --nu1 0.3 --E2 rigid --mean-pressure 60MPa -o dissimilar$edges.rcg rough.rcg
+    claim "friction, loads and forces${edges:+, periodic}" same \
+        "$slip --path '0.3N,0,0; 0.3N,50mN,0; 0.2N,30mN,20mN; 0,0,0; 0.3N,20mN,0' --increments 4 similar$edges.rcg"
+    claim "  a displacement" same "$slip --displacement 0.5um,0.2um --tau-max 60MPa similar$edges.rcg"
+    claim "  dissimilar bodies" same "$slip --tangential 30mN --increments 8 --tol 1e-2 dissimilar$edges.rcg"
+done
+claim "friction, several threads" same "RC_THREADS=2 $slip --tangential 30mN,30mN similar--periodic.rcg"
+# Spectra in double and in single precision have other columns on each process; on the ball only one has contact.
+claim "friction of a ball" same "$slip --nu 0.3 --tangential 20uN,10uN pressed-ball.rcg"
 
 # ---- states ----
 
@@ -85,6 +97,11 @@ claim "  the message is printed once" test "$(grep -c 'are NaN' refuses.err)" = 
 refuses 1 'repeats along one axis only cannot be shared among processes' "yield on a map that repeats along one axis" \
     "$run $yield --periodic=x --load 40mN -o no.rcg ball.rcg"
 claim "  the message is printed once" test "$(grep -c 'along one axis' refuses.err)" = 1
+refuses 2 '--checkpoint does not work on several processes' "a checkpoint of friction" \
+    "$run $slip --tangential 30mN --checkpoint kept.rcg -o no.rcg similar.rcg"
+refuses 2 'rolling does not work on several processes' "rolling" "$run $slip --creep 1e-3,0 --steady -o no.rcg similar.rcg"
+refuses 1 'friction carries less than' "a force above the limit" "$run $slip --tangential 9N -o no.rcg similar.rcg"
+claim "  the message is printed once" test "$(grep -c 'carries less' refuses.err)" = 1
 # An allocation of the second process fails: the work is done nevertheless, or all end with status 1 and a message.
 memory() {
     local command=$1 n last status
@@ -102,6 +119,7 @@ memory() {
 }
 export ASAN_OPTIONS="${ASAN_OPTIONS-}:verify_asan_link_order=0"
 claim "allocations of one process fail: yield" memory "$yield --tol 0.1 --load 40mN ball.rcg"
+claim "  friction" memory "rc-slip --nu 0.3 --mu 0.3 --quiet --tol 0.1 --tangential 20uN pressed-ball.rcg"
 claim "  wear" memory "$wear --distance 0.1m --tol 0.1 pressed-ball.rcg"
 killed() {
     local launcher victim= child

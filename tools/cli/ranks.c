@@ -203,6 +203,34 @@ ranks_sum(const struct tool *t, double v)
     return v;
 }
 
+/* Adds v to sum[0], and the rounding error to sum[1]. */
+static void
+add_exactly(double sum[2], double v)
+{
+    const double to = sum[0] + v;
+
+    sum[1] += fabs(sum[0]) >= fabs(v) ? (sum[0] - to) + v : (v - to) + sum[0];
+    sum[0] = to;
+}
+
+double
+ranks_total(const struct tool *t, const double *v, size_t n)
+{
+    double own[2] = {0, 0}, all[2] = {0, 0};
+
+    if (t->ranks == NULL)
+        return rc_sum(v, n);
+    for (size_t k = 0; k < n; k++)
+        add_exactly(own, v[k]);
+    for (size_t r = 0; r < ranks_count(t); r++) {
+        double part[2] = {own[0], own[1]};
+        ranks_share(t, r, part, sizeof part);
+        add_exactly(all, part[0]);
+        all[1] += part[1];
+    }
+    return isfinite(all[0]) ? all[0] + all[1] : all[0];
+}
+
 double
 ranks_most(const struct tool *t, double v)
 {

@@ -33,6 +33,8 @@ bool ranks_speak(const struct tool *tool);
 void ranks_rows(const struct tool *tool, const struct rc_shape *shape, size_t *first, size_t *n);
 /* Sums and largest values over all processes, and the CRC-32 of all parts in their order. */
 double ranks_sum(const struct tool *tool, double v);
+/* rc_sum of n values on each process, independent of their number. */
+double ranks_total(const struct tool *tool, const double *v, size_t n);
 double ranks_most(const struct tool *tool, double v);
 uint32_t ranks_crc(const struct tool *tool, uint32_t crc, size_t bytes);
 /* RC_OK if all processes have RC_OK; else RC_FAIL on all, with the message of the first one that failed. */
@@ -72,6 +74,7 @@ _Noreturn void ranks_die(struct tool *tool, int status, const char *text,
 #define ranks_rows(tool, shape, first, n)                                                          \
     ((void)(tool), (void)(*(first) = 0), (void)(*(n) = (shape)->ny))
 #define ranks_sum(tool, v) ((void)(tool), (v))
+#define ranks_total(tool, v, n) ((void)(tool), rc_sum(v, n))
 #define ranks_most(tool, v) ((void)(tool), (v))
 #define ranks_crc(tool, crc, bytes) ((void)(tool), (void)(bytes), (crc))
 #define ranks_agree(tool, status, err) ((void)(tool), (void)(err), (status))

@@ -40,21 +40,23 @@ check_pressure(struct slip_run *run)
     tool_demand_finite(&run->d.t, run->p, "recompute the map");
     for (size_t k = 0; k < n; k++)
         pulled += run->p->v[k] < 0;
+    pulled = (size_t)ranks_sum(&run->d.t, (double)pulled);
     if (pulled > 0 || rc_grid_get(run->p, "adhesion") != NULL)
         tool_refuse(&run->d.t, run->p,
                     "it is the net pressure of an adhesive contact, negative at %zu of %zu nodes, "
                     "and friction needs the pressure of the touching nodes alone: solve the "
                     "contact without --adhesion",
-                    pulled, n);
+                    pulled, rc_shape_of(run->p)->nx * rc_shape_of(run->p)->ny);
     touch = contact_frame(&run->d.t, run->p, run->contact);
     for (size_t k = 0; k < n; k++)
         without += rc_in_contact(run->p->v[k]) && !rc_in_contact(touch->v[k]);
+    without = (size_t)ranks_sum(&run->d.t, (double)without);
     if (without > 0)
         tool_refuse(&run->d.t, run->contact,
                     "%zu nodes have a pressure, but are not in contact according to this frame: "
                     "solve the contact again",
                     without);
-    run->load = rc_sum(run->p->v, n) * run->p->dx * run->p->dy;
+    run->load = ranks_total(&run->d.t, run->p->v, n) * run->p->dx * run->p->dy;
 }
 
 /* A new contact can be solved only for elastic bodies with known heights. */
@@ -171,6 +173,7 @@ new_contact(const struct slip_run *run, double tol, struct rc_err *err)
     const struct rc_problem problem = {.boundary = run->boundary,
                                        .pair = run->bodies.pair,
                                        .threads = run->d.t.threads,
+                                       .ranks = ranks_of(&run->d.t),
                                        .tol = run->alternates ? tol / 4 : tol};
 
     return rc_elastic_new(rc_shape_of(run->p), run->solves ? run->height->v : run->p->v, &problem,
@@ -307,6 +310,7 @@ forecast(struct slip_run *run)
     const struct rc_problem contact = {.boundary = run->boundary,
                                        .pair = run->bodies.pair,
                                        .load = fmax(run->load, 1),
+                                       .ranks = ranks_of(&run->d.t),
                                        .threads = run->d.t.threads};
     const size_t more = run->law.fewer, ways = 1 + more;
     /* maps of the passes of dissimilar bodies, of the first way and of the others; of the lag; of the state

@@ -124,6 +124,7 @@ say_what_yielded(struct slip_run *run, const char *where)
 
     for (size_t k = 0; k < rc_grid_nodes(run->p); k++)
         most = fmax(most, run->p->v[k]);
+    most = ranks_most(&run->d.t, most);
     if (rc_grid_number(run->p, "yield", &limit) ||
         (rc_grid_number(run->p, "hardness", &limit) && most >= limit * (1 - 1e-9)))
         tool_warn(
