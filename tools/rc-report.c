@@ -19,17 +19,24 @@
 static struct args {
     struct physics physics;
     struct scene_args effects;
-    double outliers, nu;
+    double outliers, spikes, nu;
     struct numbers noise;
     bool mirror;
     const char *title, *relaxation, *travel;
     size_t passes;
-} args = {
-    .physics = PHYSICS_NONE, .effects = SCENE_NOTHING, .outliers = NAN, .nu = NAN, .passes = 1};
+} args = {.physics = PHYSICS_NONE,
+          .effects = SCENE_NOTHING,
+          .outliers = NAN,
+          .spikes = NAN,
+          .nu = NAN,
+          .passes = 1};
 
 #define AT(field) .at = offsetof(struct args, field)
 /* clang-format off */
 static const struct opt opts[] = {
+    {.name = "spikes", .type = OPT_NUMBER, AT(spikes), .min = 0, .max = INFINITY, .above = true,
+     .against = RULES({.with = "outliers", .because = "both remove single points"}), .arg = "T",
+     .help = "drop spikes of 1 to 9 points that stand out by T deviations; grooves stay, see rc-detrend"},
     {.name = "outliers", .type = OPT_NUMBER, AT(outliers), .min = 0, .max = INFINITY, .above = true,
      .arg = "T", .help = "drop points that differ by T deviations from the median of their neighbours"},
     {.name = "mirror", .type = OPT_FLAG, AT(mirror),
@@ -69,7 +76,7 @@ static const struct tool_info info = {
     .operands = "FILE",
     .examples =
         "  rc-report -o page.html surface.x3p\n"
-        "  rc-report --outliers 5 --load 1N:20N:log:5 --estar 3GPa -o page.html surface.x3p\n",
+        "  rc-report --spikes 5 --load 1N:20N:log:5 --estar 3GPa -o page.html surface.x3p\n",
     .opts = opts,
     .fill = materials_fill,
     .of_materials = (const char *const[]){"E1", "nu1", "E2", "nu2", NULL},
@@ -91,7 +98,8 @@ struct run {
     size_t loads;
     char load[RC_NUMBER_SIZE + 4]; /* the last one */
     char noise[2 * RC_NUMBER_SIZE];
-    char last[RC_NUMBER_SIZE], outliers[RC_NUMBER_SIZE], nu[RC_NUMBER_SIZE], memory[RC_NUMBER_SIZE];
+    char last[RC_NUMBER_SIZE], outliers[RC_NUMBER_SIZE], spikes[RC_NUMBER_SIZE], nu[RC_NUMBER_SIZE],
+        memory[RC_NUMBER_SIZE];
     const char *contact[WORDS]; /* options of rc-solve */
     size_t contacts;
     const char *scene[WORDS]; /* options of rc-scene: the last load, the bodies, data of effects */
@@ -108,6 +116,11 @@ struct run {
         FILE *file;         /* writes it */
     } commands, said, page; /* what was run; the messages */
     int nothing;            /* /dev/null */
+    /* files that options name: the commands run in another folder, but are shown with the names as given */
+    struct named {
+        const char *given;
+        char *path;
+    } named[2];
 };
 
 /* ---- the temporary folder ---- */
@@ -557,9 +570,34 @@ put_contact(struct run *run)
     fputs(".\n", out);
 }
 
-/* What limits the trust in the contact, each in some words. */
+static bool has_readers(const struct run *run);
+
+/* True if any row of a table has this text in a column. */
+static bool
+has_cell(struct run *run, const char *file, const char *column, const char *text)
+{
+    FILE *in = open_part(run, file);
+    RC_OWNED char *line = NULL;
+    size_t room = 0, at = SIZE_MAX;
+    bool found = false;
+
+    for (size_t row = 0; !found && getline(&line, &room, in) > 0; row++) {
+        char *cell = line, *rest;
+
+        for (size_t k = 0; *cell != '\0'; k++, cell = rest) {
+            rest = end_cell(cell);
+            if (row == 0 && strcmp(cell, column) == 0)
+                at = k;
+            found = found || (row > 0 && k == at && strcmp(cell, text) == 0);
+        }
+    }
+    fclose(in);
+    return found;
+}
+
+/* What limits the trust in the contact, each in some words; `inaccurate`: sections of effects. */
 static void
-put_limits(struct run *run)
+put_limits(struct run *run, const char *inaccurate)
 {
     static const char loads[] = "loads.tsv";
     const double nodes = last_number(run, loads, "contact_nodes"),
@@ -584,12 +622,21 @@ put_limits(struct run *run)
          "the RMS slope where the bodies touch is %.2g, beyond the theory of small slopes", slope},
         {last_number(run, loads, "max_pressure") > args.physics.surface_estar / 10,
          "the largest pressure is beyond a tenth of E*, where strains are not small", 0},
+        {args.relaxation != NULL && has_readers(run),
+         "the sections of other effects are those of the contact before creep", 0},
         {run->assumed, "no elasticity was given, so that the values are those of steel on steel",
          0},
     };
     FILE *out = run->page.file;
     size_t n = 0;
 
+    if (*inaccurate != '\0') {
+        fprintf(out,
+                "What limits the trust in these figures: the requested accuracy was not reached "
+                "under %s",
+                inaccurate);
+        n++;
+    }
     for (size_t k = 0; k < sizeof limit / sizeof *limit; k++)
         if (limit[k].holds) {
             fputs(n++ == 0 ? "What limits the trust in these figures: " : "; ", out);
@@ -654,6 +701,24 @@ show_commands(struct run *run, FILE *in, const char *a, const char *b)
     fputs("</pre>\n", out);
 }
 
+/* Writes a command of another tool, with its files as they were given. */
+static void
+put_command(const struct run *run, const char *line)
+{
+    FILE *out = run->page.file;
+
+    for (size_t k = 0; k < sizeof run->named / sizeof *run->named; k++) {
+        const char *path = run->named[k].path, *at = path == NULL ? NULL : strstr(line, path);
+        if (at == NULL)
+            continue;
+        RC_OWNED char *before = strndup(line, (size_t)(at - line));
+        put_text(out, before == NULL ? "" : before);
+        put_text(out, run->named[k].given);
+        line = at + strlen(path);
+    }
+    put_text(out, line);
+}
+
 /* Shows the verdicts of rc-scene: the lines of effects, indented by two blanks, with their commands, indented
  * further, and what is missing. Expected times depend on the machine and are left out. */
 static void
@@ -680,7 +745,7 @@ show_effects(struct run *run, FILE *in, const char *a, const char *b)
             missing = strdup(line + 16);
         } else if (strncmp(line, "      ", 6) == 0) {
             fputs("<tr><td></td><td><pre>", out);
-            put_text(out, line + 6);
+            put_command(run, line + 6);
             fputs("</pre></td></tr>\n", out);
         } else if (lines > 0 && n > TITLE) {
             line[TITLE - 1] = '\0';
@@ -751,10 +816,12 @@ static const struct part {
     bool may_fail;                         /* its file is then empty */
     /* of an effect: options that must be given; an empty file of its section shows nothing */
     const char *needs;
-    const char *says, *figure; /* a sentence of the first paragraph about a figure of the file */
+    /* a sentence of the first paragraph about a figure of the file; `denies`: if it is false */
+    const char *says, *denies, *figure;
 } parts[] = {
     {.command = "rc-import ORIGINAL", .file = "measured.rcg", .wanted = is_measured},
     {.command = "rc-detrend PREPARED", .file = "surface.rcg"},
+    {.show = show_verdict},
     {.heading = "The surface",
      .command = "rc-render --quiet --hillshade --width 800 surface.rcg",
      .file = "heights.png",
@@ -782,8 +849,7 @@ static const struct part {
      .show = show_lines,
      .a = "profile",
      .b = "keys"},
-    {.heading = "Under load", .show = show_verdict},
-    {.show = show_bodies},
+    {.heading = "Under load", .show = show_bodies},
     {.command = "rc-solve CONTACT --output OUTPUT --report loads.tsv surface.rcg",
      .file = "contact.rcg"},
     {.command = "rc-pick --case LAST contact.rcg", .file = "last.rcg"},
@@ -821,7 +887,9 @@ static const struct part {
      .show = show_table,
      .a =
          " position pass height max_pressure contact_fraction strain_gain plastic_depth converged ",
-     .says = "After the last pass the body has shaken down: %s.",
+     .says = "After the last pass the body has shaken down.",
+     .denies =
+         "After the last pass the body has not shaken down: it yields further in more passes.",
      .figure = "shakedown"},
     {.needs = "travel",
      .command =
@@ -911,7 +979,8 @@ static const struct part {
      .a = "percolates flow_rate flow_conductance flow_factor mean_gap critical_gap critical_x "
           "critical_y "
           "throat_nodes discretization_error_estimate",
-     .says = "A fluid gets through the gap: %s.",
+     .says = "A fluid gets through the gap.",
+     .denies = "No fluid gets through the gap.",
      .figure = "percolates"},
     {.needs = "pressure-drop",
      .command = "rc-render --quiet --channel channel --width 800 leak.rcg",
@@ -942,7 +1011,7 @@ static const struct part {
      .says = "The index of elastic shakedown is %s; above 1 the body yields again at each pass.",
      .figure = "shakedown"},
     {.heading = "Effects",
-     .command = "rc-scene --quiet SCENE surface.rcg",
+     .command = "rc-scene SCENE surface.rcg",
      .file = "effects.txt",
      .show = show_effects,
      .wanted = has_effects,
@@ -990,26 +1059,50 @@ has_readers(const struct run *run)
     return false;
 }
 
+/* The sections of effects with a row that is not converged, as "Travel, Wear". */
+static const char *
+name_inaccurate(struct run *run, char text[CELL])
+{
+    const char *heading = "";
+    size_t n = 0;
+
+    text[0] = '\0';
+    for (size_t k = 0; k < sizeof parts / sizeof *parts; k++) {
+        const struct part *part = &parts[k];
+
+        if (part->heading != NULL)
+            heading = part->heading;
+        if (part->needs != NULL && part->command == NULL && is_wanted(run, part) &&
+            has_cell(run, part->file, "converged", "false") && n < CELL)
+            n += (size_t)snprintf(text + n, CELL - n, "%s%s", n > 0 ? ", " : "", heading);
+    }
+    return text;
+}
+
 static void
 show_verdict(struct run *run, FILE *in, const char *a, const char *b)
 {
     FILE *out = run->page.file;
-    char text[CELL], unit[CELL];
+    char text[CELL], unit[CELL], inaccurate[CELL];
 
     (void)in, (void)a, (void)b;
     fputs("<p id=\"verdict\">", out);
     put_contact(run);
     for (size_t k = 0; k < sizeof parts / sizeof *parts; k++) {
-        const char *says = parts[k].says, *at = says == NULL ? NULL : strstr(says, "%s");
+        const char *says = parts[k].says, *at;
 
-        if (at == NULL || !is_wanted(run, &parts[k]) ||
+        if (says == NULL || !is_wanted(run, &parts[k]) ||
             !last_cell(run, parts[k].file, parts[k].figure, text, unit) || strcmp(text, "NaN") == 0)
             continue;
-        fprintf(out, "%.*s", (int)(at - says), says);
-        put_value(out, text, unit);
-        fprintf(out, "%s\n", at + 2);
+        if (strcmp(text, "false") == 0 || strcmp(text, "no") == 0)
+            says = parts[k].denies != NULL ? parts[k].denies : says;
+        at = strstr(says, "%s");
+        fprintf(out, "%.*s", at == NULL ? (int)strlen(says) : (int)(at - says), says);
+        if (at != NULL)
+            put_value(out, text, unit);
+        fprintf(out, "%s\n", at == NULL ? "" : at + 2);
     }
-    put_limits(run);
+    put_limits(run, name_inaccurate(run, inaccurate));
     fputs("</p>\n", out);
 }
 
@@ -1040,6 +1133,8 @@ add_preparation(const struct run *run, struct command *c)
 {
     if (!run->stream)
         add(c, "--poly", "2");
+    if (*run->spikes != '\0')
+        add(c, "--spikes", run->spikes);
     if (*run->outliers != '\0')
         add(c, "--outliers", run->outliers);
     add(c, "--fill", NULL);
@@ -1129,6 +1224,9 @@ write_command(const struct run *run, const struct command *c)
     for (size_t k = 0; k < c->n; k++) {
         const char *word = c->word[k] == run->path ? run->file : c->word[k];
 
+        for (size_t i = 0; i < sizeof run->named / sizeof *run->named; i++)
+            if (word == run->named[i].path)
+                word = run->named[i].given;
         if (k > 0)
             putc(' ', out);
         if (word == run->file && *word == '-')
@@ -1242,6 +1340,19 @@ is_option(const struct opt *row, const char *word)
     return false;
 }
 
+/* The path of a file that an option names, or its word. */
+static const char *
+find_file(struct run *run, const char *option, const char *word)
+{
+    const size_t k = strcmp(option, "--relaxation") == 0 ? 0 : 1;
+
+    if (k == 1 && strcmp(option, "--materials") != 0)
+        return word;
+    free(run->named[k].path);
+    run->named[k] = (struct named){word, realpath(word, NULL)};
+    return run->named[k].path == NULL ? word : run->named[k].path;
+}
+
 /* Gives rc-solve the options of the contact, and rc-scene those with the last load and the data of
  * effects. */
 static void
@@ -1265,6 +1376,8 @@ divide_words(struct run *run)
             of_scene = of_page || softens || is_option(scene_options, all[k]);
             of_load = is_load(all[k]);
         }
+        if (k > 0 && !name)
+            all[k] = find_file(run, all[k - 1], all[k]);
         run->given[run->givens++] = all[k];
         if (!of_scene)
             run->contact[run->contacts++] = all[k];
@@ -1365,6 +1478,8 @@ check_arguments(struct run *run)
     check_contact(run);
     if (!isnan(args.outliers))
         rc_number_text(run->outliers, args.outliers);
+    if (!isnan(args.spikes))
+        rc_number_text(run->spikes, args.spikes);
     if (args.noise.n > 2)
         tool_usage(&run->t, "--noise takes a standard deviation and a length, not %zu numbers",
                    args.noise.n);
@@ -1510,5 +1625,7 @@ main(int argc, char **argv)
     free(run.said.text);
     free(run.page.text);
     free(run.path);
+    for (size_t k = 0; k < sizeof run.named / sizeof *run.named; k++)
+        free(run.named[k].path);
     return tool_finish(t);
 }

@@ -35,6 +35,8 @@ static const struct opt opts[] = {
     {.group = material_options, .title = "the elastic contact"},
     {.title = "data of the effects"},
     {.group = scene_options, .at = offsetof(struct args, given)},
+    {.name = "noise", .type = OPT_NUMBER, .unit = UNIT_M, AT(given.noise), ABOVE_0, .arg = "S",
+     .help = "warn of the noise of the scan: its standard deviation"},
     {.name = "relaxation", .type = OPT_TEXT, AT(relaxation), .result = true, .arg = "EINF,E1:TAU1,...|FILE",
      .against = RULES({.with = "E1 MODULUS", .because = "the moduli of body 1 are those of --relaxation"},
                       {.with = "estar", .because = "body 1 needs its Poisson's ratio"}),
@@ -165,6 +167,15 @@ known(double v)
     return isnan(v) ? 0 : v;
 }
 
+/* The modulus of a viscoelastic body 1 at once is that of the elastic contact: its commands name it. */
+static void
+give_modulus(struct tool *t)
+{
+    for (size_t k = 0; k < t->option.n; k++)
+        if (t->option.row[k].name != NULL && strcmp(t->option.row[k].name, "E1") == 0)
+            t->option.given[k] = true;
+}
+
 static void
 read_data(struct run *run)
 {
@@ -180,6 +191,8 @@ read_data(struct run *run)
         d->material = run->material.material;
     }
     physics_check(t, a);
+    if (args.relaxation != NULL)
+        give_modulus(t);
     if (isinf(a->e1))
         tool_usage(t, "--E1 rigid: rc-scene compares with a uniform body 1: give its modulus, and "
                       "--thickness for a thin one");

@@ -5,6 +5,7 @@
 #include "libcontact/common.h"
 #include "libcontact/ranks/ranks.h"
 
+#include <float.h>
 #include <math.h>
 
 enum {
@@ -210,6 +211,8 @@ rc_measure(const struct rc_shape *shape, const double *v, struct rc_statistics *
     }
     result->mean = result->sum / nodes;
     result->rms = rms_about(v, nx * ny, result->mean, nodes);
+    if (fabs(result->mean) < DBL_EPSILON * fmax(fabs(result->minimum), fabs(result->maximum)))
+        result->mean = 0; /* the rounding of one height is larger */
     if (right + below > 0 && count(slope.there) > 0)
         result->rms_slope = sqrt(value(&slope.squares) / count(slope.there));
 }

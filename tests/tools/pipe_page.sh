@@ -106,7 +106,7 @@ near "$(figure effects-of.html 'Part of the contact that sticks')" "$(awk 'BEGIN
     "  friction: the part that sticks is Cattaneo's, to a row of nodes"
 near "$(figure effects-of.html 'Worn volume')" 2e-16 1e-3 "  wear: the volume is Archard's"
 near "$(figure effects-of.html 'Heat')" 12 1e-3 "  heat: the power of friction"
-claim "  leak: fluid flows around a ball" says 'A fluid gets through the gap: yes' said effects-of.html
+claim "  leak: fluid flows around a ball" says 'A fluid gets through the gap\.' said effects-of.html
 # Hills and Ashelby: a ball that passes without friction shakes down elastically up to p0 = 4.7 k
 near "$(figure effects-of.html 'Index of shakedown')" "$(awk -v p="$p0" 'BEGIN { print p / (4.7 * 3e9 / sqrt(3)) }')" 0.1 "  shakedown: the index is that of a ball on a half-space"
 area=$(awk 'BEGIN { pi = atan2(0, -1); print pi * (0.75 * 20 * 3e-3 / (210e9 / 1.82)) ^ (2 / 3) * 1e6 }') # mm2
@@ -131,6 +131,17 @@ near "$(said creep.html | sed 's/.*in contact becomes \([0-9.]*\) .*/\1/')" \
     "$(awk 'BEGIN { pi = atan2(0, -1); print pi * (0.75 * 20 * 3e-3 / (20e9 / 0.91)) ^ (2 / 3) / (64 * 8e-6) ^ 2 }')" 0.03 "  creep ends at the area of the relaxed modulus"
 near "$(said creep.html | sed 's/.*touch on \([0-9.]*\) %.*/\1e-2/')" \
     "$(awk 'BEGIN { pi = atan2(0, -1); print pi * (0.75 * 20 * 3e-3 / (200e9 / 0.91)) ^ (2 / 3) / (64 * 8e-6) ^ 2 }')" 0.05 "  and begins at that of the modulus at once"
+printf 'time (s),modulus (GPa)\n0.1,180\n1,90\n10,30\n100,20\n1000,20\n' >table.csv
+rc-report --quiet --load 20N --relaxation table.csv --nu1 0.3 --E2 rigid --time 100s --pressure-drop 1kPa -o of-table.html wide.rcg
+claim "a table of a relaxation modulus is found from the folder of the page" test "$(figure of-table.html 'Real contact area')$(grep -c 'was not computed' of-table.html)" != 1
+claim "  its name stands as it was given" bash -c 'grep -q -e "--relaxation table.csv" of-table.html && ! grep -q "$PWD/table.csv" of-table.html'
+claim "  other effects are those before creep" says 'of other effects are those of the contact before creep' said of-table.html
+claim "the first paragraph comes first" test "$(grep -n -m 1 'id="verdict"' creep.html | cut -d : -f 1)" -lt "$(grep -n -m 1 '<h2>' creep.html | cut -d : -f 1)"
+rc-report --quiet --load 400N --radius 3mm --E1 210GPa --nu1 0.3 --E2 rigid --yield 0.5GPa --travel=-20um,20um --passes 1 -o short.html wide.rcg
+claim "an effect short of its accuracy is named" says 'the requested accuracy was not reached under Travel' said short.html
+rc-synth selfaffine --nx 64 --dx 5um --hurst 0.8 --rms-height 20nm --rolloff 100um --short-cut 30um --seed 5 -o fine.rcg
+rc-report --quiet --load 20N --radius 10mm --E1 210GPa --nu1 0.3 --E2 210GPa --nu2 0.3 --mu 0.05 --speed 2m/s --viscosity 0.1Pas --pressure-viscosity 20/GPa -o film.html fine.rcg
+claim "the page has the warning of a film" grep -q 'a film of the fluid may carry load' film.html
 rc-synth wave --amplitude 1e-15 --wavelength 96um --nx 96 --dx 4um -o flat.rcg
 rc-report --quiet --load 20N --E1 210GPa --nu1 0.3 --E2 rigid --radius 3mm --travel=-20um,0,20um -o travel.html flat.rcg
 p1=$(awk 'BEGIN { pi = atan2(0, -1); print (6 * 20 * (210e9 / 0.91) ^ 2 / (pi ^ 3 * 9e-6)) ^ (1 / 3) / 1e9 }')

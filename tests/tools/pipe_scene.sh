@@ -124,6 +124,8 @@ claim "each command of a scene with all effects runs" commands $everything
 claim "  with a coat" commands $everything --layer 1um,100GPa,0.3
 claim "  which rc-heat refuses: no command, and the reason" grep -q '^      no tool computes it: rc-heat: its body 1 has layers' table.txt
 claim "  with a viscosity the leak has a flow" bash -c "rc-scene --quiet --periodic $(echo $everything) --viscosity 1mPas rough.rcg | grep -q 'rc-leak --pressure-drop 1MPa --viscosity'"
+claim "  with a relaxation modulus" commands --mean-pressure 20kPa --relaxation 1MPa,9MPa:1ms,2MPa:0.1s --nu1 0.49 --E2 rigid --time 10ms --pressure-drop 1kPa --thickness 100um
+claim "  the elastic ones with the modulus at once" grep -q 'rc-solve --mean-pressure 20kPa --E1 12MPa' table.txt
 limits="--bending-limit 3000MPa --torsion-limit 1930MPa --figures fatigue"
 scene --periodic --mean-pressure 0.2GPa $all $limits --decide 100 rough.rcg >fatigue.json
 rc-fatigue --quiet --bending-limit 3000MPa --torsion-limit 1930MPa --pass x --depths auto --report f.json -o x.rcg e.rcg

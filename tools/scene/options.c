@@ -43,14 +43,12 @@ const struct opt scene_options[] = {
     {.name = "viscosity", .type = OPT_NUMBER, .unit = UNIT_PAS, AT(viscosity), ABOVE_0, .arg = "ETA",
      .needs = RULES({.with = "radius|pressure-drop"}, {.with = "speed|pressure-drop"}),
      .help = "leak, and a warning of a film that carries load: viscosity of the fluid"},
-    {.name = "pressure-viscosity", .type = OPT_NUMBER, AT(piezo), ABOVE_0, .arg = "ALPHA",
+    {.name = "pressure-viscosity", .type = OPT_NUMBER, .unit = UNIT_PER_PA, AT(piezo), ABOVE_0, .arg = "ALPHA",
      .needs = RULES({.with = "viscosity"}),
-     .help = "the same: its pressure coefficient, 1/Pa (default: the bodies are soft)"},
+     .help = "the same: its pressure coefficient, in 1/GPa or 1/Pa (default: the bodies are soft)"},
     {.name = "expansion", .type = OPT_NUMBER, AT(expansion), ABOVE_0, .arg = "A",
      .needs = RULES({.with = "mu"}, {.with = "speed"}, {.with = "conductivity"}),
      .help = "warn of thermal expansion: its coefficient, 1/K, for body 1"},
-    {.name = "noise", .type = OPT_NUMBER, .unit = UNIT_M, AT(noise), ABOVE_0, .arg = "S",
-     .help = "warn of the noise of the scan: its standard deviation"},
     {.name = NULL},
 };
 /* clang-format on */

@@ -48,6 +48,11 @@ static const struct { /* units that are a power of ten of the SI unit but have a
     {UNIT_WORK, "J/m^2", 0},
     {UNIT_WORK, "N/m", 0},
     {UNIT_CREEP, "%", -2},
+    {UNIT_PER_PA, "/Pa", 0},
+    {UNIT_PER_PA, "/MPa", -6},
+    {UNIT_PER_PA, "/GPa", -9},
+    {UNIT_PER_PA, "1/MPa", -6},
+    {UNIT_PER_PA, "1/GPa", -9},
 };
 /* clang-format on */
 
@@ -77,6 +82,7 @@ static const struct {
     [UNIT_SPIN] = {"rad/m", "rad/m", "1/m"},
     [UNIT_WEAR] = {"m2/N", "mm3/Nm", "mm3/Nm or 1/GPa", true},
     [UNIT_WEAR_ENERGY] = {"m3/J", "mm3/J", NULL, true},
+    [UNIT_PER_PA] = {"1/Pa", "1/GPa 1/Pa", NULL},
 };
 
 const char *

@@ -31,6 +31,7 @@ enum unit {
     UNIT_CREEP,       /* a plain number or a percentage    */
     UNIT_SPIN,        /* radians per metre; also 1/m       */
     UNIT_WEAR_ENERGY, /* volume per energy of friction     */
+    UNIT_PER_PA,      /* pressure coefficient of viscosity */
 };
 
 struct numbers {
