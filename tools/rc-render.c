@@ -473,11 +473,11 @@ render_maps(struct tool *t, struct args *a, struct frames *frames)
     const bool profile = frames->one && look_is_profile(first);
     struct window window[FRAMES];
     struct survey all;
-    struct subtitle subtitle = {.n = 0};
+    struct subtitle subtitle = {.titled = a->style.paper.title == NULL};
     struct look look;
     struct figure f;
     struct means means = {false, 0, 0};
-    char title[256];
+    char title[256], section[SECTION_TITLE];
 
     for (size_t k = 0; k < frames->n && !a->raw; k++)
         means_take(t, frames->grid[k], &means);
@@ -496,8 +496,9 @@ render_maps(struct tool *t, struct args *a, struct frames *frames)
         subtitle_add(&subtitle, "shaded, light from the upper left", "");
     f.paper.subtitle = wording_subtitle(&a->style.paper, subtitle.text);
     snprintf(title, sizeof title, "%.80s about the contact", look.what.title);
-    if (a->style.paper.title == NULL && window[0].contact)
-        f.paper.title = title;
+    if (a->style.paper.title == NULL)
+        f.paper.title = subtitle_section(section, frames->grid, frames->n,
+                                         window[0].contact ? title : look.what.title);
     if (profile)
         warn_of_profile(t, a);
     if (a->raw)

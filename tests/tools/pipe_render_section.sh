@@ -43,7 +43,9 @@ claim "there are no bands: colours change by at most a hundredth down to 30 um" 
     NR > 262 && last - $1 > 3 { bad++ } { last = $1 } END { exit bad > 0 }' rows.txt
 
 rc-render -o place.svg line.rcg
-claim "the line under the title says where a section lies" grep -q 'section y = 0' place.svg
+claim "the title says where a section lies" grep -q ">von Mises stress at y = 0<" place.svg
+rc-render --title "Under a tip" -o place.svg line.rcg
+claim "  the line under another title does" grep -q "section y = 0" place.svg
 rc-pick --set at= line.rcg | rc-render -o place.svg
 claim "  a section of the largest values says so" grep -q 'largest over all y' place.svg
 claim "contours of a section are drawn" rc-render --width 1200 --contour -o line.svg line.rcg

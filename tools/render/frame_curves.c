@@ -219,7 +219,7 @@ cut_draw(struct tool *t, struct rc_grid *const *grid, size_t n, const char *cut,
 {
     struct set s = {.tool = t, .grid = grid, .n = n, .style = style};
     struct graph graph = {.n = n, .y.lo = lo, .y.hi = hi, .x.lo = NAN, .x.hi = NAN};
-    char text[TICKS_TEXT + 32], quantity[8], note[512] = "";
+    char text[TICKS_TEXT + 32], quantity[8], note[512] = "", title[SECTION_TITLE];
     struct canvas *canvas;
     double *bottom = NULL;
 
@@ -245,8 +245,10 @@ cut_draw(struct tool *t, struct rc_grid *const *grid, size_t n, const char *cut,
         snprintf(quantity, sizeof quantity, "%s", along->title);
         snprintf(text, sizeof text, "%s = %s", over->title,
                  scale_value(line_at(over, at), over->unit));
-        if (k == 0)
+        if (k == 0 && style->paper.title != NULL)
             subtitle_add(&s.subtitle, "along ", text);
+        if (k == 0)
+            snprintf(title, sizeof title, "%.80s along %.60s", s.channel.title, text);
         if (style->hertz) {
             add_hertz(&s, along, line_at(over, at));
             graph.n = 2;
@@ -259,7 +261,7 @@ cut_draw(struct tool *t, struct rc_grid *const *grid, size_t n, const char *cut,
     graph.y.unit = grid[0]->unit;
     if (strcmp(quantity, "depth") == 0 && subtitle_same(grid, n, "layers"))
         bottom = mark_interfaces(grid[0], &graph, note, sizeof note);
-    canvas = set_draw(&s, &graph, s.channel.title, drawn);
+    canvas = set_draw(&s, &graph, title, drawn);
     free(bottom);
     return canvas;
 }

@@ -126,8 +126,15 @@ double range_least(struct rc_grid *const *grid, const struct rc_grid *const *tou
 struct subtitle {
     char text[1024];
     size_t n;
+    bool titled; /* the title says where a section lies */
+};
+enum {
+    SECTION_TITLE = 160
 };
 
+/* The title of sections that lie at one place: "von Mises stress at y = 0"; `title` of other frames. */
+const char *subtitle_section(char text[SECTION_TITLE], struct rc_grid *const *grid, size_t n,
+                             const char *title);
 /* Adds a piece to the subtitle; a piece that does not fit is omitted. */
 void subtitle_add(struct subtitle *subtitle, const char *name, const char *value);
 /* The largest value of means, and of single nodes. */

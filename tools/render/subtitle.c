@@ -65,7 +65,7 @@ static const struct {
     {"source", "", NULL, false},          {"case", "case ", NULL, false},
     {"load", "load ", "N", true},         {"distance", "distance ", "m", true},
     {"time", "time ", "s", true},         {"speed", "speed ", "m/s", true},
-    {"position", "position ", "m", true}, {"section", "", NULL, false},
+    {"position", "position ", "m", true}, {"section", "section ", NULL, false},
     {"depth", "depth ", "m", false},      {"material", "", NULL, false}}; /* a separate word */
 
 enum {
@@ -95,7 +95,7 @@ piece_text(char text[TICKS_TEXT], const struct rc_grid *g, size_t p)
         return (name = media_name(text, g)) == NULL ? "?" : name;
     if (strcmp(pieces[p].key, "section") == 0) {
         if (rc_grid_number(g, "at", &number))
-            snprintf(text, TICKS_TEXT, "section %.1s = %.40s", name, scale_value(number, "m"));
+            snprintf(text, TICKS_TEXT, "%.1s = %.40s", name, scale_value(number, "m"));
         else
             snprintf(text, TICKS_TEXT, "largest over all %.1s", name);
         return text;
@@ -123,13 +123,31 @@ piece_same(struct rc_grid *const *grid, size_t n, size_t p)
     return true;
 }
 
+const char *
+subtitle_section(char text[SECTION_TITLE], struct rc_grid *const *grid, size_t n, const char *title)
+{
+    char place[TICKS_TEXT];
+    double at;
+
+    for (size_t p = 0; p < PIECES; p++)
+        if (strcmp(pieces[p].key, "section") == 0 && rc_grid_get(grid[0], "section") != NULL &&
+            piece_same(grid, n, p)) {
+            snprintf(text, SECTION_TITLE, "%.80s%s%s", title,
+                     rc_grid_number(grid[0], "at", &at) ? " at " : ", ",
+                     piece_text(place, grid[0], p));
+            return text;
+        }
+    return title;
+}
+
 void
 subtitle_common(struct subtitle *w, struct rc_grid *const *grid, size_t n, bool largest)
 {
     char text[TICKS_TEXT], line[sizeof w->text];
 
     for (size_t p = 0; p < PIECES; p++) {
-        if (rc_grid_get(grid[0], pieces[p].key) == NULL || !piece_same(grid, n, p))
+        if (rc_grid_get(grid[0], pieces[p].key) == NULL || !piece_same(grid, n, p) ||
+            (w->titled && strcmp(pieces[p].key, "section") == 0))
             continue;
         snprintf(line, sizeof line, "%s%s", piece_text(text, grid[0], p),
                  largest && strcmp(pieces[p].key, "depth") == 0 ? " (where it is largest)" : "");
