@@ -61,6 +61,7 @@ rolling, steady, by force|64 128|rc-slip --mu 0.3 --creep-force 0.5N --steady b@
 rolling, a path|64 96|rc-slip --mu 0.3 --creep 1e-3,0 t@.rcg
 wear|64 128|rc-wear --coefficient 1e-6mm3/Nm --distance 1m:1km:log:4 p@.rcg
 wear to 1e-2|64 128|rc-wear --coefficient 1e-6mm3/Nm --distance 10m --tol 0.01 p@.rcg
+wear to 1e-3|64 128|rc-wear --coefficient 1e-6mm3/Nm --distance 10m --tol 0.001 p@.rcg
 wear of a track|64 256|rc-wear --coefficient 0,1e-6mm3/Nm --motion track:5mm --distance 100m p@.rcg
 wear by friction energy|64 256|rc-wear --energy 1e-6mm3/J --mu 0.3 --distance 10m q@.rcg
 wear of cycles|64 128|rc-wear --coefficient 1e-6mm3/Nm --cycles 1e4 d@.rcg

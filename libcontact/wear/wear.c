@@ -1006,7 +1006,7 @@ progress(const struct rc_model *m, struct rc_loops *l)
 }
 
 /* Measured on rough maps and balls: 4 steps a decade from the first one on, contacts of these, and the last
- * steps; more of all for a smaller error. */
+ * steps; more of all for a smaller error, where nodes that come into contact limit the steps (to 1e-4). */
 static enum rc_status
 plan(const struct rc_model *m, const struct rc_point *most, struct rc_expected *expected,
      struct rc_err *err)
@@ -1015,11 +1015,13 @@ plan(const struct rc_model *m, const struct rc_point *most, struct rc_expected *
     const struct rc_point inner = rc_point_for(m->inner, most);
     const double nodes = most->at[RC_DISTANCE] * (v->rates.k + v->rates.row * m->shape.dx) *
                          v->law.estar / m->shape.dx;
-    const double steps = 4 * fmax(log10(nodes / first_step), 0) + 2;
+    const double steps = 4 * fmax(log10(nodes / first_step), 0) + 2,
+                 decades = fmax(log10(usual_tol / v->law.tol), 0);
     const double contacts = !(most->at[RC_DISTANCE] > 0) ? 1
-                            : v->law.energy != NULL      ? 2
-                                                    : RC_WEAR_CONTACT * (1 + 2 * steps + fewest) *
-                                                          pow(fmax(1, usual_tol / v->law.tol), 0.3);
+                            : v->law.energy != NULL
+                                ? 2
+                                : RC_WEAR_CONTACT * (1 + 2 * steps + fewest) *
+                                      pow(10, decades * (0.25 + 0.11 * decades));
     const double work = contacts * (v->rates.part != NULL ? RC_WEAR_BY_NODE : 1);
 
     if (rc_model_plan(m->inner, &inner, expected, err) != RC_OK)
