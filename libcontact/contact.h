@@ -527,14 +527,14 @@ struct rc_yield_load {
     double max_pressure_mean4;
     /* the lag that was reached */
     double lag;
-    /* Estimated relative L1 error of the pressure, the sum of its parts. The parts are: from the
-     * increments of this load (NAN for fewer than 8); from the increments of earlier loads (NAN
-     * where one had fewer). Then: from the iteration; from the tolerance of the contacts; from
-     * the images of a free map. */
+    /* Estimated relative L1 error of the pressure, the sum of its parts; of the parts from increments
+     * and slabs the squares are added. The parts are: from the increments of this load (NAN for fewer
+     * than 8); from the increments of earlier loads (NAN where one had fewer). Then: from the
+     * iteration; from the tolerance of the contacts; from the images of a free map. */
     double error, increment_error, inherited_error;
     double iteration_error, contact_error, image_error;
-    /* that from the thickness of the slabs, which is no part of `error` (NAN for fewer than 8
-     * increments, or fewer than 6 slabs in the yielded depth) */
+    /* from the thickness of the slabs (NAN for fewer than 8 increments, or if fewer than 6 of the
+     * given slabs yield) */
     double slab_error;
     /* m^3: the integral of the equivalent strain over the volume */
     double strained;

@@ -5,9 +5,12 @@
  * takes memory. Otherwise the body is loaded from 0 in increments, with slabs as deep as the largest planned
  * load needs. From then on each load continues from the last one.
  *
- * If the caller gives no number of increments, a load starts with a few. While their part of the estimated
- * error is too large, the body returns to the state before the load and takes more increments.
+ * If the caller gives no number of increments, it follows from the largest elastic Mises stress. While their
+ * part of the estimated error is too large, the body returns to the state before the load and takes more
+ * increments. If that of the slabs is too large after the first load, the body takes thinner slabs and begins
+ * again.
  */
+#include <float.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -18,8 +21,7 @@
 #include "libcontact/memory.h"
 
 enum {
-    /* Increments of the first try of a load: with fewer their error is unknown, see FEW. Half takes 1.4
-     * times the applications and double 1.2 times (23 lists of loads of bench/constants.py). */
+    /* Fewest increments of a load: with fewer their error is unknown, see FEW. */
     FIRST = 8,
     /* Increments of the last try, so that a load ends. Half and double change no bit (23 lists of loads
      * of bench/constants.py). */
@@ -49,19 +51,25 @@ static const double for_later = 0.7;
 /* The elastic Mises stress over the yield stress from which on the first load has no elastic trials: a ball
  * yields from an eighth of such a load on, and rough bodies sooner. */
 static const double beyond = 2;
-/* The increments of the next try over those of the last one: the first factor times error over goal,
- * within bounds. The second line is for a third try, whose error is known better. Not sensitive: half
- * and double of each number change the applications by at most 5 % (23 lists of loads of
- * bench/constants.py). */
-static const struct {
-    double beyond, least, most;
-} second = {1.6, 2, 4}, third = {1.3, 1.2, 4};
-/* Two runs give two errors of the increments, and the estimate is the larger one. The first is
- * `of_terms` times the error from the terms of second order. The second is `of_change` times the change
- * of the pressure over ratio - 1. In 367 loads of random lists no estimate was below the error for 8
- * and 16 or 8 and 24 increments, one for 16 and 32, two for 8 and 32. Half of the factors takes as many
- * applications or 4 % fewer, double 9 and 18 % more (23 lists of loads of bench/constants.py). */
-static const double of_terms = 0.6, of_change = 1.5;
+/* Increments of the first try over the largest elastic Mises stress over the yield stress. On 99 random maps
+ * the increments that are enough for an error of 1e-2 differed from that by a factor of 1.7 (RMS). */
+static const double of_stress = 3.3;
+/* For an error of `deserved`; their error falls with this power of their number. */
+static const double falls = 1.25;
+/* The increments of the next try over those of the last one: enough for the error, and some more, within
+ * bounds. */
+static const double surplus = 1.15, again_least = 1.2, again_most = 4;
+/* Of two runs: `of_change` times the change of the pressure over ratio - 1 is an error of the increments.
+ * In 367 loads of random lists no estimate was below the error for 8 and 16 or 8 and 24 increments, one
+ * for 16 and 32, two for 8 and 32. */
+static const double of_change = 1.5;
+/* Part of the goal that the error of the increments may have beside any other part. */
+static const double own_least = 0.35;
+/* Part of the goal for the change of the pressure by pairs of slabs, and the least goal that it follows. */
+static const double slab_share = 0.35, slab_least = 1e-3;
+/* Part of the goal beyond which the error of the slabs of a first load is worth thinner slabs; how much
+ * thinner than needed they are; most slabs over the earlier ones. */
+static const double slab_most = 0.7, thinner = 1.1, slabs_most = 3;
 /* Of the increments of the two runs. Half and double of both change the applications by at most 4 % (23
  * lists of loads of bench/constants.py). */
 static const double least_ratio = 2, most_ratio = 4;
@@ -90,6 +98,9 @@ struct tries {
     double *other;               /* Pa: pressure of the first try; NULL: there was none */
     size_t than;                 /* its increments; 0: it is not comparable */
     size_t spent;                /* applications of the tries of this load that were given up */
+    size_t thicker;              /* those with thicker slabs */
+    bool thinned;                /* there were thicker slabs */
+    bool twice; /* the first try has half of the increments, and another one follows */
 };
 
 struct yield {
@@ -165,13 +176,21 @@ static const struct rc_frame_kind frames[] = {
 
 /* ---- slabs ---- */
 
+/* The allowed relative error of the pressure. */
+static double
+goal(const struct rc_yield_problem *problem)
+{
+    return problem->contact.tol > 0 ? problem->contact.tol : deserved;
+}
+
 /* Finds the slabs from the elastic pressure; y->slabs is 0 if no stress reaches the yield stress. */
 static enum rc_status
 find_slabs(const struct rc_yield_problem *asked, const struct rc_shape *shape, const double *p,
            struct rc_yield_depths *depths, struct rc_err *err)
 {
     const double yield = rc_yield_law_stress(&asked->law, 0);
-    struct rc_yield_depths d = {.halved = depths->halved};
+    struct rc_yield_depths d = {.halved = depths->halved,
+                                .wanted = slab_share * fmax(goal(asked), slab_least)};
     const enum rc_status status = rc_yield_depths(shape, &asked->contact, p, yield, &d, err);
 
     if (status != RC_OK)
@@ -195,13 +214,6 @@ find_slabs(const struct rc_yield_problem *asked, const struct rc_shape *shape, c
 }
 
 /* ---- the volume ---- */
-
-/* The allowed relative error of the pressure. */
-static double
-goal(const struct rc_yield_problem *problem)
-{
-    return problem->contact.tol > 0 ? problem->contact.tol : deserved;
-}
 
 static struct rc_yield_problem
 problem_of(const struct rc_yield_problem *given, const struct rc_yield_depths *depths)
@@ -229,8 +241,21 @@ make(struct yield *y, struct rc_err *err)
         return RC_FAIL;
     y->plastic->asked.travels = y->travels;
     y->plastic->asked.yields = y->far;
+    y->plastic->asked.chosen = y->problem.slabs == 0;
     y->stage = VOLUME;
     return RC_OK;
+}
+
+/* The increments of the first try from one load to the next, where the largest elastic Mises stress is `most`
+ * times the yield stress. */
+static size_t
+first_increments(const struct rc_yield_problem *problem, double most, double share, bool later)
+{
+    const double aim = goal(problem) * (later ? for_later : 1);
+    const double wanted = of_stress * most * pow(deserved / aim, 1 / falls) * share;
+
+    return problem->increments > 0 ? problem->increments
+                                   : (size_t)ceil(fmin(fmax(wanted, FIRST), MOST_AUTO));
 }
 
 /* Sets the load with the number of increments of the next try. */
@@ -260,10 +285,13 @@ load(const struct yield *y, const struct rc_state_copy *from, struct rc_err *err
 static enum rc_status
 begin(struct yield *y, struct rc_err *err)
 {
-    const bool follows = y->moved && y->plan.load > 0 && y->plan.load == y->plastic->way.from;
+    const double from = y->plastic->way.from;
+    const bool follows = y->moved && y->plan.load > 0 && y->plan.load == from;
 
     y->moved = false;
-    y->tries.than = y->tries.spent = 0;
+    y->tries.than = 0;
+    y->tries.spent = y->tries.thicker;
+    y->tries.thicker = 0;
     if (follows) {
         y->tries.increments = 1;
         y->tries.number = 0;
@@ -272,7 +300,12 @@ begin(struct yield *y, struct rc_err *err)
         rc_yield_solver_follow(y->plastic);
         return rc_yield_solver_set_load(y->plastic, y->plan.load, err);
     }
-    y->tries.increments = y->problem.increments > 0 ? y->problem.increments : FIRST;
+    y->tries.increments = first_increments(
+        &y->problem, y->depths.most,
+        fabs(y->plan.load - from) / fmax(fmax(y->plan.load, from), DBL_MIN), y->plan.left > 0);
+    y->tries.twice = y->problem.increments == 0 && y->tries.increments > RC_YIELD_SEVERE;
+    if (y->tries.twice)
+        y->tries.increments /= 2;
     y->tries.number = 0;
     rc_state_forget(&y->tries.before);
     if ((y->problem.increments == 0 || y->problem.companion) &&
@@ -285,29 +318,34 @@ begin(struct yield *y, struct rc_err *err)
     return try_load(y, err);
 }
 
-/* True if more increments can lower the error of the load to the goal; sets their number. The errors from
- * images and earlier loads do not depend on it. */
+/* True if more increments can lower the error of the load to the goal; sets their number. The other parts of
+ * the error do not depend on it. */
 static bool
 deserves_more(struct tries *tries, const struct rc_yield_load *f, double wanted, bool later)
 {
-    const double own = f->increment_error;
-    const double aim = wanted * (later ? for_later : 1), here = f->error - f->image_error;
-    const size_t most = wanted < deserved ? RC_YIELD_INCREMENTS : MOST_AUTO;
-    const double ratio = tries->number == 0
-                             ? fmin(fmax(second.beyond * own / aim, second.least), second.most)
-                             : fmin(fmax(third.beyond * own / aim, third.least), third.most);
-    const double more = ceil((double)tries->increments * ratio);
+    const double own = f->increment_error, slab = isnan(f->slab_error) ? 0 : f->slab_error;
+    const double left =
+        fmax(wanted - f->iteration_error - f->contact_error - f->image_error, wanted / 2);
+    const double room = fmax(sqrt(fmax(left * left - slab * slab, 0)) * (later ? for_later : 1) -
+                                 f->inherited_error,
+                             own_least * wanted);
+    const bool half = tries->twice && tries->number == 0;
+    const size_t most = !tries->twice && tries->increments < RC_YIELD_SEVERE ? RC_YIELD_SEVERE
+                        : wanted < deserved                                  ? RC_YIELD_INCREMENTS
+                                                                             : MOST_AUTO;
+    const double ratio = fmax(surplus * pow(own / room, 1 / falls), half ? 2 : 0);
+    const double more =
+        ceil((double)tries->increments * fmin(fmax(ratio, again_least), again_most));
 
     if (tries->before.n == 0 || tries->number + 1 == TRIES || tries->increments >= most ||
-        own <= wanted / (f->image_error > wanted ? 2 : 4) ||
-        (here <= aim && !(f->error > wanted && own > wanted / 2)))
+        !(half || own > room))
         return false;
     tries->increments = more < (double)most ? (size_t)more : most;
     return true;
 }
 
-/* Estimates the error of the increments again, from the change since the first try. A companion run has its
- * own history, so that the change contains the errors of earlier loads. */
+/* Estimates the error of the increments again, from the change since the first try. A companion run has
+ * its own history, so that the change contains the errors of earlier loads. */
 static void
 compare_runs(struct yield *y)
 {
@@ -315,7 +353,7 @@ compare_runs(struct yield *y)
     const double ratio =
         y->tries.than > 0 ? (double)y->tries.increments / (double)y->tries.than : 0;
     const double *p = rc_solver_pressure(y->plastic->solver);
-    double own = of_terms * f->increment_error, before = f->inherited_error, change;
+    double own = f->increment_error, before = f->inherited_error, change;
     const struct rc_ranks *ranks = y->base.rows.ranks;
 
     if (y->plan.load == 0 || ratio < least_ratio || isnan(f->increment_error))
@@ -329,6 +367,48 @@ compare_runs(struct yield *y)
         own = own > 0 ? change - before : 0;
     }
     rc_yield_solver_judge(y->plastic, own, before);
+}
+
+/* Forgets the volume. */
+static void
+forget_volume(struct yield *y)
+{
+    rc_yield_solver_free(y->plastic);
+    free(y->depths.thickness);
+    rc_state_forget(&y->tries.before);
+    rc_state_forget(&y->tries.half);
+    y->plastic = NULL;
+    y->depths.thickness = NULL;
+    y->depths.slabs = 0;
+}
+
+/* True if a first load deserves thinner slabs, which are then set. */
+static enum rc_status
+take_thinner(struct yield *y, struct rc_err *err)
+{
+    const struct rc_yield_load *f = &y->plastic->figures;
+    const double wanted = slab_most * fmax(goal(&y->problem), slab_least),
+                 ratio = thinner * sqrt(f->slab_error / wanted);
+    const size_t n = (size_t)ceil((double)y->depths.slabs * fmin(ratio, slabs_most));
+    double *thickness;
+
+    if (!y->plastic->asked.chosen || y->tries.thinned || y->plan.load == 0 ||
+        y->plastic->run.taken != f->increments || !(f->slab_error > wanted))
+        return RC_OK;
+    thickness = malloc(n * sizeof *thickness);
+    if (rc_ranks_need(y->base.rows.ranks, thickness != NULL, err, "out of memory for the slabs") !=
+        RC_OK) {
+        free(thickness);
+        return RC_FAIL;
+    }
+    rc_yield_solver_stack(&y->depths, n, thickness);
+    y->tries.thicker = y->tries.spent + f->applications;
+    forget_volume(y);
+    y->depths.thickness = thickness;
+    y->depths.slabs = n;
+    y->tries.thinned = true;
+    y->stage = MAKE;
+    return RC_MORE;
 }
 
 static bool
@@ -363,9 +443,12 @@ press_volume(struct yield *y, struct rc_err *err)
 {
     const enum rc_status status = rc_yield_solver_step(y->plastic, err);
     const size_t tried = y->tries.increments;
+    enum rc_status thinner_slabs;
 
     if (status == RC_MORE || status == RC_FAIL)
         return status;
+    if ((thinner_slabs = take_thinner(y, err)) != RC_OK)
+        return thinner_slabs;
     compare_runs(y);
     if (y->problem.companion && y->tries.before.n > 0 && y->tries.number == 0) {
         rc_state_forget(&y->tries.half);
@@ -452,7 +535,9 @@ plan(const struct rc_model *m, const struct rc_point *most, struct rc_expected *
     const size_t volume = y->depths.slabs > 0 || y->problem.slabs > 0
                               ? volume_bytes(&y->problem, &y->base.shape, &y->depths)
                               : 0;
-    const double increments = (double)(y->problem.increments > 0 ? y->problem.increments : FIRST);
+    const size_t first = first_increments(&y->problem, y->depths.most, 1, y->plan.left > 0);
+    const double increments =
+        (y->problem.increments == 0 && first > RC_YIELD_SEVERE ? 1.5 : 1) * (double)first;
     static const double sums[] = RC_YIELD_SUMS, look[] = RC_YIELD_LOOK;
     const double looked = rc_by_padding(y->problem.contact.boundary, look[0], look[1]);
     const double threads = (double)(y->problem.contact.threads > 0 ? y->problem.contact.threads
@@ -652,7 +737,8 @@ look_at_volume(struct yield *y)
     /* the error is unknown if the caller asked for few increments */
     f->contact.converged =
         y->base.status == RC_OK && f->contact.converged &&
-        (f->last.error <= goal(&y->problem) || (y->problem.increments > 0 && isnan(f->last.error)));
+        (f->last.error <= goal(&y->problem) ||
+         ((y->problem.increments > 0 || y->problem.slabs > 0) && isnan(f->last.error)));
 }
 
 static enum rc_status
@@ -761,19 +847,6 @@ enum {
 /* A state has its layout, counts and loads first. Then comes the pressure of an elastic contact. For a volume
  * come the thicknesses of its slabs, the state before the load, and its own state. */
 
-/* Forgets the volume, because the state that was read has none. */
-static void
-forget_volume(struct yield *y)
-{
-    rc_yield_solver_free(y->plastic);
-    free(y->depths.thickness);
-    rc_state_forget(&y->tries.before);
-    rc_state_forget(&y->tries.half);
-    y->plastic = NULL;
-    y->depths.thickness = NULL;
-    y->depths.slabs = 0;
-}
-
 /* solved: the load of the stored pressure; 0: none is stored. */
 static void
 exchange_elastic(struct yield *y, struct rc_state *s, double solved)
@@ -825,6 +898,8 @@ exchange_volume(struct yield *y, struct rc_state *s, size_t slabs)
     rc_state_copy(s, &y->tries.before);
     rc_state_copy(s, &y->tries.half);
     rc_state_count(s, &y->tries.spent, SIZE_MAX / 4096);
+    rc_state_number(s, &y->depths.most, 0);
+    RC_STATE_FLAGS(s, &y->tries.thinned, &y->tries.twice);
     rc_state_count(s, &y->tries.than, RC_YIELD_INCREMENTS);
     if (y->tries.than > 0 && !has_other(y))
         rc_state_refuse(s, "memory is short");

@@ -18,6 +18,11 @@
  * 1.7, 1.8 and 2.3 times less memory and time. */
 #define RC_YIELD_COARSER 0.4
 
+/* Loads that need more increments are severe: the terms of second order then tell less of the error. */
+enum {
+    RC_YIELD_SEVERE = 28
+};
+
 enum rc_yield_solver_stage {
     RC_YIELD_NEW,   /* no load was set */
     RC_YIELD_PROBE, /* elastic trials of the load, which change no strain */
@@ -49,6 +54,7 @@ struct rc_yield_asked {
     bool follows;      /* the load is one more increment of the last one, on other heights */
     bool travels;      /* such loads may come */
     bool yields;       /* the first load is far above the first yield: it needs no elastic trials */
+    bool chosen;       /* the caller did not give the slabs */
     size_t increments; /* of a load with flow */
     double tol;        /* of the contacts */
     double lag;        /* allowed */
@@ -134,10 +140,11 @@ void rc_yield_solver_free(struct rc_yield_solver *plastic); /* NULL is allowed *
 RC_OWNER(rc_yield_solver)
 /* Checks that the body can yield. */
 enum rc_status rc_yield_solver_check(const struct rc_yield_problem *problem, struct rc_err *err);
-/* Slabs for a body that would yield under the elastic contact pressure p (nx ny, Pa). The first is half a
- * node thick, and each next one is thicker by a quarter. The last one is below the depth where the Mises
- * stress falls below the yield stress. Slabs whose middles miss the largest Mises stress are halved. */
+/* Slabs for a body that would yield under the elastic contact pressure p (nx ny, Pa). The first is about a
+ * tenth of a node thick, and each next one is thicker by 3 to 18 %. The last one is below the depth where the
+ * Mises stress falls below the yield stress. Slabs whose voxels miss the largest Mises stress are halved. */
 struct rc_yield_depths {
+    double wanted;        /* before the call: relative change of the pressure by pairs of slabs */
     size_t slabs;         /* 0: no stress reaches the yield stress */
     size_t halved;        /* how often each slab was halved; before the call: how often at least */
     double *thickness;    /* m, of each slab; the caller frees it; NULL: none */

@@ -51,7 +51,8 @@ claim "the shape after yield is the height minus the residual displacement" awk 
 
 # ---- a roller: the map repeats along its axis ----
 
-roller="rc-solve --quiet --cylinder 10mm --E1 210GPa --nu1 0.3 --E2 rigid --yield 1GPa,2GPa --load 850kN/m"
+stack() { awk -v h="$1" -v n="$2" 'BEGIN { for (k = 0; k < n; k++) printf "%s%.6gum", k ? "," : "", h * 1.25 ^ k }'; } # FIRST COUNT: the same slabs for all maps
+roller="rc-solve --quiet --slabs $(stack 5 15) --cylinder 10mm --E1 210GPa --nu1 0.3 --E2 rigid --yield 1GPa,2GPa --load 850kN/m"
 for side in "96 1 y" "96 4 y" "4 96 x" "192 1 y"; do
     set -- $side
     rc-synth wave --amplitude 1fm --nx "$1" --ny "$2" --dx 10um --wavelength 1.92mm -o flat.rcg
@@ -74,7 +75,7 @@ rc-synth selfaffine --nx 64 --dx 1um --hurst 0.8 --rms-height 0.2um --rolloff 64
 again="$elastic --mean-pressure 100MPa,0,100MPa --yield 1.5GPa,5GPa --output pressure again.rcg"
 $again --increments 256 --tol 1e-5 -o truth.rcg
 refuses 3 '1.* come from its increments: give --increments' "errors above the goal: what lowers them" \
-    "${again/--quiet/} --increments 8 --report eight.json -o eight.rcg"
+    "${again/--quiet/} --increments 8 --tol 5e-3 --report eight.json -o eight.rcg"
 claim "--increments auto meets the goal at each load" $again --report auto.json -o auto.rcg
 claim "--increments 16,half makes a second run" $again --increments 16,half --report half.json -o half.rcg
 $again --increments 16 --report sixteen.json -o sixteen.rcg
@@ -88,7 +89,7 @@ apart() { # A B CASE: prints the relative L1 distance of two pressures
 }
 told() { sed -n "$3p" "$1" | field "$2" -; }
 between 0 "$(apart half.rcg sixteen.rcg 3)" 2e-4 "the second run changes the pressure by less than the tolerances of two contacts"
-claim "  and gives a smaller estimate" test "$(told half.json pressure_error_estimate 1 | awk -v b="$(told sixteen.json pressure_error_estimate 1)" '{ print ($1 < b) }')" = 1
+claim "  and never gives a smaller estimate" test "$(told half.json pressure_error_estimate 1 | awk -v b="$(told sixteen.json pressure_error_estimate 1)" '{ print ($1 > 0.999 * b) }')" = 1
 for run in eight auto half; do
     for case in 1 3; do
         between "$(apart $run.rcg truth.rcg $case)" "$(told $run.json pressure_error_estimate $case)" 2e-2 "$run, load $case: the estimate is above the error"
@@ -97,8 +98,8 @@ done
 near "$(told eight.json applications 2)" 1 0 "what unloads without flow takes one application"
 claim "  reloading to the same peak takes less than ten" test "$(told eight.json applications 3)" -lt 10
 claim "  its error is inherited" grep -q '"error_limited_by": "history"' <(sed -n 3p eight.json)
-near "$(told eight.json pressure_error_estimate 3)" "$(for part in increment inherited iteration contact image; do told eight.json ${part}_error_estimate 3; done |
-    awk '{ s += $1 } END { print s }')" 1e-5 "the estimate is the sum of its parts"
+near "$(told eight.json pressure_error_estimate 3)" "$(for part in increment inherited slab iteration contact image; do told eight.json ${part}_error_estimate 3; done |
+    awk '{ v[NR] = $1 } END { print sqrt((v[1] + v[2]) ^ 2 + v[3] ^ 2) + v[4] + v[5] + v[6] }')" 1e-5 "the estimate is the sum of its parts, of increments and slabs of their squares"
 $again --tol 1e-4 --increments 8 --report tight.json -o tight.rcg && status=0 || status=$?
 claim "converged compares the error with --tol" bash -c "test $status = 3 && sed -n 1p tight.json | grep -q '\"converged\": false'"
 
@@ -153,7 +154,7 @@ near "$(field slabs five.json)" 5 0 "or these"
 # ---- a map that is not periodic ----
 
 rc-synth sphere --nx 64 --dx 1um --radius 100um -o ball.rcg
-ball="rc-solve --quiet --E1 210GPa --nu1 0.3 --E2 rigid --load 0.3N --yield 2GPa,2GPa --increments 8 --output pressure,strain"
+ball="rc-solve --quiet --E1 210GPa --nu1 0.3 --E2 rigid --load 0.3N --yield 2GPa,2GPa --increments 8 --slabs $(stack 0.5 9) --output pressure,strain"
 $ball --report free.json ball.rcg -o free.rcg
 $ball --periodic --report periodic.json ball.rcg -o periodic.rcg
 near "$(field max_pressure free.json)" "$(field max_pressure periodic.json)" 2e-2 "a ball on a free map is pressed as one on a map that repeats far away"

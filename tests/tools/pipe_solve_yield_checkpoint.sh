@@ -68,12 +68,12 @@ between 1 "$(($(states late.rcg) - before))" 4 "  and only what is missing is do
 
 # ---- too few increments: the second attempt is resumed, not the first ----
 
-harder="--mean-pressure 250MPa --yield 0.8GPa"
+harder="--mean-pressure 700MPa --yield 2GPa"
 $solve $harder --checkpoint try.rcg --interval 0 --report try.tsv -o try-out.rcg rough.rcg
-claim "a load that needs more increments than it takes ends with 3" test $? = 3
+claim "a load may need more increments than those of its first attempt" test $? = 0
 $solve $harder --checkpoint try.rcg --resume --report try2.tsv -o try2-out.rcg rough.rcg
-claim "  and so does its resumed run" test $? = 3
-claim "with more increments than the first try" test "$(figures_of try.tsv | awk '$1 == "increments" { print $2 }')" -gt 8
+claim "  and so does its resumed run" test $? = 0
+claim "with more applications than one attempt" test "$(figures_of try.tsv | awk '$1 == "applications" { print $2 }')" -gt "$(figures_of try.tsv | awk '$1 == "increments" { print 5 * $2 }')"
 claim "  a resumed run gives the same result" cmp try-out.rcg try2-out.rcg
 head -c "$(ends try.rcg | tail -n 5 | head -n 1)" try.rcg >part.rcg
 $solve $harder --checkpoint part.rcg --resume --report part.tsv -o part-out.rcg rough.rcg

@@ -612,10 +612,12 @@ estimate(void **state)
         double load = 1600 * yield * (0.3 + 0.6 * (random_number(&seed) + 0.5)), off;
         const struct rc_yield_load *f;
         struct rc_yield_solver *fine, *plastic;
+        double told;
 
         assert_int_equal(rc_synth_selfaffine(&shape, &rough, h, NULL), RC_OK);
         plastic = plastic_new(shape, h, problem);
         f = pressed(plastic, load);
+        told = f->increment_error + f->iteration_error + f->contact_error; /* of the same slabs */
         problem.increments = 192;
         problem.contact.tol = 1e-5;
         fine = plastic_new(shape, h, problem);
@@ -624,10 +626,10 @@ estimate(void **state)
         print_message(
             "%2zu: contact increments %zu, %zu applications, error %.2e, estimate %.2f of it "
             "(increments %.2f, iteration %.2f)\n",
-            (size_t)q, f->increments, f->applications, off, f->error / off,
-            f->increment_error / off, f->iteration_error / off);
-        least = fmin(least, f->error / off);
-        high = fmax(high, f->error / off);
+            (size_t)q, f->increments, f->applications, off, told / off, f->increment_error / off,
+            f->iteration_error / off);
+        least = fmin(least, told / off);
+        high = fmax(high, told / off);
         if (f->increments == 16) {
             worst = fmax(worst, off);
             most = f->applications > most ? f->applications : most;
@@ -870,7 +872,10 @@ goes_on(void **state)
                 strain, distance(KEPT_SLABS * KEPT * KEPT, again[q].strain[0], whole[q].strain[0]));
             assert_int_equal(f->applications, g->applications);
             assert_int_equal(f->voxels, g->voxels);
-            assert_true(fabs(f->error - g->error) < 1e-6 && fabs(f->work / g->work - 1) < 1e-6);
+            /* unknown where few of the given slabs yield */
+            assert_int_equal(isnan(f->error), isnan(g->error));
+            assert_true(isnan(f->error) || fabs(f->error - g->error) < 1e-6);
+            assert_true(fabs(f->work / g->work - 1) < 1e-6);
         }
     }
     print_message("%zu states of %zu to %zu numbers: pressure %.1e, strain %.1e off, %zu the same "
@@ -1133,9 +1138,12 @@ begins_at_once(void **state)
     const struct rc_selfaffine rough = {
         .hurst = 0.8, .rms_slope = 0.2, .short_cut = 5, .rolloff = 12, .seed = 9};
     const double n = KEPT * KEPT, load = 0.02 * n;
+    double thickness[12];
     struct rc_yield_problem problem = {
         .contact = {.boundary = RC_PERIODIC, .pair.one.nu = 0.3, .tol = 1e-4},
         .law = {.stress = 0.02, .modulus = 0.05},
+        .slabs = 12,
+        .thickness = thickness,
         .increments = 16,
         .lag = 0.01};
     double h[KEPT * KEPT];
@@ -1146,14 +1154,14 @@ begins_at_once(void **state)
 
     (void)state;
     assert_int_equal(rc_synth_selfaffine(&shape, &rough, h, NULL), RC_OK);
+    for (size_t k = 0; k < problem.slabs; k++)
+        thickness[k] = 0.5 * pow(1.2, (double)k);
     m = model_new(shape, h, problem);
     assert_int_equal(set_load(m, load), RC_MORE);
     while (rc_model_step(m, &err) == RC_MORE)
         ;
     assert_int_equal(rc_model_look(m, NULL, &err), RC_OK);
     f = rc_yield_result(m);
-    problem.slabs = f->slabs;
-    problem.thickness = f->thickness;
     problem.contact.tol = 1e-5; /* of each contact in the model */
     plastic = plastic_new(shape, h, problem);
     (void)pressed(plastic, load);

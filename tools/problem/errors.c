@@ -28,11 +28,8 @@ part(const struct error_parts *parts, size_t k)
 double
 errors_sum(const struct error_parts *parts)
 {
-    double sum = 0;
-
-    for (size_t k = 0; k < KINDS; k++)
-        sum += part(parts, k);
-    return sum;
+    return hypot(parts->increment + parts->inherited, parts->slab) + parts->iteration +
+           parts->contact + parts->image;
 }
 
 const char *
@@ -45,6 +42,8 @@ errors_limited_by(const struct error_parts *parts)
     for (size_t k = 1; k < KINDS; k++)
         if (part(parts, k) > part(parts, most))
             most = k;
+    if (parts->slab > part(parts, most))
+        return "slabs";
     return part(parts, most) > 0 ? kinds[most].by : NULL;
 }
 

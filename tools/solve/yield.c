@@ -298,16 +298,21 @@ set_errors(struct run *run, struct solution *s)
     snprintf(s->took, sizeof s->took, "%zu increments, %zu applications", f->increments,
              f->applications);
     c->convolutions = NAN; /* nearly all of the work is in the volume */
-    s->errors = (struct error_parts){
-        true,          f->increment_error, f->inherited_error, f->iteration_error, f->contact_error,
-        f->image_error};
+    s->errors = (struct error_parts){true,
+                                     f->increment_error,
+                                     f->inherited_error,
+                                     f->iteration_error,
+                                     f->contact_error,
+                                     f->image_error,
+                                     f->slab_error};
     if (run->d.status == RC_MORE) /* broken off */
         s->errors.increment = NAN;
     c->pressure_error = errors_sum(&s->errors);
     /* --increments asked for too few to estimate it */
-    c->converged = run->d.status == RC_OK && c->converged &&
-                   (errors_within(c->pressure_error, goal(run)) ||
-                    (own.asked > 0 && isnan(c->pressure_error)));
+    c->converged =
+        run->d.status == RC_OK && c->converged &&
+        (errors_within(c->pressure_error, goal(run)) ||
+         ((own.asked > 0 || own.slab_count > 0 || own.list.n > 0) && isnan(c->pressure_error)));
     if (f->increment_error > own.worst_error) {
         own.worst_error = f->increment_error;
         own.worst = run->d.course.number;
@@ -387,13 +392,6 @@ warn_of_slabs(struct run *run, const char *where, const struct rc_yield_load *f)
         bottom += own.found->thickness[k];
         within += above < f->depth;
     }
-    if (f->slab_error > goal(run))
-        course_warn(
-            &run->d.course, "slabs that are too thick",
-            "%s: the thickness of its slabs changes the pressure by about %.2g %%, above %.2g %%: "
-            "give --slabs %.0f",
-            where, 100 * f->slab_error, 100 * goal(run),
-            ceil((double)own.found->slabs * sqrt(f->slab_error / goal(run))));
     if (f->max_strain == 0 && run->solution.contact.load > 0)
         course_warn(
             &run->d.course, "the voxels do not resolve the first yield",
@@ -420,7 +418,7 @@ warn_of_part(struct run *run, const char *where, const struct solution *s)
     const struct error_parts *e = &s->errors;
     const double asked = goal(run), off = s->contact.pressure_error / asked;
     const char limit = errors_limited_by(e)[0]; /* first letter of increments, history,
-                                                   tolerance, map */
+                                                   tolerance, map, slabs */
     const size_t made = limit == 'h' ? own.worst_increments : f->increments;
     const double more = 2 * ceil((double)made * pow(off, order) / 2);
     const char *half = own.companion ? ",half" : "";
@@ -440,6 +438,11 @@ warn_of_part(struct run *run, const char *where, const struct solution *s)
                  "%.2g %% come from case %zu, which was reached in %zu increments: give "
                  "--increments %.0f%s",
                  100 * e->inherited, own.worst, made, more, half);
+    else if (limit == 's')
+        snprintf(what, sizeof what,
+                 "%.2g %% come from the thickness of its slabs: give --slabs %.0f",
+                 100 * f->slab_error,
+                 ceil(1.1 * (double)own.found->slabs * sqrt(fmax(f->slab_error / asked, 1))));
     else if (limit == 'm' && rc_repeats(run->physics->boundary) == 1)
         snprintf(what, sizeof what,
                  "%.2g %% come from the edges of the map: give a map %.1f times as wide across the "
