@@ -41,6 +41,8 @@ rc-fatigue --quiet $limits --pass y --depths 5um --report x.json -o x.rcg presse
 near "$(json .dangvan y.json)" "$(json .dangvan x.json)" 1e-6 "along y the same"
 rc-fatigue --quiet $limits --dangvan full --pass x --depths 5um --report full.json -o x.rcg pressed.rcg
 between 0 "$(json .dangvan full.json)" "$(json '.dangvan * 0.9' y.json)" "--dangvan full is lower"
+claim "limits without a unit cause a warning" warns 'a limit of 400 Pa is below a ten-thousandth .* as in 650MPa' \
+    rc-fatigue --bending-limit 650 --torsion-limit 400 --pass x --depths 5um -o x.rcg pressed.rcg
 claim "a list of loads has a result each" bash -c "
     rc-solve --quiet $steel --load 0.5N,1N ball.rcg | $pass --depths 5um --report two.tsv -o two.rcg"
 near "$(column dangvan 2 two.tsv)" "$(json .dangvan y.json)" 1e-4 "  the second is that of its load"

@@ -92,6 +92,29 @@ fatigue_limits_read(struct tool *t, const struct fatigue_limits_asked *asked, un
             tool_usage(t, "%s: see --criteria", t->err.text);
 }
 
+/* 650 instead of 650MPa: no material bears ten thousand times its limit. */
+static void
+warn_of_units(struct tool *t, const struct rc_grid *p, const struct fatigue_limits *l)
+{
+    const double part = 1e-4;
+    double least = INFINITY, most = 0;
+
+    for (size_t k = 0; k < l->n; k++) {
+        const double of[] = {l->at[k].bending, l->at[k].torsion, l->at[k].yield};
+        for (size_t i = 0; i < sizeof of / sizeof *of; i++)
+            if (of[i] > 0)
+                least = fmin(least, of[i]);
+    }
+    for (size_t k = 0; k < rc_grid_nodes(p); k++)
+        most = fmax(most, p->v[k]);
+    if (least < part * most)
+        tool_warn(
+            t,
+            "%s: a limit of %s is below a ten-thousandth of the largest pressure, %s: give its "
+            "unit, as in 650MPa",
+            tool_where(t, p), shown_in_unit(least, "Pa"), shown_in_unit(most, "Pa"));
+}
+
 void
 fatigue_limits_check(struct tool *t, const struct rc_grid *p, const struct fatigue_limits *l,
                      const struct rc_body *body)
@@ -99,6 +122,7 @@ fatigue_limits_check(struct tool *t, const struct rc_grid *p, const struct fatig
     if (l->depth == NULL && l->n > 1 && l->n != body->layers + 1)
         tool_refuse(t, p, "its body has %zu material%s, and there are limits of %zu",
                     body->layers + 1, body->layers == 0 ? "" : "s", l->n);
+    warn_of_units(t, p, l);
 }
 
 static double

@@ -326,7 +326,7 @@ value_of(const struct material *m, enum material_property p)
     return m == NULL ? NULL : m->of[p].value;
 }
 
-/* The lower of two values; the other one if one is unknown. */
+/* The lower of two values; NULL: none. */
 static const char *
 lower(const char *a, const char *b, enum unit unit)
 {
@@ -376,8 +376,11 @@ fill(struct tool *t, const struct fill *f, const struct material *const m[BODIES
                        : f->of == SECOND ? two
                        : f->of == BOTH   ? of_both(t, f->property, one, two)
                                          : lower(one, two, properties[f->property].unit);
+    /* the softer body may be the one without a value */
+    const bool unknown =
+        f->of == SOFTER && ((m[0] != NULL && one == NULL) || (m[1] != NULL && two == NULL));
 
-    if (text == NULL || is_replaced(t, f))
+    if (unknown || text == NULL || is_replaced(t, f))
         return;
     if (tool_given(t, f->option)) {
         tell(t, "%s as given", f->option);
