@@ -118,9 +118,11 @@ struct rc_gap_problem {
 /* The quantity that is given, from rc_gap_begin. */
 struct rc_gap_set {
     enum rc_gap_control control;
-    double given; /* c, the mean of x, or S                                */
-    double level; /* p is A u + S minus this */
-    double lift;  /* factor of the preconditioner for the mean */
+    double given;     /* c, the mean of x, or S                                */
+    double level;     /* p is A u + S minus this */
+    double lift;      /* factor of the preconditioner for the mean */
+    double stiffness; /* of contacts that pin long waves, per area; 0: not used */
+    bool pinned;      /* the preconditioner contains it */
 };
 
 /* Maps of the grid. */
@@ -171,8 +173,11 @@ void rc_gap_free(struct rc_gap *g);
 
 /* Undeformed bodies, `clearance` apart at the highest node. */
 void rc_gap_apart(struct rc_gap *g, double clearance);
-/* Sets a control; the state starts from the present gap, shifted. */
-void rc_gap_begin(struct rc_gap *g, enum rc_gap_control control, double given);
+/* Sets a control; the state starts from the present gap, shifted. `first`: the state continues no path. */
+void rc_gap_begin(struct rc_gap *g, enum rc_gap_control control, double given, bool first);
+/* The preconditioner of the descent of a first state contains the pinning by contacts; eigenvalues are those
+ * of K alone. */
+void rc_gap_pin(struct rc_gap *g, bool on);
 /* rc_gap_look finds the direction of descent and the error of the pressure; rc_gap_move takes a step along
  * the direction. */
 void rc_gap_look(struct rc_gap *g);

@@ -268,8 +268,8 @@ best(const double *sums, double *c)
 
 struct first {
     struct rc_gap *g;
-    bool given, again; /* again: of the same state */
-    double noise;
+    bool given;
+    double noise, released; /* W x of released nodes; 0: none has been released in this state */
 };
 
 /* True for a free node of the map that was held when W x was found. */
@@ -284,6 +284,15 @@ enum {
     FIRST_FREE,  /* free nodes */
     FIRST_SQUARE /* sum of (W x)^2 */
 };
+
+static void
+size_row(void *ctx, size_t j, double *sums)
+{
+    const struct rc_gap *g = ctx;
+
+    for (size_t k = j * g->problem.px; k < (j + 1) * g->problem.px; k++)
+        sums[FIRST_SQUARE] += (double)g->mode.e[X + 1][k] * (double)g->mode.e[X + 1][k];
+}
 
 /* If no first vector is given, W x is the softening by the traction. A
  * released node may have softer modes than the given one, and the first vector contains its motion. */
@@ -308,8 +317,8 @@ first_row(void *ctx, size_t j, double *sums)
         double noise = (double)(hash >> 40) / 0x1p24 - 0.5;
         if (!c->given && i >= m)
             w[i] = 0;
-        if (c->again && i < m && released(g->maps.off, &g->mode, j * g->problem.px + i))
-            w[i] = 1;
+        if (c->released > 0 && i < m && released(g->maps.off, &g->mode, j * g->problem.px + i))
+            w[i] = (float)c->released;
         if (i < m)
             w[i] = (float)((double)w[i] * (1 + noise / 4) + c->noise * noise);
         if (g->maps.off[j * g->problem.px + i])
@@ -411,7 +420,8 @@ void
 rc_gap_eigen_begin(struct rc_gap *g)
 {
     double sums[RC_GAP_SUMS];
-    struct first first = {g, g->mode.known || g->mode.tracked, g->mode.steps > 0, 0};
+    struct first first = {g, g->mode.known || g->mode.tracked, 0, 0};
+    const bool again = g->mode.steps > 0;
 
     g->mode.mu = 1;
     g->mode.error = g->mode.bare = 0;
@@ -421,6 +431,10 @@ rc_gap_eigen_begin(struct rc_gap *g)
             (g->problem.nx * g->problem.ny)) /* all nodes of the map are held: nothing softens */
         return;
     first.noise = first.given ? 0 : 0.05;
+    if (again && first.given) {
+        rc_sums_rows(&g->sums, size_row, g, sums);
+        first.released = sqrt(sums[FIRST_SQUARE] / (double)g->residual.free);
+    }
     rc_sums_rows(&g->sums, first_row, &first, sums);
     if (!(sums[FIRST_SQUARE] > 0)) { /* the given vector has no free node */
         first = (struct first){g, .noise = 0.05};

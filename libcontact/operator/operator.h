@@ -172,6 +172,9 @@ enum rc_status rc_whole_scales(const struct rc_shape *shape, const struct rc_pai
                                double *modulus, double *diagonal, struct rc_err *err);
 /* u = K p in double precision; p and u may be the same. */
 void rc_whole_apply(struct rc_whole *whole, const double *p, double *u);
+/* Adds a uniform stiffness to that of the rough K, which becomes 1/(A + stiffness); 0 restores K. The wave of
+ * all nodes keeps its factor where that is 0. A does not change. */
+void rc_whole_pin(struct rc_whole *whole, double stiffness);
 /* p = A u in double precision with rows of doubles; u = K p and p = A u in single precision with rows of
  * floats. Rows are those of the whole grid. */
 enum rc_whole_factor {

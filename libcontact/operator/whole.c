@@ -229,6 +229,14 @@ rc_whole_apply(struct rc_whole *whole, const double *p, double *u)
 }
 
 void
+rc_whole_pin(struct rc_whole *whole, double stiffness)
+{
+    struct own *w = (struct own *)whole;
+
+    rc_spectrum_add(w->rough_kernel, w->rough, true, stiffness, 0);
+}
+
+void
 rc_whole_rows(struct rc_whole *whole, enum rc_whole_factor which, rc_row *in, rc_row *out,
               void *ctx)
 {
