@@ -266,7 +266,7 @@ struct rc_alignment {
     double shift_error, rotation_error;
     /* m^3: integral of A - B, and its uncertainty of 95 % */
     double volume, volume_error;
-    /* part of A on which both are measured, and part of that in patches that have changed */
+    /* part of A on which both are measured, and part of that which differs by more than 3 residuals */
     double overlap, changed;
 };
 /* A - B on the grid of A (m), NaN where either is missing, with B moved, turned and tilted so that the part

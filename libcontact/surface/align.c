@@ -690,6 +690,7 @@ find_errors(const struct fit *f, const double *change, struct rc_alignment *foun
     /* standard deviations: 95 %; of the volume more, by 60 pairs of scans of tests/long/law_align.c: the rims
      * of a change are not known */
     const double bar = 2, bar_of_volume = 2.5;
+    const double far_off = 3; /* deviations of a node that has changed: 0.3 % are by chance */
     const size_t n = f->shape.nx * f->shape.ny, p = f->numbers;
     double normal[NUMBERS * NUMBERS] = {0}, scatter[NUMBERS * NUMBERS] = {0}, all[NUMBERS] = {0};
     double slope = 0, weights = 0, sum = 0, changed = 0, there = 0, volume = 0, pulls[NUMBERS];
@@ -704,7 +705,7 @@ find_errors(const struct fit *f, const double *change, struct rc_alignment *foun
             continue;
         difference(f, f->q, k, by);
         there++;
-        changed += f->skip[k];
+        changed += fabs(r) > far_off * f->spread;
         weights += w;
         slope += w > 0 ? (1 - u * u) * (1 - 5 * u * u) : 0;
         for (size_t i = 0; i < p; i++) {

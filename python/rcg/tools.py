@@ -533,6 +533,13 @@ class Result:
             return report[name]
         raise AttributeError('%s gave no %s: %s' % (self.tool, name, _one_of(name, self.channels + list(report))))
 
+    def __array__(self, dtype=None, copy=None):
+        """numpy takes a result of one map as its values."""
+        if len(self.frames) != 1:
+            raise TypeError('%s gave %d maps: name one, as result.%s' % (
+                self.tool, len(self.frames), python_name(self.channels[0]) if self.frames else 'report'))
+        return self.frames[0].__array__(dtype, copy)
+
     def __dir__(self):
         return sorted(set(object.__dir__(self)) | set(map(python_name, self.channels)) | set(self.report))
 
@@ -541,9 +548,11 @@ class Result:
         head = '%s: %d case%s%s' % (self.tool, cases, '' if cases == 1 else 's', '' if self.converged else ', not converged')
         rows = []
         for channel in self.channels:
-            f = self.frame(channel)
-            rows.append((channel, '%d x %d, %.4g to %.4g %s' % (f.values.shape[1], f.values.shape[0],
-                                                                numpy.nanmin(f.values), numpy.nanmax(f.values), f.unit)))
+            all_of = [f for f in self.frames if f.channel == channel]
+            f = all_of[0]
+            rows.append((channel, '%s%d x %d, %.4g to %.4g %s' % (
+                '%d of ' % len(all_of) if len(all_of) > 1 else '', f.values.shape[1], f.values.shape[0],
+                min(numpy.nanmin(g.values) for g in all_of), max(numpy.nanmax(g.values) for g in all_of), f.unit)))
         if len(self.lines) == 1:
             rows += [(name, '%.4g' % self.lines[0][name]) for name in SHOWN_FIGURES
                      if isinstance(self.lines[0].get(name), (int, float))]

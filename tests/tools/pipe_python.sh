@@ -61,6 +61,7 @@ claim "rc-solve presses a numpy paraboloid with Hertz's area and pressure" check
 
 claim "rcg.run returns the frames that the tool writes" check run ball.rcg
 claim "rcg.report returns the lines of --report, and those of rc-info" check report ball.rcg
+claim "a result shows the range of all cases, and numpy takes one map" check summaries ball.rcg
 claim "rcg.scene returns the verdicts of rc-scene" check scenes ball.rcg
 claim "rcg.cost returns the trials of a command as a table" check costs ball.rcg
 claim "  and the figures of a measured map with their bars" check bars ball.rcg

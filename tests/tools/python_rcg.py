@@ -427,6 +427,17 @@ def pictures(name):
     assert (numpy.load('pressure.npy') == result.cases[0].pressure).all()
 
 
+def summaries(name):
+    ball = rcg.open(name)
+    assert numpy.array_equal(numpy.asarray(ball), ball.height)
+    pressed = rcg.solve(ball, load='1N,3N', estar='114GPa', output='pressure', quiet=True)
+    # Hertz: the pressure grows with the cube root of the load, and the summary is that of both
+    largest = max(case.pressure.max() for case in pressed.cases)
+    assert '2 of ' in repr(pressed) and 'to %.4g Pa' % largest in repr(pressed)
+    assert abs(largest / pressed.cases[0].pressure.max() / 3 ** (1 / 3) - 1) < 0.1
+    raised(TypeError, numpy.asarray, pressed)
+
+
 def page(name):
     """The page of rc-report: of a file, of arrays; the older call with the name of a tool; a solution that stopped short."""
     wanted = dict(load='0.5N', estar='114GPa', quiet=True)
