@@ -94,9 +94,8 @@ static const double loosest = 1e-3;
  * measured by the change of the pressure while e halves. The softest mode may hide from it, and is
  * found apart. Half of `safe` takes 3 % fewer convolutions, with errors up to 4 times as large; double
  * takes 6 % more (27 runs of bench/constants.py). Half of the other two changes no convolution; double
- * takes up to 2 % more. `safe_first` is that of a first state: next to a jump of a path the pressure changes
- * slowly before it jumps. With 1.25 one of 444 estimates was .99 of the error, and all others 1.3 or more. */
-static const double safe = 2, safe_first = 1.5, safe_soft = 1.25, soft = 0.05;
+ * takes up to 2 % more. On first states 1.5 told .91 of an error in one of 62. */
+static const double safe = 2, safe_soft = 1.25, soft = 0.05;
 /* The least ratio of error to e. Half changes no convolution, double takes 0.4 % more (27 runs of
  * bench/constants.py). */
 static const double least_ratio = 1.25;
@@ -618,9 +617,8 @@ own_error(const struct rc_gap *g, const struct stability *stability, enum rc_gap
         return INFINITY;
     mu = mu == 0 ? 1 : fmin(fmax(mu, single), 1);
     worst = fmax(safe / sqrt(mu), safe_soft / fmax(mu, soft)) * t->error;
-    measured = (stability->first ? safe_first : safe) *
-               (fmax(fmax(t->ratios[0], t->ratios[1]), least_ratio) * t->calm +
-                (stability->judged > 0 ? stability->hidden / mu : 0));
+    measured = safe * (fmax(fmax(t->ratios[0], t->ratios[1]), least_ratio) * t->calm +
+                       (stability->judged > 0 ? stability->hidden / mu : 0));
     return !known ? measured : fmin(stability->judged > 0 ? 2 * worst : worst, measured);
 }
 
