@@ -102,6 +102,13 @@ refuses 2 '--checkpoint does not work on several processes' "a checkpoint of fri
 refuses 2 'rolling does not work on several processes' "rolling" "$run $slip --creep 1e-3,0 --steady -o no.rcg similar.rcg"
 refuses 1 'friction carries less than' "a force above the limit" "$run $slip --tangential 9N -o no.rcg similar.rcg"
 claim "  the message is printed once" test "$(grep -c 'carries less' refuses.err)" = 1
+relax="rc-solve --periodic --relaxation 1MPa,9MPa:1s --nu1 0.5 --E2 rigid --mean-pressure 20kPa --time 0,1s --increments 2 --quiet"
+refuses 1 'NaN or infinite, the first in column 7 of row 44' "  creep" "$run $relax -o no.rcg nan.rcg"
+refuses 1 'NaN or infinite, the first in column 7 of row 44' "  travel: the counter surface" "$run $travel --travel=-1um,0,0.5um --counter nan.rcg -o no.rcg rough.rcg"
+perl -MCompress::Zlib -0777 -pe 's/(RCG1\nchannel=height\n.*?\n\n.{46160}).{8}(.{992})crc32 .{8}\n/
+    my $to = "$1\0\0\0\0\0\0\xf8\x7f$2"; sprintf("%scrc32 %08x\n", $to, crc32($to))/se' pressed.rcg >nan-pressed.rcg
+refuses 1 'height 5770 is not a finite number' "  wear" "$run $wear --distance 0.01m -o no.rcg nan-pressed.rcg"
+claim "  nothing else is printed" test "$(grep -ac '^rc-wear' refuses.err)" = 1
 # An allocation of the second process fails: the work is done nevertheless, or all end with status 1 and a message.
 memory() {
     local command=$1 n last status
@@ -120,6 +127,7 @@ memory() {
 export ASAN_OPTIONS="${ASAN_OPTIONS-}:verify_asan_link_order=0"
 claim "allocations of one process fail: yield" memory "$yield --tol 0.1 --load 40mN ball.rcg"
 claim "  friction" memory "rc-slip --nu 0.3 --mu 0.3 --quiet --tol 0.1 --tangential 20uN pressed-ball.rcg"
+claim "  creep" memory "$relax --tol 0.1 rough.rcg"
 claim "  wear" memory "$wear --distance 0.1m --tol 0.1 pressed-ball.rcg"
 killed() {
     local launcher victim= child
@@ -134,3 +142,22 @@ killed() {
     [ -z "$(ls no.rcg* 2>/dev/null)" ]
 }
 claim "a process that is killed among the increments ends all and leaves no file" killed
+# The second process is killed after 20 states; the others continue from the last one.
+killed_states() {
+    local launcher victim= child n command="${yield/--increments 8/--increments 40} --tol 1e-2 --periodic --mean-pressure 60MPa,20MPa --history rough.rcg"
+    rm -f *.kept
+    $run $command --interval 0 --checkpoint killed.kept -o no.rcg >/dev/null 2>killed.err &
+    launcher=$!
+    until n=$(grep -acs '^checkpoint.numbers=' killed.kept) && [ "$n" -ge 20 ] || ! kill -0 "$launcher"; do sleep 0.05; done
+    for child in $(pgrep -P "$launcher" -x rc-solve); do
+        ! grep -zqx '\(OMPI_COMM_WORLD\|PMI\)_RANK=1' "/proc/$child/environ" || victim=$child
+    done
+    kill -KILL "$victim" || return
+    wait "$launcher" && return 1
+    for n in 1 3; do
+        cp killed.kept "on-$n.kept"
+        $MPIRUN -n "$n" $command --checkpoint "on-$n.kept" --resume -o "on-$n.rcg" || [ $? = 3 ] || return
+    done
+    [ -z "$(ls no.rcg* 2>/dev/null)" ] && cmp on-1.rcg on-3.rcg && cmp on-1.kept on-3.kept
+}
+claim "a process that is killed among its states: one and three processes continue with equal bytes" killed_states

@@ -4,6 +4,7 @@
 #include <errno.h>
 #include <math.h>
 #include <stdint.h>
+#include <signal.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/time.h>
@@ -144,7 +145,9 @@ ranks_die(struct tool *t, int status, const char *text,
         say(t, done ? worst : status, text);
     if (!done)
         MPI_Abort(MPI_COMM_WORLD, status);
-    MPI_Barrier(t->ranks->last); /* the launcher kills the others when the first one ends */
+    signal(SIGTERM, SIG_IGN); /* the launcher ends the others when the first one ends */
+    signal(SIGALRM, SIG_IGN);
+    MPI_Barrier(t->ranks->last);
     exit(worst);
 }
 
