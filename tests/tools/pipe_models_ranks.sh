@@ -43,6 +43,7 @@ claim "travel of a window" same "$travel --travel=-1um,0,1um --window 110x37 rou
 claim "travel over a body that yields" same "$yield --periodic --tol 1e-2 --radius 200um --load 30mN --travel=-2um,0,2um --passes 2 rough.rcg"
 wear="rc-wear --coefficient 1e-3mm3/Nm,1e-3mm3/Nm --quiet"
 claim "wear" same "$wear --distance 0.1m,1m pressed.rcg"
+claim "  its report has the exchanges" grep -q '"exchanges": [1-9]' shared.json
 claim "wear to a contact area" same "$wear --distance 10m --until area=0.2 pressed.rcg"
 claim "wear of a track" same "$wear --motion track:1mm --distance 0.1m pressed-ball.rcg"
 claim "wear of two rough bodies" same "$wear --motion sliding --counter rough.rcg --tol 0.1 --distance 0.05m pressed.rcg"

@@ -324,6 +324,7 @@ put_row(struct drive *d, const struct rc_model *m, const struct rc_point *at)
                        {"setup", d->is.setup}, {"iterate", d->course.iterate}, {NULL, 0}},
                    d->is.looked - d->is.began);
     report_memory(r);
+    report_ranks(r, r->tool);
     report_finish_row(r);
 }
 
