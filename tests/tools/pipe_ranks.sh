@@ -154,7 +154,7 @@ alone() {
     local tool name
     for tool in "$RC_BIN"/rc-*[a-z]; do
         name=${tool##*/}
-        case $name in rc-solve | rc-wear | rc-deflect | rc-stress) continue ;; esac
+        case $name in rc-solve | rc-slip | rc-wear | rc-deflect | rc-stress) continue ;; esac
         $MPIRUN -n 2 "$name" "$@" >alone.out 2>alone.err
         [ $? = 2 ] && [ "$(grep -c "^$name: $name cannot share its maps among processes: start one process" alone.err)" = 1 ] &&
             [ ! -s alone.out ] && [ ! -e no.rcg ] || { echo "$name" && cat alone.err alone.out && return 1; }
