@@ -61,7 +61,8 @@ static const struct opt opts[] = {
      .needs = RULES({.with = "radius|cylinder", .because = "nothing travels"}),
      .help = "travel: positions of the contact along x, from the middle of the map"},
     {.name = "passes", .type = OPT_COUNT, AT(passes), .min = 1, .max = 1e6, .result = true, .arg = "N",
-     .needs = RULES({.with = "travel"}, {.with = "yield", .because = "an elastic body does not change from pass to pass"}),
+     .needs = RULES({.with = "travel"}, {.with = "yield",
+       .because = "an elastic body does not change from pass to pass"}),
      .help = "travel: go through the positions N times, with --yield in the volume"},
     {.title = "output"},
     {.name = "title", .type = OPT_TEXT, AT(title), .arg = "TEXT",
@@ -297,8 +298,8 @@ end_cell(char *cell)
     return rest;
 }
 
-/* Writes the cell of a column in the last row of a report to `text`, and its unit to `unit`. False: the report
- * is empty or has no such column. */
+/* Writes the cell of a column in the last row of a report to `text`, and its unit to `unit`. False: the
+ * report is empty or has no such column. */
 static bool
 last_cell(struct run *run, const char *file, const char *column, char text[CELL], char unit[CELL])
 {
@@ -1174,7 +1175,8 @@ add_last_contact(const struct run *run, struct command *c, bool soft)
     }
 }
 
-/* Adds a word of a command. @NAME is this option, if it was given. ORIGINAL, PREPARED and the like are replaced by files and options. */
+/* Adds a word of a command. @NAME is this option, if it was given. ORIGINAL, PREPARED and the like are
+ * replaced by files and options. */
 static void
 expand(const struct run *run, struct command *c, const char *word)
 {

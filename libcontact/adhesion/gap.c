@@ -742,7 +742,8 @@ look(struct rc_gap *g, struct line *l, double a)
     l->rounding = 1e-14 * (sums[LINE_SIZE] + a * a * l->q);
 }
 
-/* The stiffness along d, with the curvature `bend` at a = 0. A pinned W is too large: it has the right sign. */
+/* The stiffness along d, with the curvature `bend` at a = 0. A pinned W is too large: it has the right
+ * sign. */
 static double
 way_of(const struct rc_gap_way *way, bool pinned, const struct line *l)
 {
@@ -1120,10 +1121,11 @@ edges_row(void *ctx, size_t j, double *sums)
             (i + 1 < m && (x[i] == 0) != (x[i + 1] == 0)) + ((x[i] == 0) != (next[i] == 0));
 }
 
-/* Contacts hold the waves that are longer than the distances between them, and K does not know of them: there
- * K r is too large. As punches of radius a, with a share f of the area, they have the stiffness 2 f/(pi a) per
- * area. The staircase around a disc has 8 a/dx edges, so that this is a quarter of the edges per node. Half
- * and double take 3 and 5 % more convolutions, 0 takes 22 % more (8 maps of bench/adhesion.py, 256 nodes). */
+/* Contacts hold the waves that are longer than the distances between them, and K does not know of them:
+ * there K r is too large. As punches of radius a, with a share f of the area, they have the stiffness 2
+ * f/(pi a) per area. The staircase around a disc has 8 a/dx edges, so that this is a quarter of the
+ * edges per node. Half and double take 3 and 5 % more convolutions, 0 takes 22 % more (8 maps of
+ * bench/adhesion.py, 256 nodes). */
 static double
 pinning(struct rc_gap *g)
 {

@@ -21,11 +21,11 @@ struct rc_friction_solver *rc_friction_solver_new(const struct rc_shape *shape,
  * increment of `main` remains. */
 struct rc_friction_solver *rc_friction_solver_beside(struct rc_friction_solver *main, double tol,
                                                      struct rc_err *err);
-/* The pressure of this increment (nx ny Pa, copied; NULL: the bodies are apart) and its gap (nx ny m, used
- * until the increment is kept; NULL: unknown). A node that comes into contact in this increment has moved with its body until then. With
- * the gap before, this motion is known to first order, and exactly for nu = 0 and force proportional to load
- * (Jaeger 1998; Ciavarella 1998). Without a gap the node keeps its position from before the increment.
- * RC_FAIL when a pressure is negative or not finite. */
+/* The pressure of this increment (nx ny Pa, copied; NULL: the bodies are apart) and its gap (nx ny m,
+ * used until the increment is kept; NULL: unknown). A node that comes into contact in this increment
+ * has moved with its body until then. With the gap before, this motion is known to first order, and
+ * exactly for nu = 0 and force proportional to load (Jaeger 1998; Ciavarella 1998). Without a gap the
+ * node keeps its position from before the increment. RC_FAIL when a pressure is negative or not finite. */
 enum rc_status rc_friction_solver_set_pressure(struct rc_friction_solver *slip, const double *p,
                                                const double *gap, struct rc_err *err);
 /* Force (N) or displacement (m) at the end of the increment, along x and y; call after its pressure is

@@ -32,9 +32,9 @@ enum rc_status rc_boundary_check(struct rc_boundary boundary, struct rc_err *err
 struct rc_fft *rc_fft_new(const struct rc_ranks *ranks, struct rc_fft *lender,
                           const struct rc_shape *shape, struct rc_boundary boundary,
                           enum rc_precision precision, size_t threads, struct rc_err *err);
-/* The same for every 2^level-th row and column of a larger map, where 2^level divides rc_rows_unit of that
- * map. `shape` is that of the coarser map. Each of its rows belongs to the rank that has the row of the larger
- * map. */
+/* The same for every 2^level-th row and column of a larger map, where 2^level divides rc_rows_unit of
+ * that map. `shape` is that of the coarser map. Each of its rows belongs to the rank that has the row
+ * of the larger map. */
 struct rc_fft *rc_fft_new_coarser(const struct rc_ranks *ranks, struct rc_fft *lender,
                                   const struct rc_shape *shape, size_t level,
                                   struct rc_boundary boundary, enum rc_precision precision,

@@ -175,8 +175,8 @@ enum {
     PIECE = 1 << 30 /* bytes of a row per message: MPI counts in ints */
 };
 
-/* A type of this many bytes, so that counts fit an int. A row of 2^28 numbers has 2^31 bytes, one more than an
- * int holds. */
+/* A type of this many bytes, so that counts fit an int. A row of 2^28 numbers has 2^31 bytes, one more
+ * than an int holds. */
 static MPI_Datatype
 type_of(size_t bytes)
 {

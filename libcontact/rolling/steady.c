@@ -53,9 +53,9 @@ enum {
 static const double safety = 1.1;
 /* Of the linear iteration. Half takes 2 % more convolutions, double 43 % (24 runs as above). */
 static const double inner_tol = 0.3;
-/* Part of the nodes that may begin or cease to slip before the border is found anew. A third or three times as
- * much takes 3 % more to 3 % fewer convolutions, 0 takes 14 to 19 % more (72 runs with a force: smooth and
- * rough balls, 64 to 512 nodes a side, to 1e-2 and 1e-4). */
+/* Part of the nodes that may begin or cease to slip before the border is found anew. A third or three
+ * times as much takes 3 % more to 3 % fewer convolutions, 0 takes 14 to 19 % more (72 runs with a
+ * force: smooth and rough balls, 64 to 512 nodes a side, to 1e-2 and 1e-4). */
 static const double few = 0.03;
 /* Relative: rounding of a radius. Half and double change no bit (22 runs of bench/constants.py). */
 static const double on_circle = 1e-12;

@@ -244,7 +244,8 @@ output_end(struct tool *t)
         whole_file_share(&output, ""); /* the first process renames it */
     if (!whole_file_put(&output, t->output.file))
         tool_die(t, "%s: writing failed (%s)", name, strerror(errno));
-    /* The result is complete. When one process ends with a status above 0, the launcher signals the others. */
+    /* The result is complete. When one process ends with a status above 0, the launcher signals the
+     * others. */
     if (together != NULL) {
         handle(SIG_IGN);
         signal(SIGALRM, SIG_IGN);

@@ -262,8 +262,8 @@ report_no_object(struct report *r, const char *name)
         json_plain(&r->json, name, NULL);
 }
 
-/* The name of the input as on the command line: the row is about the case that began there. Of a pipe: the source of
- * its map. */
+/* The name of the input as on the command line: the row is about the case that began there. Of a pipe:
+ * the source of its map. */
 static void
 put_file(struct report *r)
 {

@@ -21,8 +21,8 @@
 
 /* ---- start and finish ---- */
 
-/* Cores of this process, shared with the other processes of this tool: ten that start together do not each take all
- * of them. Processes that share a map have their cores from mpirun. */
+/* Cores of this process, shared with the other processes of this tool: ten that start together do not
+ * each take all of them. Processes that share a map have their cores from mpirun. */
 static size_t
 shared_cores(struct tool *t)
 {

@@ -364,8 +364,8 @@ char *tool_copy(struct tool *tool, const char *text) __attribute__((returns_nonn
 /* Prints what could not be done, also with --quiet, and continues with the next file; exit status 1 at the
  * end. */
 void tool_fail(struct tool *tool, const char *format, ...) __attribute__((format(printf, 2, 3)));
-/* A warning of the same kind about another input is only counted; tool_finish prints the counts. --verbose prints
- * each. */
+/* A warning of the same kind about another input is only counted; tool_finish prints the counts.
+ * --verbose prints each. */
 void tool_warn(struct tool *tool, const char *format, ...) __attribute__((format(printf, 2, 3)));
 void tool_count_warnings(struct tool *tool);
 /* Prints a note, only with --verbose. */

@@ -192,8 +192,8 @@ take_table(struct relaxation_law *law, struct columns *c, double shift, struct r
 
 static double factor_at(const struct relaxation_shift *s, double kelvin);
 
-/* Shifts each row of a table from its temperature to T0: a time there is a_T times as long. Equal times of two
- * temperatures are made different, far below what a fit resolves. */
+/* Shifts each row of a table from its temperature to T0: a time there is a_T times as long. Equal times
+ * of two temperatures are made different, far below what a fit resolves. */
 static enum rc_status
 reduce(const struct columns *c, const struct relaxation_shift *shift, struct rc_err *err)
 {

@@ -24,14 +24,14 @@ struct relaxation_law {
         *shift; /* of several factors, one for each case; NULL: there is one */
 };
 
-/* --shift: a list of factors of all times; wlf,C1,C2,T0 or arrhenius,EA,T0 at a list of temperatures, which is NULL
- * if there is none. T and T0 in K or degC, C2 in K, EA in J/mol. */
+/* --shift: a list of factors of all times; wlf,C1,C2,T0 or arrhenius,EA,T0 at a list of temperatures,
+ * which is NULL if there is none. T and T0 in K or degC, C2 in K, EA in J/mol. */
 enum rc_status relaxation_shift_read(const char *text, const char *temperature,
                                      struct relaxation_shift *shift, struct rc_err *err);
 
-/* "Einf,E1:tau1,...", or a table with a heading: `tau E`, `time E`, or `frequency storage loss` (Hz; `omega`: rad/s).
- * A table of measured moduli may have a column of temperatures, whose rows the law shifts to T0. All times are
- * multiplied by the factor of `shift`, if it is one; NULL: 1. */
+/* "Einf,E1:tau1,...", or a table with a heading: `tau E`, `time E`, or `frequency storage loss` (Hz;
+ * `omega`: rad/s). A table of measured moduli may have a column of temperatures, whose rows the law
+ * shifts to T0. All times are multiplied by the factor of `shift`, if it is one; NULL: 1. */
 enum rc_status relaxation_law_read(struct relaxation_law *law, const char *text,
                                    const struct relaxation_shift *shift, struct rc_err *err);
 /* The factor of case k, and its temperature (K; NAN: none). */
