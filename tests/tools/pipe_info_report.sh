@@ -22,7 +22,7 @@ cell() {
 claim "40 scans become a table" eval 'for k in $(seq 40); do cat egg.rcg; done | rc-info --areal --report all.tsv >said.txt && test "$(wc -l <all.tsv)" = 41'
 claim "  there is no other output" test ! -s said.txt
 claim "  each row has a cell for each column" eval "awk -F '\t' 'NR == 1 { n = NF } NF != n { bad = 1 } END { exit bad || n < 40 }' all.tsv"
-claim "  the first line has the units" eval 'head -n 1 all.tsv >head.txt && says "	sq/m	.*	spd/1/m2	.*	s10z/m	sha/m2	sda/m2$" cat head.txt'
+claim "  the first line has the units" eval 'head -n 1 all.tsv >head.txt && says "	sq/m	.*	spd/1/m2	.*	s10z/m	sha/m2	sda/m2	file$" cat head.txt'
 claim "  the cases have consecutive numbers" test "$(cell all.tsv 40 case)" = 40
 near "$(cell all.tsv 7 sq)" 0.5e-6 "$summed" "Sq"
 near "$(cell all.tsv 7 spd)" "$(perl -e 'printf "%.15g", 2 / (24e-6 * 20e-6)')" "$rounding" "two peaks a cell"
