@@ -102,23 +102,27 @@ honest(struct rc_model *m, size_t q, enum rc_status status, const char *what)
     const struct rc_figure *f;
     const struct rc_frame_kind *kind;
     const void *data;
-    bool converged = status == RC_OK, unloaded;
+    bool converged = status == RC_OK, unloaded, few_slabs = false;
 
     if (rc_model_look(m, NULL, &err) != RC_OK) {
         assert_true(err.text[0] != '\0');
         refused++;
         return;
     }
-    for (size_t k = 0; (f = rc_model_figure(m, k, &data)) != NULL; k++)
+    for (size_t k = 0; (f = rc_model_figure(m, k, &data)) != NULL; k++) {
         converged |=
             is_own(m, data) && strcmp(f->name, "converged") == 0 && rc_figure_number(f, data) > 0;
+        few_slabs |=
+            strcmp(f->name, "slab_error_estimate") == 0 && isnan(rc_figure_number(f, data));
+    }
     /* without load some figures are unknown; where all nodes in contact yield, the approach is; where
-     * fewer than six slabs yield, their error is */
+     * fewer than six of the given slabs yield, their error is, and with it that of the pressure */
     unloaded = rc_model_number(m, "load") == 0 ||
                rc_model_number(m, "plastic_area") >= rc_model_number(m, "contact_area");
     *(converged ? &reached : &short_of) += 1;
     for (size_t k = 0; converged && (f = rc_model_figure(m, k, &data)) != NULL; k++)
         if (known[q][k] && !unloaded && strcmp(f->name, "slab_error_estimate") != 0 &&
+            !(few_slabs && strcmp(f->name, "pressure_error_estimate") == 0) &&
             f->kind == RC_NUMBER && isnan(rc_figure_number(f, data)))
             complain(what, f->name, "is NaN, and the model is converged");
     for (size_t k = 0; converged && (kind = rc_model_frame_kind(m, k)) != NULL; k++)
