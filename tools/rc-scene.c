@@ -338,7 +338,7 @@ name_commands(struct run *run, struct line line[], size_t n, const char *const l
         }
         if (!scene_run(&run->t, &l->command, l->effect.name, run->in, contact, true, &found,
                        l->why)) {
-            l->commanded = false;
+            l->commanded = l->why[0] == '\0';
             continue;
         }
         l->seconds = found.seconds;

@@ -313,12 +313,13 @@ scene_run(struct tool *t, const struct scene_command *c, const char *effect, int
         tool_die(t, "interrupted");
     if (end != PROCESS_ENDED || object == NULL) {
         const char *said = process.said == NULL ? "" : process.said, *of = strstr(said, "): ");
-        if (of != NULL &&
-            of < said + strcspn(said, "\n")) /* PROGRAM: SOURCE, case 1, frame 2 (NAME): */
+        const bool about = of != NULL && of < said + strcspn(said, "\n");
+        if (about) /* PROGRAM: SOURCE, case 1, frame 2 (NAME): */
             said = of + 3;
         else if (strncmp(said, c->word[last][0], strlen(c->word[last][0])) == 0)
             said += strlen(c->word[last][0]) + strspn(said + strlen(c->word[last][0]), ": ");
-        snprintf(why, SCENE_WHY, "%s: %.*s", c->word[last][0], (int)strcspn(said, "\n"), said);
+        if (about || process.status == EXIT_USAGE) /* else the machine failed, not the contact */
+            snprintf(why, SCENE_WHY, "%s: %.*s", c->word[last][0], (int)strcspn(said, "\n"), said);
         fine = false;
     } else {
         read_report(object, row, plan, found);
