@@ -63,7 +63,8 @@ struct scene_found {
     bool converged;
 };
 /* Runs the programs: the first one reads `in`. With `plan` they only forecast their work; a second
- * program then reads `contact`, the elastic contact. False when one of them fails, with *why if it refuses the contact. */
+ * program then reads `contact`, the elastic contact. False when one of them fails, with *why if it
+ * refuses the contact. */
 bool scene_run(struct tool *tool, const struct scene_command *command, const char *effect, int in,
                int contact, bool plan, struct scene_found *found, char why[SCENE_WHY]);
 
