@@ -17,7 +17,7 @@ cat >arrows.txt <<'END'
 libcontact          | -                                        | -
 libcontact/model    | %base %ranks                             | libcontact libcontact/ranks libcontact/solver=rc_figures_
 libcontact/model    |                                          | libcontact/solver=rc_model_ libcontact/adhesion=rc_figures_ libcontact/adhesion=rc_model_ libcontact/leak=rc_figures_ libcontact/yield=rc_figures_
-libcontact/model    |                                          | libcontact/friction=rc_figures_ libcontact/friction=rc_model_ libcontact/rolling=rc_figures_ libcontact/rolling=rc_model_ libcontact/wear=rc_figures_ libcontact/wear=rc_model_ libcontact/travel=rc_figures_ libcontact/travel=rc_model_ libcontact/viscoelastic=rc_figures_ libcontact/viscoelastic=rc_model_ libcontact/stress=rc_figures_ libcontact/fatigue=rc_figures_ libcontact/heat=rc_figures_ libcontact/surface=rc_figures_ libcontact/features=rc_figures_
+libcontact/model    |                                          | libcontact/friction=rc_figures_ libcontact/friction=rc_model_ libcontact/rolling=rc_figures_ libcontact/rolling=rc_model_ libcontact/wear=rc_figures_ libcontact/wear=rc_model_ libcontact/travel=rc_figures_ libcontact/travel=rc_model_ libcontact/viscoelastic=rc_figures_ libcontact/viscoelastic=rc_model_ libcontact/stress=rc_figures_ libcontact/fatigue=rc_figures_ libcontact/heat=rc_figures_ libcontact/surface/parameters=rc_figures_ libcontact/features=rc_figures_
 libcontact/ranks    | libcontact/common.h libcontact/contact_mpi.h libcontact/memory.h | libcontact
 libcontact/transform | %base                                   | libcontact
 libcontact/body     | %base %ranks                             | libcontact libcontact/ranks
@@ -33,7 +33,7 @@ libcontact/stress   | %base libcontact/operator/operator.h     | libcontact libc
 libcontact/stress   | libcontact/body/line.h                   | libcontact/transform libcontact/body
 libcontact/stress   | libcontact/volume/volume.h               | libcontact/volume
 libcontact/fatigue  | %base                                    | libcontact libcontact/stress libcontact/body
-libcontact/heat     | %base libcontact/operator/operator.h     | libcontact libcontact/operator libcontact/transform libcontact/body libcontact/surface
+libcontact/heat     | %base libcontact/operator/operator.h     | libcontact libcontact/operator libcontact/transform libcontact/body libcontact/surface/parameters
 libcontact/heat     | libcontact/body/quadrature.h libcontact/body/line.h| libcontact/body
 libcontact/heat     | libcontact/pyramid/pyramid.h             | libcontact/pyramid
 libcontact/volume   | %base libcontact/operator/operator.h     | libcontact libcontact/ranks libcontact/operator libcontact/transform
@@ -55,7 +55,9 @@ libcontact/rolling  | %base libcontact/friction/friction.h     | libcontact libc
 libcontact/rolling  | libcontact/friction/discs.h libcontact/model/row.h | libcontact/model libcontact/operator libcontact/body
 libcontact/features | %base                                   | libcontact
 libcontact/surface  | %base %ranks                             | libcontact libcontact/ranks
-libcontact/surface  | libcontact/transform/transform.h         | libcontact/transform
+libcontact/surface  | libcontact/transform/transform.h         | libcontact/transform libcontact/surface/parameters
+libcontact/surface/parameters | %base %ranks                  | libcontact libcontact/ranks
+libcontact/surface/parameters | libcontact/transform/transform.h | libcontact/transform
 formats/core        | libcontact/grid.h                        | libcontact
 formats/rcg         | libcontact/grid.h formats/core/core.h    | libcontact formats/core
 formats/sandbox     | libcontact/grid.h formats/core/core.h formats/rcg/rcg.h | libcontact formats/core formats/rcg
@@ -143,7 +145,7 @@ END
 base='libcontact/contact.h libcontact/grid.h libcontact/common.h libcontact/memory.h libcontact/expected.h libcontact/owned.h'
 public='libcontact/contact.h libcontact/grid.h libcontact/surface.h libcontact/model.h'
 physics='libcontact libcontact/body libcontact/operator libcontact/solver libcontact/stress libcontact/yield'
-physics="$physics libcontact/pyramid libcontact/model libcontact/adhesion libcontact/leak libcontact/friction libcontact/rolling libcontact/wear libcontact/travel libcontact/viscoelastic libcontact/fatigue libcontact/heat libcontact/surface libcontact/features"
+physics="$physics libcontact/pyramid libcontact/model libcontact/adhesion libcontact/leak libcontact/friction libcontact/rolling libcontact/wear libcontact/travel libcontact/viscoelastic libcontact/fatigue libcontact/heat libcontact/surface libcontact/surface/parameters libcontact/features"
 cli='tools/cli tools/text tools/machine'
 plot='tools/plot tools/canvas'
 reader='libcontact/grid.h formats/core/core.h formats/format.h formats/containers/containers.h formats/sandbox/sandbox.h'

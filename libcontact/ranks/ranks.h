@@ -31,7 +31,7 @@
  *                         all ranks as a whole, and from there on each does the same (pyramid.c)
  *   nested start          rows of the coarser grid are moved to the ranks that own them there; each rank
  *                         solves small grids alone, after a message that all have the memory (nested.c)
- *   patches of contact    labelled row by row, joined across the edges between ranks (surface/patches.c)
+ *   patches of contact    labelled row by row, joined across the edges between ranks (surface/parameters/patches.c)
  *   coarser grids of      each rank reduces and expands its rows, with those of other ranks within the
  *   stresses              reach of the interpolation (coarse_grid.c)
  *   failures              no rank continues alone: makers agree on their status before any of them returns
