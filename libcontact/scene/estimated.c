@@ -25,14 +25,19 @@ set_area(const struct rc_scene *s, struct rc_scene_effect *e, double low, double
     scene_set(e, RC_SCENE_AREA, fmin(low, room_of(s) / 2), fmin(high, room_of(s)));
 }
 
-/* The interval of an area, from the nodes that join from one contact to another. The effect is that of
- * `to`, or up to `more` times larger: free nodes whose gap would then close may join too, and nodes whose
- * pressure would vanish may leave. Both ends are whole nodes, so that they have a node to spare. */
+/* How the area may differ from that of a contact: `least` to `most` times its change, and nodes that would
+ * join or leave if the effect were `more` times larger, or a gap closed by `tiny` of the largest closing. */
+struct spread {
+    double least, most, more, tiny;
+};
+
+/* The interval of an area, from the nodes that join from one contact to another. Both ends are whole nodes,
+ * so that they have a node to spare. */
 static void
 set_nodes(const struct rc_scene *s, struct rc_scene_effect *e, const struct solved *to,
-          double least, double most, double more)
+          struct spread by)
 {
-    const double n = (double)s->now.contact.contact_nodes, tiny = 0.05,
+    const double n = (double)s->now.contact.contact_nodes,
                  joined = fabs((double)to->contact.contact_nodes - n);
     double closing = 0, join = 0, leave = 0;
 
@@ -40,11 +45,11 @@ set_nodes(const struct rc_scene *s, struct rc_scene_effect *e, const struct solv
         closing = fmax(closing, s->now.gap[k] - to->gap[k]);
     for (size_t k = 0; k < s->n; k++) {
         const double closes = fmax(s->now.gap[k], 0) - to->gap[k], falls = s->now.p[k] - to->p[k];
-        join += !(to->p[k] > 0) && to->gap[k] <= (more - 1) * closes + tiny * closing;
-        leave += to->p[k] > 0 && to->p[k] <= (more - 1) * falls;
+        join += !(to->p[k] > 0) && to->gap[k] <= (by.more - 1) * closes + by.tiny * closing;
+        leave += to->p[k] > 0 && to->p[k] <= (by.more - 1) * falls;
     }
-    set_area(s, e, (floor(least * joined) - leave) / n,
-             (ceil(most * joined) + fmax(join, leave)) / n);
+    set_area(s, e, (floor(by.least * joined) - leave) / n,
+             (ceil(by.most * joined) + fmax(join, leave)) / n);
 }
 
 static double
@@ -204,7 +209,7 @@ scene_adhesion(struct rc_scene *s, struct rc_scene_effect *e, struct rc_err *err
     if (status != RC_OK)
         return status;
     scene_changes(&s->now, &s->other, change);
-    set_nodes(s, e, &s->other, 0.9, 1.5, 2);
+    set_nodes(s, e, &s->other, (struct spread){0.9, 1.5, 2, 0.05});
     scene_set(e, RC_SCENE_PRESSURE, 0.98 * change[RC_SCENE_PRESSURE] - 0.0005,
               1.5 * change[RC_SCENE_PRESSURE] + 0.001);
     if (rc_there(change[RC_SCENE_APPROACH]))
@@ -240,7 +245,7 @@ scene_wear(struct rc_scene *s, struct rc_scene_effect *e, struct rc_err *err)
     scene_changes(&s->now, &s->other, change);
     scene_set(e, RC_SCENE_PRESSURE, s->accepted ? 0 : 0.95 * change[RC_SCENE_PRESSURE] - 0.0005,
               fmin(1.4 * change[RC_SCENE_PRESSURE] + 0.001, 1));
-    set_nodes(s, e, &s->other, 0.8, 1.15, 1.4);
+    set_nodes(s, e, &s->other, (struct spread){0.8, 1.15, 1.4, 0.05});
     return RC_OK;
 }
 
@@ -335,11 +340,11 @@ dundurs(const struct rc_pair *pair)
            (2 * ((1 - a->nu) * ca + (1 - b->nu) * cb));
 }
 
-/* Pressure and traction of the pressed bodies in a single increment. In many increments the pressure of
- * 200 scenes changed by 0.16 to 2.2 times as much. Where they slide, tractions of mu p change the
- * pressure by up to mu beta. Full stick under an axisymmetric punch raises load over approach by ln((1
- * + beta)/(1 - beta))/(2 beta) (Spence 1968, Proc. R. Soc. A 305, 55), full stick of a wave by 1/(1 -
- * beta^2). */
+/* Pressure and traction of the pressed bodies in four increments. In sixteen the pressure of 200 scenes
+ * changed by 0.69 to 1.39 times as much, and the approach by 0.77 to 1.13 times. Where they slide,
+ * tractions of mu p change the pressure by up to mu beta. Full stick under an axisymmetric punch raises load
+ * over approach by ln((1 + beta)/(1 - beta))/(2 beta) (Spence 1968, Proc. R. Soc. A 305, 55), full stick of
+ * a wave by 1/(1 - beta^2). */
 enum rc_status
 scene_dissimilar(struct rc_scene *s, struct rc_scene_effect *e, struct rc_err *err)
 {
@@ -353,7 +358,7 @@ scene_dissimilar(struct rc_scene *s, struct rc_scene_effect *e, struct rc_err *e
                                                     .mu = mu,
                                                     .tol = tol,
                                                     .threads = s->problem.threads},
-                                            .increments = 1};
+                                            .increments = 4};
     struct rc_problem inner = s->problem;
     struct rc_point to = {0};
     double change[RC_SCENE_FIGURES];
@@ -386,16 +391,15 @@ scene_dissimilar(struct rc_scene *s, struct rc_scene_effect *e, struct rc_err *e
     s->other.contact = rc_elastic_result(m)->contact;
     s->convolutions += rc_friction_result(m)->convolutions;
     scene_changes(&s->now, &s->other, change);
-    scene_set(e, RC_SCENE_PRESSURE, 0.15 * change[RC_SCENE_PRESSURE] - 0.001,
-              fmax(2.5 * change[RC_SCENE_PRESSURE] + 0.001, slides));
-    set_nodes(s, e, &s->other, 0.3, 2, 2.5);
-    e->change[RC_SCENE_AREA].high = fmin(e->change[RC_SCENE_AREA].high + node, room_of(s));
+    scene_set(e, RC_SCENE_PRESSURE, 0.6 * change[RC_SCENE_PRESSURE] - 0.001,
+              fmax(1.5 * change[RC_SCENE_PRESSURE] + 0.001, slides));
+    set_nodes(s, e, &s->other, (struct spread){0.6, 1.2, 1.5, 0.01});
     if (slides > 0)
         set_area(s, e, e->change[RC_SCENE_AREA].low,
                  fmax(2 * change[RC_SCENE_AREA], slides) + 2 * node);
     if (!(s->problem.hardness > 0)) /* with dents the approach counts from another shape */
-        scene_set(e, RC_SCENE_APPROACH, 0.1 * change[RC_SCENE_APPROACH] - 0.0005,
-                  1.2 * change[RC_SCENE_APPROACH] + 0.0005 + 0.05 * mu * beta);
+        scene_set(e, RC_SCENE_APPROACH, 0.7 * change[RC_SCENE_APPROACH] - 0.0005,
+                  1.2 * change[RC_SCENE_APPROACH] + 0.0005 + 0.02 * mu * beta);
     return RC_OK;
 }
 
