@@ -57,7 +57,7 @@ def study(data, options, command):
         pipe += ['|', *words] if pipe else words
     with tempfile.TemporaryDirectory() as folder:
         report = os.path.join(folder, 'report.json')
-        tool('rc-cost', '--quiet', *options, '--report', report, '--', *pipe, data=data)
+        tool('rc-cost', '--quiet', '--limit', '1h', *options, '--report', report, '--', *pipe, data=data)
         with open(report) as lines:
             rows = [json.loads(line) for line in lines]
     failed = [r for r in rows if r['what'] == 'run' and r['state'] != 'done']
