@@ -46,6 +46,8 @@ struct rc_scene_data {
     double mu;         /* coefficient of friction */
     double tangential; /* N */
     double speed;      /* m/s, of sliding */
+    double creep[2];   /* of body 2 over body 1, per length rolled towards +x, along x and y */
+    double spin;       /* rad/m */
     double wear;       /* 1/Pa: depth that both bodies lose per pressure and distance */
     double distance;   /* m, slid */
     double conductivity[2], diffusivity[2]; /* W/(m K), m2/s, of bodies 1 and 2 */
@@ -64,9 +66,10 @@ enum rc_scene_figure {
     RC_SCENE_APPROACH,
     RC_SCENE_DISPLACEMENT, /* along the surface, over that of linear theory */
     RC_SCENE_TEMPERATURE,  /* K */
-    RC_SCENE_FRICTION,     /* change of the coefficient */
+    RC_SCENE_FRICTION,     /* change of the coefficient; of rolling, force over load */
     RC_SCENE_FATIGUE, /* index of fatigue, 1 at the endurance limit, as the contact passes along x */
     RC_SCENE_LEAK,    /* 1: the gap is open between these edges; 0: it is closed */
+    RC_SCENE_PULL_OFF, /* pull-off force over the load */
     RC_SCENE_FIGURES
 };
 /* Names in that order: "contact_area", "max_pressure", "approach", "displacement", ... */

@@ -23,9 +23,9 @@ static struct args {
           .within_friction = 0.01,
           .decide = NAN};
 
-static const char *const figure_words[] = {"area",         "pressure",    "approach",
-                                           "displacement", "temperature", "friction",
-                                           "fatigue",      "leak",        NULL};
+static const char *const figure_words[] = {"area",        "pressure", "approach", "displacement",
+                                           "temperature", "friction", "fatigue",  "leak",
+                                           "pull-off",    NULL};
 
 #define AT(field) .at = offsetof(struct args, field)
 #define ABOVE_0 .min = 0, .max = INFINITY, .above = true, .result = true
@@ -144,6 +144,29 @@ read_conductivities(struct tool *t, double k[2])
         tool_usage(t, "--conductivity %s: it must be thermal, in W/mK", args.given.conductivity);
 }
 
+/* Creepages along x and y, and a spin. */
+static void
+read_creep(struct tool *t, double creep[2], double *spin)
+{
+    const char *text = args.given.creep;
+    double *const to[] = {&creep[0], &creep[1], spin};
+    size_t n = 0;
+
+    for (const char *at = text; at != NULL && *at != '\0' && n < 3; n++) {
+        char one[64];
+        const size_t length = strcspn(at, ",");
+        if (length >= sizeof one)
+            tool_usage(t, "--creep %s: a number of at most %zu characters is expected", text,
+                       sizeof one - 1);
+        snprintf(one, sizeof one, "%.*s", (int)length, at);
+        if (unit_number(one, n == 2 ? UNIT_SPIN : UNIT_CREEP, to[n], &t->err) != RC_OK)
+            tool_usage(t, "--creep %s: %s", text, t->err.text);
+        at = at[length] == '\0' ? NULL : at + length + 1;
+    }
+    if (text != NULL && (n < 2 || strspn(text, ",") > 0 || strchr(text, '\0')[-1] == ','))
+        tool_usage(t, "--creep %s: it must be two creepages, or these and a spin", text);
+}
+
 /* A difference of temperatures: 10degC would be read as 283 K. */
 static double
 read_difference(struct tool *t)
@@ -231,6 +254,7 @@ read_data(struct run *run)
             tool_usage(t, "--diffusivity: give two numbers, for body 1 and body 2");
         memcpy(d->diffusivity, args.given.diffusivity.v, sizeof d->diffusivity);
     }
+    read_creep(t, d->creep, &d->spin);
     d->moving = args.given.moving != NULL && strcmp(args.given.moving, "1") == 0 ? 1 : 2;
     run->bounds = (struct rc_scene_bounds){.relative = args.within,
                                            .temperature = read_difference(t),
@@ -289,13 +313,19 @@ solve_contact(struct run *run, const struct scene_command *any, int in, int out)
 static void
 decide(struct run *run, struct line *l, const struct rc_contact *c, const struct scene_found *found)
 {
-    const double before[] = {c->contact_area, c->max_pressure, c->approach};
+    const double before[RC_SCENE_FIGURES] = {[RC_SCENE_AREA] = c->contact_area,
+                                             [RC_SCENE_PRESSURE] = c->max_pressure,
+                                             [RC_SCENE_APPROACH] = c->approach,
+                                             [RC_SCENE_PULL_OFF] = c->load};
     struct rc_scene_effect e = l->effect;
     bool any = false;
 
     for (int f = 0; f < RC_SCENE_FIGURES; f++) {
-        const double v = found->figure[f], over = f < 3 ? before[f] : 1,
-                     change = f < 3 ? fabs(v / over - 1) : fabs(v),
+        const bool differs = f <= RC_SCENE_APPROACH;
+        const double v = found->figure[f], over = before[f] > 0 ? before[f] : 1,
+                     change = differs                  ? fabs(v / over - 1)
+                              : f == RC_SCENE_PULL_OFF ? fmax(-v / over, 0) /* it is negative */
+                                                       : fabs(v),
                      error = fabs(v / over) * found->error[f];
         e.change[f] = (struct rc_interval){NAN, NAN};
         if (isnan(v))
@@ -355,8 +385,9 @@ name_commands(struct run *run, struct line line[], size_t n, const char *const l
 /* ---- output ---- */
 
 static const char *const plain_names[RC_SCENE_FIGURES] = {
-    "contact area", "largest pressure",        "approach",      "tangential displacement",
-    "temperature",  "coefficient of friction", "fatigue index", "leak"};
+    "contact area",  "largest pressure",        "approach",      "tangential displacement",
+    "temperature",   "coefficient of friction", "fatigue index", "leak",
+    "pull-off force"};
 
 /* "12 %", "8.8 K". */
 static const char *
@@ -402,6 +433,10 @@ print_change(const struct line *l, FILE *out)
         fputs(": changes nothing", out);
     else if (l->effect.basis != RC_SCENE_EXACT && l->effect.nodes < 20)
         fprintf(out, ": %zu nodes in contact; refine the grid first", l->effect.nodes);
+    else if (l->figure == RC_SCENE_PULL_OFF || strcmp(name, "rolling") == 0)
+        fprintf(out, ": the %s is %s to %s times the load",
+                l->figure == RC_SCENE_PULL_OFF ? what : "tangential force",
+                amount(RC_SCENE_FRICTION, c->low, low), amount(RC_SCENE_FRICTION, c->high, high));
     else if (l->figure == RC_SCENE_FATIGUE)
         fprintf(out, ": the index is %s to %s, and 1 at the endurance limit",
                 amount(l->figure, c->low, low), amount(l->figure, c->high, high));
@@ -635,14 +670,24 @@ show_plan(struct run *run, const struct rc_grid *g, size_t step)
     struct rc_expected expected;
     const struct plan plan = plan_begin(&run->t, &run->report, g, rc_grid_case(g),
                                         rc_boundary_word(args.physics.boundary), "");
-    const bool one[] = {
-        d->hardness > 0,   d->layers > 0,       d->thickness > 0,
-        d->tangential > 0, d->wear > 0,         d->work > 0,
-        d->work > 0,       d->material != NULL, d->speed > 0 && d->material != NULL};
+    const struct {
+        bool given;
+        size_t contacts;
+    } rows[] = {
+        {d->hardness > 0, 1},
+        {d->layers > 0, 1},
+        {d->thickness > 0, 1},
+        {d->tangential > 0, 1},
+        {d->wear > 0, 1},
+        {d->work > 0, 8}, /* and pull-off */
+        {d->material != NULL, 1},
+        {d->speed > 0 && d->material != NULL, 1},
+        {d->mu > 0 && (d->creep[0] != 0 || d->creep[1] != 0 || d->spin != 0), 8},
+    };
     size_t contacts = 2; /* with a free tilt */
 
-    for (size_t k = 0; k < sizeof one / sizeof *one; k++)
-        contacts += one[k];
+    for (size_t k = 0; k < sizeof rows / sizeof *rows; k++)
+        contacts += rows[k].given ? rows[k].contacts : 0;
     problem.threads = run->t.threads;
     problem.discretization = true;
     problem.hardness = 0;
@@ -670,8 +715,10 @@ do_load(struct run *run, const struct rc_grid *g, size_t step)
                                  value};
     struct rc_contact contact;
     const char *with = "";
-    size_t n = 0;
+    size_t n = 0, effects = 0;
 
+    while (rc_scene_name(effects) != NULL)
+        effects++;
     if (args.physics.load.per_metre)
         snprintf(value, sizeof value, "%sN/m", rc_number(steps->v[step]));
     else
@@ -697,7 +744,7 @@ do_load(struct run *run, const struct rc_grid *g, size_t step)
     for (size_t k = 0; rc_scene_name(k) != NULL && n < LINES; k++, n++) {
         struct line *l = &line[n];
         *l = (struct line){.seconds = NAN, .convolutions = NAN, .with = ""};
-        tool_progress(t, (double)k / 15, "%s", rc_scene_name(k));
+        tool_progress(t, (double)k / (double)effects, "%s", rc_scene_name(k));
         l->base = strcmp(rc_scene_name(k), "yield") == 0 ? contact : *rc_scene_contact(s);
         tool_must(t, g, rc_scene_estimate(s, k, &l->effect, &t->err));
         l->verdict = rc_scene_judge(&l->effect, &run->bounds, &l->figure);

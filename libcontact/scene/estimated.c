@@ -140,11 +140,10 @@ scene_yield(struct rc_scene *s, struct rc_scene_effect *e, struct rc_err *err)
 
 /* ---- adhesion ---- */
 
-/* The contact in `other` under the attraction at the gap of `from`: the heights with its displacement,
- * and the load with its sum. In contact the attraction has its full strength. */
-static enum rc_status
-attracted(struct rc_scene *s, const struct rc_adhesion_problem *problem,
-          const struct rc_adhesion_scales *scales, const struct solved *from, struct rc_err *err)
+enum rc_status
+scene_attracted(struct rc_scene *s, const struct rc_adhesion_problem *problem,
+                const struct rc_adhesion_scales *scales, const struct solved *from, double load,
+                double *sum, struct rc_err *err)
 {
     const struct rc_conv_options o = {.boundary = s->problem.boundary,
                                       .threads = s->problem.threads};
@@ -165,7 +164,8 @@ attracted(struct rc_scene *s, const struct rc_adhesion_problem *problem,
     rc_conv_apply(conv, sigma, h);
     for (size_t k = 0; k < s->n; k++)
         h[k] += s->h[k];
-    p.load += rc_sum(sigma, s->n) * s->shape.dx * s->shape.dy;
+    *sum = rc_sum(sigma, s->n) * s->shape.dx * s->shape.dy;
+    p.load = load + *sum;
     asked.h = h;
     status = scene_solve(s, &asked, &s->other, err);
     for (size_t k = 0; k < s->n; k++)
@@ -173,6 +173,27 @@ attracted(struct rc_scene *s, const struct rc_adhesion_problem *problem,
     s->other.contact.max_pressure = most;
     s->other.contact.approach = NAN; /* h is not the shape */
     return status;
+}
+
+bool
+scene_adheres(const struct rc_scene *s, const struct rc_adhesion_problem *problem,
+              struct rc_adhesion_scales *scales, struct rc_scene_effect *e)
+{
+    const double resolved = 1.1;
+
+    if (rc_adhesion_check(&s->shape, problem, scales, NULL) != RC_OK) {
+        snprintf(e->unfit, sizeof e->unfit, "rc-solve --adhesion refuses this contact");
+        return false;
+    }
+    scene_number(e, "cohesive_nodes", scales->cohesive_nodes);
+    if (scales->cohesive_nodes < resolved) {
+        snprintf(e->unfit, sizeof e->unfit,
+                 "the grid does not resolve the law: give a spacing of at most %.2g m, or a larger "
+                 "range",
+                 fmax(s->shape.dx, s->shape.dy) * scales->cohesive_nodes / resolved);
+        return false;
+    }
+    return true;
 }
 
 /* Elastic contacts under the attraction at the gap of the contact before: the attraction only grows
@@ -184,26 +205,16 @@ scene_adhesion(struct rc_scene *s, struct rc_scene_effect *e, struct rc_err *err
 {
     const struct rc_adhesion_problem problem = {
         .contact = s->problem, .work = s->data.work, .law = s->data.law, .range = s->data.range};
-    const double resolved = 1.1;
-    double change[RC_SCENE_FIGURES];
+    double change[RC_SCENE_FIGURES], sum;
     struct rc_adhesion_scales scales;
     enum rc_status status = RC_OK;
 
-    if (rc_adhesion_check(&s->shape, &problem, &scales, NULL) != RC_OK) {
-        snprintf(e->unfit, sizeof e->unfit, "rc-solve --adhesion refuses this contact");
-        return RC_OK;
-    }
-    scene_number(e, "cohesive_nodes", scales.cohesive_nodes);
     e->basis = RC_SCENE_CALIBRATED;
-    if (scales.cohesive_nodes < resolved) {
-        snprintf(e->unfit, sizeof e->unfit,
-                 "the grid does not resolve the law: give a spacing of at most %.2g m, or a larger "
-                 "range",
-                 fmax(s->shape.dx, s->shape.dy) * scales.cohesive_nodes / resolved);
+    if (!scene_adheres(s, &problem, &scales, e))
         return RC_OK;
-    }
     for (int step = 0; step < 2 && status == RC_OK; step++)
-        status = attracted(s, &problem, &scales, step == 0 ? &s->now : &s->other, err);
+        status = scene_attracted(s, &problem, &scales, step == 0 ? &s->now : &s->other,
+                                 s->problem.load, &sum, err);
     if (status == RC_SHORT)
         snprintf(e->unfit, sizeof e->unfit, "its contact does not converge");
     if (status != RC_OK)

@@ -83,6 +83,17 @@ enum rc_status scene_sliding(struct rc_scene *s, struct rc_scene_effect *e, stru
 /* The largest Mises stress of the contact in a uniform body 1, and its depth. */
 enum rc_status scene_mises(struct rc_scene *s, const double *p, double *most, double *depth,
                            struct rc_err *err);
+/* Whether rc-solve --adhesion computes this contact, on a grid that resolves the law; else e->unfit. */
+bool scene_adheres(const struct rc_scene *s, const struct rc_adhesion_problem *problem,
+                   struct rc_adhesion_scales *scales, struct rc_scene_effect *e);
+/* The contact in `other` under this load and the attraction at the gap of `from`: the heights with its
+ * displacement, and the load with its sum, N. In contact the attraction has its full strength. */
+enum rc_status scene_attracted(struct rc_scene *s, const struct rc_adhesion_problem *problem,
+                               const struct rc_adhesion_scales *scales, const struct solved *from,
+                               double load, double *sum, struct rc_err *err);
+/* forces.c */
+enum rc_status scene_rolling(struct rc_scene *s, struct rc_scene_effect *e, struct rc_err *err);
+enum rc_status scene_pull_off(struct rc_scene *s, struct rc_scene_effect *e, struct rc_err *err);
 /* limits.c */
 enum rc_status scene_fatigue(struct rc_scene *s, struct rc_scene_effect *e, struct rc_err *err);
 enum rc_status scene_leak(struct rc_scene *s, struct rc_scene_effect *e, struct rc_err *err);

@@ -16,9 +16,11 @@ static const struct scene_row rows[] = {
     {"relaxation", "relaxation", "relaxation time", false, scene_relaxation},
     {"yield", "yield in the volume", "yield E1", false, scene_yield},
     {"adhesion", "adhesion", "adhesion", false, scene_adhesion},
+    {"pull-off", "pull-off", "adhesion", false, scene_pull_off},
     {"wear", "wear", "coefficient distance", false, scene_wear},
     {"heat", "frictional heat", "mu speed conductivity diffusivity", false, scene_heat},
     {"dissimilar", "friction of dissimilar bodies", "mu E1", false, scene_dissimilar},
+    {"rolling", "rolling with creepage", "mu creep E1", false, scene_rolling},
     {"sliding", "sliding on rubber", "relaxation speed", false, scene_sliding},
     {"fatigue", "fatigue", "bending-limit torsion-limit E1", false, scene_fatigue},
     {"leak", "leak through the gap", "pressure-drop", false, scene_leak},
@@ -30,8 +32,8 @@ enum {
 };
 
 const char *const rc_scene_figure_names[RC_SCENE_FIGURES] = {
-    "contact_area", "max_pressure", "approach",      "displacement",
-    "temperature",  "friction",     "fatigue_index", "leak"};
+    "contact_area", "max_pressure",  "approach", "displacement", "temperature",
+    "friction",     "fatigue_index", "leak",     "pull_off"};
 const char *const rc_scene_basis_names[] = {"exact", "computed", "bound", "calibrated"};
 const char *const rc_scene_verdict_names[] = {"calls for it", "not decided", "negligible",
                                               "data missing"};
@@ -192,6 +194,7 @@ has(const struct rc_scene *s, const char *name, size_t length)
         {"coefficient", d->wear > 0},
         {"distance", d->distance > 0},
         {"speed", d->speed != 0},
+        {"creep", d->creep[0] != 0 || d->creep[1] != 0 || d->spin != 0},
         {"conductivity", d->conductivity[0] > 0 && d->conductivity[1] > 0},
         {"diffusivity", d->diffusivity[0] > 0 && d->diffusivity[1] > 0},
         {"time", d->time > 0},

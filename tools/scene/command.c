@@ -38,6 +38,9 @@ static const struct {
     {.effect = "adhesion",
      .solve = "adhesion",
      .figure = {"contact_area", "max_pressure", "approach"}},
+    {.effect = "pull-off",
+     .solve = "adhesion --pull-off",
+     .figure = {[RC_SCENE_PULL_OFF] = "pull_off_load"}},
     {.effect = "wear",
      .solve = "",
      .program = "rc-wear",
@@ -52,6 +55,8 @@ static const struct {
      .solve = "--output pressure,gap,height",
      .program = "rc-slip",
      .options = "mu --coupling full --tangential 0N"},
+    /* its force is that of the estimate, but for the tolerance */
+    {.effect = "rolling", .solve = "", .program = "rc-slip", .options = "mu creep --steady"},
     {.effect = "sliding", .solve = "relaxation speed", .relaxes = true},
     {.effect = "fatigue",
      .solve = "",
@@ -171,7 +176,8 @@ add_words(struct tool *t, const char *words, bool relaxes, const char **word, ch
             add_option(t, name, word, text, n);
             continue;
         }
-        plain = name[0] == '-' && strcmp(name, "--discretization") != 0;
+        plain = name[0] == '-' && strcmp(name, "--discretization") != 0 &&
+                strcmp(name, "--pull-off") != 0 && strcmp(name, "--steady") != 0;
         if (*n + 1 < SCENE_WORDS) {
             snprintf(text[*n], sizeof *text, "%s", name);
             word[*n] = text[*n];
@@ -275,6 +281,9 @@ read_report(const char *object, size_t row, bool plan, struct scene_found *found
     for (int f = 0; f < RC_SCENE_FIGURES; f++)
         if (rows[row].figure[f] != NULL)
             read_figure(object, rows[row].figure[f], &found->figure[f], &found->error[f]);
+    if (!isnan(found->figure[RC_SCENE_PULL_OFF]))
+        found->error[RC_SCENE_PULL_OFF] = json_real(json_member(object, "pull_off_spread")) /
+                                          fabs(found->figure[RC_SCENE_PULL_OFF]);
     found->converged = json_real(json_member(object, "converged")) == 1;
     found->seconds = json_real(plan ? json_member(object, "expected_seconds")
                                     : json_member(total == NULL ? "{}" : total, "total"));

@@ -20,7 +20,7 @@ enum {
 
 /* Data of the effects, as given; NAN or NULL: not given. */
 struct scene_args {
-    const char *yield, *adhesion, *conductivity, *coefficient, *moving;
+    const char *yield, *adhesion, *conductivity, *coefficient, *moving, *creep;
     struct numbers diffusivity;
     double mu, tangential, speed, time, distance, thickness, bending, torsion, drop, viscosity,
         piezo, expansion, noise;
