@@ -826,10 +826,10 @@ struct rc_friction_figures {
 /* How the error of the increments to a point, and to earlier points, is known. */
 enum rc_told {
     RC_TOLD_EXACT,  /* there is none */
-    RC_TOLD_MANY,   /* enough increments: the estimate is near the error */
-    RC_TOLD_SOME,   /* larger factors of safety, as where the load changes */
+    RC_TOLD_MANY,   /* the estimate is near the error */
+    RC_TOLD_SOME,   /* a larger factor of safety */
     RC_TOLD_FEW,    /* the largest factor */
-    RC_TOLD_UNKNOWN /* fewer than 4 increments, or 8 where the load changes */
+    RC_TOLD_UNKNOWN /* fewer than 4 increments */
 };
 /* The leg from one point to the next. */
 struct rc_leg {

@@ -97,13 +97,15 @@ told(size_t n, bool grows, bool falls, bool late, bool coupled)
 {
     if (late)
         return RC_TOLD_SOME;
-    if (n < (grows || falls ? TURNS : HALVED))
+    if (n < HALVED)
         return RC_TOLD_UNKNOWN;
+    if (n < TURNS) /* factors of their own */
+        return coupled ? RC_TOLD_MANY : grows || falls ? RC_TOLD_SOME : RC_TOLD_FEW;
     if (grows && !coupled)
         return n >= PRESSES ? RC_TOLD_SOME : RC_TOLD_FEW;
     if (grows || falls)
-        return n >= PRESSES && coupled ? RC_TOLD_MANY : n >= TURNS ? RC_TOLD_SOME : RC_TOLD_FEW;
-    return n < TURNS ? RC_TOLD_FEW : coupled ? RC_TOLD_MANY : RC_TOLD_SOME;
+        return n >= PRESSES && coupled ? RC_TOLD_MANY : RC_TOLD_SOME;
+    return coupled ? RC_TOLD_MANY : RC_TOLD_SOME;
 }
 
 struct rc_leg
@@ -172,6 +174,24 @@ rc_leg_part(const struct rc_leg *leg, size_t k, size_t n)
 
 /* ---- the error ---- */
 
+/* With four to seven increments. An error that falls as 1/n is d over `part`, where half of the increments are
+ * 2 or 3. In 942 states of random paths this estimate was 1.16 times the error and more, 3 to 5 times in the
+ * median. With two or three increments no factor below 40 covers all errors, and the median is then 10 and
+ * more. */
+static double
+error_of_few(const struct rc_leg *leg, double before, double d, double d2)
+{
+    static const double factor[][2] = {/* half is 2, 3 */
+                                       [RC_TOLD_MANY] = {2, 1.7},
+                                       [RC_TOLD_SOME] = {5.5, 4},
+                                       [RC_TOLD_FEW] = {7.5, 4}};
+    static const double earlier[] = {1, 0.7};
+    const size_t n = leg->increments, half = rc_leg_fewer(leg, 1), row = half - 2;
+    const double part = (double)(n - half) / (double)half;
+
+    return fmax(fmax(factor[leg->told][row] * d / part, earlier[row] * d2), before);
+}
+
 /* With half of the increments the error is larger by d, and with a quarter by another d2. Their ratio shows
  * how fast the error falls. On a leg of one or two increments, the leg adds `lagged` to d. The error of the
  * previous point stays, also where d and d2 fall because they cancel. */
@@ -192,6 +212,8 @@ rc_leg_error(const struct rc_leg *leg, double before, double d, double d2, doubl
         return NAN;
     if (leg->late)
         return fmin(fmax(factor[leg->told] * d, before), before + factor[RC_TOLD_SOME] * lagged);
+    if (leg->increments >= HALVED && leg->increments < TURNS)
+        return error_of_few(leg, before, d, d2);
     rho = d < slowest * d2 ? d / d2 : slowest;
     return fmax(fmax(factor[leg->told] * d, d * rho / (1 - rho)), before);
 }

@@ -100,8 +100,8 @@ say_what_is_left(struct slip_run *run, const struct slip_state *s, double most, 
 
     if (isnan(s->traction_error))
         tool_warn(&run->d.t,
-                  "%s: --increments %zu is too few to estimate the error: take 8, or auto", where,
-                  run->increments);
+                  "%s: --increments %zu is too few to estimate the error: take 4 or more, or auto",
+                  where, run->increments);
     else if (s->traction_error > most && increments > s->traction_error / 2)
         tool_warn(&run->d.t,
                   "%s: the increments cause an error of %.2g %% of the tractions: take "
