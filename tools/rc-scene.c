@@ -150,8 +150,10 @@ read_creep(struct tool *t, double creep[2], double *spin)
 {
     const char *text = args.given.creep;
     double *const to[] = {&creep[0], &creep[1], spin};
-    size_t n = 0;
+    size_t n = 0, commas = 0;
 
+    for (const char *at = text; at != NULL && *at != '\0'; at++)
+        commas += *at == ',';
     for (const char *at = text; at != NULL && *at != '\0' && n < 3; n++) {
         char one[64];
         const size_t length = strcspn(at, ",");
@@ -163,7 +165,7 @@ read_creep(struct tool *t, double creep[2], double *spin)
             tool_usage(t, "--creep %s: %s", text, t->err.text);
         at = at[length] == '\0' ? NULL : at + length + 1;
     }
-    if (text != NULL && (n < 2 || strspn(text, ",") > 0 || strchr(text, '\0')[-1] == ','))
+    if (text != NULL && (n < 2 || commas + 1 != n))
         tool_usage(t, "--creep %s: it must be two creepages, or these and a spin", text);
 }
 
@@ -406,6 +408,20 @@ amount(enum rc_scene_figure figure, double v, char text[SHOWN_NUMBER])
     return text;
 }
 
+/* A force over the load. */
+static void
+print_force(const struct line *l, FILE *out)
+{
+    const struct rc_interval *c = &l->effect.change[l->figure];
+    char low[SHOWN_NUMBER], high[SHOWN_NUMBER];
+
+    fprintf(out, ": the %s is ",
+            l->figure == RC_SCENE_PULL_OFF ? plain_names[l->figure] : "tangential force");
+    if (c->high - c->low > 0.02 * c->high)
+        fprintf(out, "%s to ", amount(RC_SCENE_FRICTION, c->low, low));
+    fprintf(out, "%s times the load", amount(RC_SCENE_FRICTION, c->high, high));
+}
+
 static void
 print_change(const struct line *l, FILE *out)
 {
@@ -434,9 +450,7 @@ print_change(const struct line *l, FILE *out)
     else if (l->effect.basis != RC_SCENE_EXACT && l->effect.nodes < 20)
         fprintf(out, ": %zu nodes in contact; refine the grid first", l->effect.nodes);
     else if (l->figure == RC_SCENE_PULL_OFF || strcmp(name, "rolling") == 0)
-        fprintf(out, ": the %s is %s to %s times the load",
-                l->figure == RC_SCENE_PULL_OFF ? what : "tangential force",
-                amount(RC_SCENE_FRICTION, c->low, low), amount(RC_SCENE_FRICTION, c->high, high));
+        print_force(l, out);
     else if (l->figure == RC_SCENE_FATIGUE)
         fprintf(out, ": the index is %s to %s, and 1 at the endurance limit",
                 amount(l->figure, c->low, low), amount(l->figure, c->high, high));

@@ -544,20 +544,27 @@ force(struct rc_model *m)
                .increments;
 }
 
+static const double *
+ball(void)
+{
+    static double h[N];
+
+    for (size_t k = 0; k < N; k++) {
+        const double x = (double)(k % shape.nx) - (double)shape.nx / 2,
+                     y = (double)k / (double)shape.nx - (double)shape.ny / 2;
+        h[k] = -(x * x + y * y) * shape.dx * 0.01;
+    }
+    return h;
+}
+
 /* A ball rolls, with the force given. */
 static struct rc_model *
 roller(bool path, struct rc_err *err)
 {
     const struct rc_rolling_problem law = {
         .law = {.pair = bare, .mu = 0.3, .tol = 1e-2, .threads = 1}, .force = true, .path = path};
-    static double ball[N];
 
-    for (size_t k = 0; k < N; k++) {
-        const double x = (double)(k % shape.nx) - (double)shape.nx / 2,
-                     y = (double)k / (double)shape.nx - (double)shape.ny / 2;
-        ball[k] = -(x * x + y * y) * shape.dx * 0.01;
-    }
-    return rc_rolling_new(rc_elastic_new(&shape, ball, pressed(RC_FREE), NULL, err), &law, err);
+    return rc_rolling_new(rc_elastic_new(&shape, ball(), pressed(RC_FREE), NULL, err), &law, err);
 }
 MAKER(rolling, roller(false, err))
 MAKER(rolling_along, roller(true, err))
@@ -724,6 +731,7 @@ scene(double *out, struct rc_err *err)
                                        .mu = 0.3,
                                        .tangential = 1e-4,
                                        .speed = 1e-6,
+                                       .creep = {1e-4, 0},
                                        .wear = 1e-15,
                                        .distance = 1e-6,
                                        .conductivity = {45, 16},
@@ -750,6 +758,25 @@ scene(double *out, struct rc_err *err)
     out[23] = (double)(rc_scene_figure_names[0][0] + rc_scene_basis_names[0][0] +
                        rc_scene_verdict_names[0][0]);
     return status;
+}
+
+static enum rc_status
+rolling_scene(double *out, struct rc_err *err)
+{
+    const struct rc_scene_data data = {.mu = 0.3, .creep = {1e-3, 0}};
+    struct rc_problem problem = *pressed(RC_FREE);
+    struct rc_scene_effect e;
+    size_t k = 0;
+
+    problem.load = 1e-3;
+    RC_OWN(rc_scene, s) = rc_scene_new(&shape, ball(), &problem, &data, err);
+
+    while (strcmp(rc_scene_name(k), "rolling") != 0)
+        k++;
+    if (s == NULL || rc_scene_estimate(s, k, &e, err) != RC_OK)
+        return RC_FAIL;
+    out[0] = e.change[RC_SCENE_FRICTION].high;
+    return RC_OK;
 }
 
 /* ---- stresses ---- */
@@ -1145,6 +1172,7 @@ static const struct {
                "adhesion", attraction, pulled_off}},
     {.name = "leakage", .use = leaks},
     {.name = "scene", .use = scene},
+    {.name = "scene, rolling", .use = rolling_scene},
     {.name = "stress", .use = free_stress},
     {.name = "stress, periodic", .use = periodic_stress},
     {.name = "stress, y repeats", .use = line_stress},

@@ -15,9 +15,9 @@ while (<$in>) {
         $source{$1} = $2;
     } elsif (/^scene (.*?) \| (.*?) \| (.*)/) {
         push @scene, {name => $1, surface => $2, contact => $3, said => []};
-    } elsif (/^  (\w+) (calls|negligible) (\w+): (.*)/ && exists $source{$3}) {
+    } elsif (/^  ([\w-]+) (calls|negligible) (\w+): (.*)/ && exists $source{$3}) {
         push @{$scene[-1]{said}}, [$1, $2, $4, $source{$3}];
-    } elsif (/^  explained (\w+): (.*)/) {
+    } elsif (/^  explained ([\w-]+): (.*)/) {
         $scene[-1]{explained}{$1} = $2;
     } else {
         die "$file:$.: $_\n";

@@ -344,6 +344,54 @@ truth_adhesion(struct case_of *c, const struct rc_contact *e, struct figures *f)
     return true;
 }
 
+/* The pull-off force over the load. */
+static bool
+truth_pull_off(struct case_of *c, const struct rc_contact *e, struct figures *f)
+{
+    struct rc_adhesion_problem p = {
+        .contact = c->problem, .work = c->data.work, .law = c->data.law, .range = c->data.range};
+    struct rc_point to = load_of(c), away = {0};
+    struct rc_err err;
+
+    (void)e;
+    p.contact.tol = 1e-3;
+    RC_OWN(rc_model, m) = rc_adhesion_new(&c->shape, c->h, &p, &err);
+    if (!run(m, &to, &err) || rc_model_keep(m, &err) != RC_OK)
+        return false;
+    rc_point_set(&away, RC_APPROACH, -INFINITY);
+    if (!run(m, &away, &err))
+        return false;
+    f->of[RC_SCENE_PULL_OFF] =
+        fmax(-rc_adhesion_result(m)->state.pull_off_load, 0) / c->problem.load;
+    return true;
+}
+
+/* The tangential force of steady rolling over the load. */
+static bool
+truth_rolling(struct case_of *c, const struct rc_contact *e, struct figures *f)
+{
+    const struct rc_rolling_problem p = {.law = {.boundary = c->problem.boundary,
+                                                 .pair = c->problem.pair,
+                                                 .mu = c->data.mu,
+                                                 .tol = 1e-4,
+                                                 .threads = 1}};
+    struct rc_point to = load_of(c);
+    const struct rc_rolling_figures *r;
+    struct rc_err err;
+    RC_OWN(rc_model, m) =
+        rc_rolling_new(rc_elastic_new(&c->shape, c->h, &c->problem, NULL, &err), &p, &err);
+
+    (void)e;
+    rc_point_set(&to, RC_CREEP_X, c->data.creep[0]);
+    rc_point_set(&to, RC_CREEP_Y, c->data.creep[1]);
+    rc_point_set(&to, RC_SPIN, c->data.spin);
+    if (!run(m, &to, &err))
+        return false;
+    r = rc_rolling_result(m);
+    f->of[RC_SCENE_FRICTION] = hypot(r->force[0], r->force[1]) / r->load;
+    return true;
+}
+
 static bool
 truth_wear(struct case_of *c, const struct rc_contact *e, struct figures *f)
 {
@@ -563,6 +611,32 @@ draw_adhesion(struct case_of *c, const struct rc_contact *e, double mises)
 }
 
 static void
+draw_pull_off(struct case_of *c, const struct rc_contact *e, double mises)
+{
+    const double stronger = powers(1, 1000);
+
+    draw_adhesion(c, e, mises);
+    c->data.work *= stronger;
+    c->data.range *= sqrt(stronger);
+}
+
+/* A force of a hundredth of the limit up to the limit. */
+static void
+draw_rolling(struct case_of *c, const struct rc_contact *e, double mises)
+{
+    const double a = sqrt(e->contact_area / exact_pi), turn = uniform(0, 2 * exact_pi);
+    double creep;
+
+    (void)mises;
+    c->data.mu = powers(0.01, 1);
+    creep = c->data.mu * c->problem.load / e->contact_area / estar_of(&c->problem.pair) *
+            powers(0.01, 10);
+    c->data.creep[0] = creep * cos(turn);
+    c->data.creep[1] = creep * sin(turn);
+    c->data.spin = uniform(0, 1) < 0.5 ? 0 : creep / a * uniform(-1, 1);
+}
+
+static void
 draw_wear(struct case_of *c, const struct rc_contact *e, double mises)
 {
     (void)e;
@@ -645,19 +719,21 @@ static const struct effect_of {
     bool (*truth)(struct case_of *c, const struct rc_contact *e, struct figures *f);
     /* on periodic maps; a third of the scenes with a hardness; a third with a coat */
     bool periodic, hard, coated;
-    size_t side;
+    size_t side, most; /* nodes a side; on large maps at most (0: any) */
 } effects[] = {
-    {"grid", draw_nothing, truth_grid, false, false, false, 48},
-    {"yield", draw_yield, truth_yield, false, false, false, 32},
-    {"fatigue", draw_fatigue, truth_fatigue, false, false, false, 32},
-    {"leak", draw_leak, truth_leak, true, false, false, 48},
-    {"adhesion", draw_adhesion, truth_adhesion, false, true, true, 48},
-    {"wear", draw_wear, truth_wear, false, true, true, 48},
-    {"heat", draw_heat, truth_heat, false, true, true, 48},
-    {"slip", draw_slip, truth_slip, false, false, false, 32},
-    {"dissimilar", draw_dissimilar, truth_dissimilar, false, true, false, 24},
-    {"relaxation", draw_relaxation, truth_relaxation, false, false, false, 40},
-    {"sliding", draw_sliding, truth_sliding, true, false, false, 40},
+    {"grid", draw_nothing, truth_grid, false, false, false, 48, 0},
+    {"yield", draw_yield, truth_yield, false, false, false, 32, 0},
+    {"fatigue", draw_fatigue, truth_fatigue, false, false, false, 32, 0},
+    {"leak", draw_leak, truth_leak, true, false, false, 48, 0},
+    {"adhesion", draw_adhesion, truth_adhesion, false, true, true, 48, 0},
+    {"pull-off", draw_pull_off, truth_pull_off, false, false, true, 24, 64},
+    {"rolling", draw_rolling, truth_rolling, false, true, false, 32, 0},
+    {"wear", draw_wear, truth_wear, false, true, true, 48, 0},
+    {"heat", draw_heat, truth_heat, false, true, true, 48, 0},
+    {"slip", draw_slip, truth_slip, false, false, false, 32, 0},
+    {"dissimilar", draw_dissimilar, truth_dissimilar, false, true, false, 24, 0},
+    {"relaxation", draw_relaxation, truth_relaxation, false, false, false, 40, 0},
+    {"sliding", draw_sliding, truth_sliding, true, false, false, 40, 0},
 };
 
 /* ---- the campaign ---- */
@@ -773,7 +849,7 @@ campaign(const struct effect_of *effect, size_t side, size_t scenes, uint64_t fi
     const size_t row = row_of(effect->name);
     size_t tried = 0;
 
-    for (uint64_t seed = first; count[0].scenes < scenes && tried < 4 * scenes; seed++, tried++) {
+    for (uint64_t seed = first; count[0].scenes < scenes && tried < 16 * scenes; seed++, tried++) {
         struct rc_scene_effect e;
         struct figures f = none();
         struct rc_contact before;
@@ -835,8 +911,11 @@ hold(size_t side, size_t scenes, uint64_t first)
 
     for (size_t k = 0; k < sizeof effects / sizeof *effects; k++)
         if (only == NULL || strcmp(only, effects[k].name) == 0)
-            campaign(&effects[k], side > 0 ? side : effects[k].side, scenes,
-                     from == NULL ? first : (uint64_t)atol(from));
+            campaign(&effects[k],
+                     side == 0                                       ? effects[k].side
+                     : effects[k].most > 0 && side > effects[k].most ? effects[k].most
+                                                                     : side,
+                     scenes, from == NULL ? first : (uint64_t)atol(from));
 }
 
 static void

@@ -46,6 +46,43 @@ scene --load 1uN $steel --adhesion 1mJ/m2,exponential,20nm ball.rcg >few.json
 claim "few nodes in contact decide nothing" test "$(of adhesion few.json verdict)" = "not decided"
 claim "  and the table says so" says "nodes in contact; refine the grid first" rc-scene --quiet --load 1uN $steel --adhesion 1mJ/m2,exponential,20nm ball.rcg
 
+# ---- rolling: Kalker's linear theory, C11 = 4.12 for a round contact and nu = 0.25; and Coulomb's law ----
+
+quarter="--E1 210GPa --nu1 0.25 --E2 210GPa --nu2 0.25"
+scene --load 240N $quarter --mu 0.3 --creep 1e-5,0 ball.rcg >rolls.json
+claim "with little creepage rolling is negligible" test "$(of rolling rolls.json verdict)/$(of rolling rolls.json basis)" = negligible/computed
+near "$(of rolling rolls.json figures friction high)" "$(awk 'BEGIN { a2 = (3 * 240 * 7.5e-3 / (4 * 210e9 / (2 * (1 - 0.25 ^ 2)))) ^ (2 / 3); print 4.12 * 210e9 / 2.5 * a2 * 1e-5 / 240 }')" 0.05 \
+    "  its force is that of Kalker's linear theory"
+scene --load 240N $quarter --mu 0.3 --creep 0.1,0 ball.rcg >rolls.json
+claim "with much creepage it is called for" test "$(of rolling rolls.json verdict)" = "calls for it"
+near "$(of rolling rolls.json figures friction high)" 0.3 1e-6 "  the force is the coefficient of friction times the load"
+claim "  and the table says so" says "the tangential force is 0.3 times the load" rc-scene --quiet --load 240N $quarter --mu 0.3 --creep 0.1,0 ball.rcg
+claim "rolling of a contact at the edge of the map has no estimate" bash -c "rc-scene --quiet --load 100kN $quarter --mu 0.3 --creep 1e-3,0 ball.rcg | grep -q 'reaches the right edge of the map'"
+claim "  nor on a periodic map" bash -c "rc-scene --quiet --periodic --load 240N $quarter --mu 0.3 --creep 1e-3,0 ball.rcg | grep -q 'needs a map that is free along x'"
+
+# ---- pull-off: 2 pi w R of a stiff ball (Bradley), 3/2 pi w R of a soft one (Johnson, Kendall and Roberts) ----
+
+pulls() { # LOAD OPTION...: the interval of the pull-off force over the load
+    scene --load "$@" >pulls.json
+    echo "$(of pull-off pulls.json figures pull_off low) $(of pull-off pulls.json figures pull_off high)"
+}
+rc-synth sphere --radius 100nm --nx 64 --dx 0.5nm -o stiff.rcg
+read -r low high < <(pulls 10nN --E1 160GPa --nu1 0.22 --E2 rigid --adhesion 0.01,exponential,1nm stiff.rcg)
+force=$(awk 'BEGIN { print 2 * 3.14159265 * 0.01 * 100e-9 / 10e-9 }')
+between "$low" "$force" "$high" "the pull-off force of a stiff ball is in its interval"
+near "$(of pull-off pulls.json numbers rigid_pull_off_over_load)" "$force" 0.03 "  and that of rigid bodies is 2 pi w R"
+claim "  it is called for" test "$(of pull-off pulls.json verdict)" = "calls for it"
+rc-synth sphere --radius 2mm --nx 64 --dx 6um -o soft.rcg
+soft="--E1 1.5MPa --nu1 0.49 --E2 rigid --adhesion 0.05,exponential,0.6um"
+read -r low high < <(pulls 100uN $soft soft.rcg)
+between "$low" "$(awk 'BEGIN { print 1.5 * 3.14159265 * 0.05 * 2e-3 / 100e-6 }')" "$high" "so is that of a soft ball"
+scene --load 30mN $soft --figures pull-off --decide 1000 soft.rcg >pulls.json
+claim "--decide computes the pull-off" test "$(of pull-off pulls.json decided)" = 1
+$(effect pull-off pulls.json | perl -MJSON::PP -e 'local $/; print join " ", @{JSON::PP->new->decode(<STDIN>)->{command}}') --quiet --report own.json -o x.rcg soft.rcg
+between "$(of pull-off pulls.json figures pull_off low)" "$(tail -n 1 own.json | sed 's/.*"pull_off_load": -\([0-9.e-]*\).*/\1/' | awk '{ print $1 / 30e-3 }')" "$(of pull-off pulls.json figures pull_off high)" \
+    "  as its command does"
+claim "hard balls of millimetres do not stick" test "$(scene --load 5N $steel --adhesion 0.05,exponential,100nm ball.rcg >pulls.json; of pull-off pulls.json verdict)" = negligible
+
 scene --load 240N $steel --thickness 0.5mm ball.rcg >thin.json
 claim "the command of a thin body has its layer" grep -q '"--E1", "rigid", "--layer", "0.0005,210000000000,0.3"' thin.json
 $(effect thin thin.json | perl -MJSON::PP -e 'local $/; print join " ", @{JSON::PP->new->decode(<STDIN>)->{command}}') --quiet --report own.json -o x.rcg ball.rcg
@@ -119,7 +156,7 @@ commands() {
     done <commands.txt
 }
 everything="--mean-pressure 0.2GPa $all --tangential 0.5N --speed 1m/s --conductivity 45W/mK,45W/mK --diffusivity 12mm2/s,12mm2/s --time 1ms
-    --bending-limit 700MPa --torsion-limit 450MPa --pressure-drop 1MPa --hardness 3GPa --yield 1GPa --thickness 10um"
+    --bending-limit 700MPa --torsion-limit 450MPa --pressure-drop 1MPa --hardness 3GPa --yield 1GPa --thickness 10um --creep 1e-4,0"
 claim "each command of a scene with all effects runs" commands $everything
 claim "  with a coat" commands $everything --layer 1um,100GPa,0.3
 claim "  which rc-heat refuses: no command, and the reason" grep -q '^      no tool computes it: rc-heat: its body 1 has layers' table.txt
@@ -159,12 +196,14 @@ claim "a larger bound leaves what is negligible" wider
 claim "--figures counts only what matters" test "$(scene --load 240N $steel --hardness 2.0GPa --figures approach ball.rcg | tee f.json >/dev/null; of hardness f.json verdict)" = negligible
 rc-scene --quiet --load 100N,240N $steel --hardness 2.0GPa --report list.tsv ball.rcg >two.txt
 claim "each load of a list has its table" test "$(grep -c 'case 1:' two.txt)" = 2
-claim "  and each effect its row" test "$(awk 'END { print NR }' list.tsv)" = 31
+claim "  and each effect its row" test "$(awk 'END { print NR }' list.tsv)" = 35
 claim "every verdict ends with status 0" scene --load 240N $steel ball.rcg
 
 # ---- refused ----
 
 refuses 2 "difference: give it in K" "a temperature in degC as a bound" "rc-scene --load 1N --estar 1GPa --within-temperature 10degC ball.rcg"
 refuses 2 "two numbers, for body 1 and body 2|it must be" "one conductivity" "rc-scene --load 1N --estar 1GPa --conductivity 45W/mK ball.rcg"
+refuses 2 "two creepages, or these and a spin" "one creepage" "rc-scene --load 1N --estar 1GPa --creep 1e-3 ball.rcg"
+refuses 2 "two creepages, or these and a spin" "four creepages" "rc-scene --load 1N --estar 1GPa --creep 1e-3,0,1,2 ball.rcg"
 refuses 2 "compares with a uniform body 1" "a rigid body 1" "rc-scene --load 1N --E1 rigid --layer 1um,1GPa,0.3 --E2 rigid ball.rcg"
 refuses 2 "moduli of body 1 are those of --relaxation" "two moduli of body 1" "rc-scene --load 1N --E1 1GPa --nu1 0.3 --E2 rigid --relaxation 1MPa,2MPa:1s ball.rcg"
