@@ -394,27 +394,39 @@ rc_heat_free(struct rc_heat *h)
     free(h);
 }
 
-/* The usual number of time steps if the tolerance determines it, of 36 contacts. A contact that has become
- * steady needs few. The others need 2.2 times as many for each decade of the tolerance. On a map that repeats
- * a body that moves by more than its heat spreads comes back hot, and the share of the heat changes. */
+/* The usual number of time steps if the tolerance determines it, of 83 contacts. Most need few. On a map that
+ * repeats, a body that moves by more than its heat spreads comes back hot, and the share of the heat changes
+ * most during the first passes. A contact that is not steady needs 2.2 times as many for each decade of the
+ * tolerance. */
 static double
 usual_steps(const struct rc_shape *shape, const struct rc_heat_problem *p)
 {
     const double patch = 0.05; /* area of the largest patch over that of the map */
-    const double few = 2, long_time = 3, least_peclet = 0.3, again = 4, peclet_again = 1.7;
+    const double few = 2, long_time = 3, least_peclet = 0.3;
+    const struct {
+        double passes, steps;
+    } again[] = {{1000, 2}, {5, 4}, {1, 20}}; /* of the map */
     const double steady = patch * (double)(shape->nx * shape->ny) * shape->dx * shape->dy /
                           fmin(p->body[0].diffusivity, p->body[1].diffusivity);
     const double tol = p->tol > 0 ? p->tol : usual_tol;
-    double steps = few, peclet = 0; /* of a node */
+    double steps = few, peclet = 0, speed = 0; /* peclet: of a node */
 
-    for (int b = 0; b < 2; b++)
-        peclet = fmax(peclet, hypot(p->body[b].velocity[0], p->body[b].velocity[1]) * shape->dx /
-                                  p->body[b].diffusivity);
-    if (rc_repeats(p->boundary) == 2 && peclet > least_peclet)
-        steps = again * fmax(1, peclet / peclet_again);
-    else if (p->time > long_time * steady)
-        return few;
-    return fmin(steps * pow(2.2, fmax(log10(1e-2 / tol), 0)), TIMES);
+    for (int b = 0; b < 2; b++) {
+        const double v = hypot(p->body[b].velocity[0], p->body[b].velocity[1]);
+        speed = fmax(speed, v);
+        peclet = fmax(peclet, v * shape->dx / p->body[b].diffusivity);
+    }
+    if (rc_repeats(p->boundary) == 2 && peclet > least_peclet) {
+        const double passes = speed * p->time / ((double)shape->nx * shape->dx);
+        for (size_t k = 0; k < sizeof again / sizeof *again; k++)
+            if (passes > again[k].passes) {
+                steps = again[k].steps;
+                break;
+            }
+    }
+    if (p->time > long_time * steady)
+        return steps;
+    return fmin(steps * pow(2.2, fmax(log10(usual_tol / tol), 0)), TIMES);
 }
 
 /* Adds the work and the memory of n time steps; `part`: how probable this run is. Each step has
