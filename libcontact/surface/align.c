@@ -5,15 +5,18 @@
  * Coarse maps are turned by steps and correlated, which gives starts: by their phases (Kuglin and Hines
  * 1975), which suits rough surfaces, and by their heights, which suits smooth ones. From the best start a
  * shift, a rotation, two tilts and an offset are fitted on finer and finer maps. The weights of the residuals
- * are Tukey's biweights about their median absolute deviation, and are renewed until they agree with the
- * residuals. Between its nodes B is the cubic spline through them. On the finest maps, nodes of patches whose
- * mean has changed are left out, so that the rims of a groove do not pull the offset.
+ * are Tukey's biweights, and are renewed until they agree with the residuals. Wear lies on one side: the fit
+ * starts at the most frequent residual, and its spread is that of the side with the smaller residuals. Between
+ * its nodes B is the cubic spline through them. On the finest maps, nodes of patches whose mean has changed are
+ * left out, so that the rims of a groove do not pull the offset. The pull of the others is found by a second
+ * reach.
  */
 #include "libcontact/common.h"
 
 #include <complex.h>
 #include <gsl/gsl_linalg.h>
 #include <gsl/gsl_multifit_nlinear.h>
+#include <gsl/gsl_sort.h>
 #include <gsl/gsl_statistics.h>
 #include <math.h>
 #include <stdlib.h>
@@ -175,7 +178,7 @@ struct fit {
     bool fresh;          /* the numbers are not near the result yet */
     unsigned char *skip; /* nodes that have changed, or NULL   */
     double q[NUMBERS];   /* the result, in SI                  */
-    double spread;       /* 1.4826 MAD of the residuals, m     */
+    double spread;       /* of the residuals without change, m */
     double *r, *work;    /* n residuals, m; NAN: none          */
     int threads;
 };
@@ -255,6 +258,41 @@ derivatives(const gsl_vector *x, void *data, gsl_matrix *to)
     return GSL_SUCCESS;
 }
 
+/* Standard deviation of the values about 0 that have not changed: 1.4826 times the median magnitude of the
+ * positive or of the negative ones, whichever is less. A side with few values is the tail of the other one. */
+static double
+smaller_side(const double *v, size_t n, double *room)
+{
+    const double least = 0.15; /* part of the values on a side: 0.25 if half of them have changed */
+    double spread = INFINITY;
+
+    for (int side = -1; side <= 1; side += 2) {
+        size_t count = 0;
+        for (size_t i = 0; i < n; i++)
+            if (side * v[i] >= 0)
+                room[count++] = fabs(v[i]);
+        if ((double)count >= least * (double)n && count > 0)
+            spread = fmin(spread, 1.4826 * gsl_stats_median(room, 1, count));
+    }
+    return spread;
+}
+
+/* The middle of the shortest interval that holds a quarter of the values: where most of them are. */
+static double
+most_frequent(double *v, size_t n)
+{
+    const size_t part = n / 4;
+    double shortest = INFINITY, middle = 0;
+
+    gsl_sort(v, 1, n);
+    for (size_t i = 0; i + part < n; i++)
+        if (v[i + part] - v[i] < shortest) {
+            shortest = v[i + part] - v[i];
+            middle = (v[i] + v[i + part]) / 2;
+        }
+    return middle;
+}
+
 /* Residuals of the result and their spread; returns how many nodes count. */
 static size_t
 find_spread(struct fit *f)
@@ -268,11 +306,22 @@ find_spread(struct fit *f)
     for (size_t i = 0; i < f->n; i++)
         if (!isnan(f->r[i]))
             f->work[count++] = f->r[i];
-    if (count > 0) {
-        double *room = f->work + f->n;
-        f->spread = gsl_stats_mad(f->work, 1, count, room);
-    }
+    if (count > 0)
+        f->spread = smaller_side(f->work, count, f->work + f->n);
     return count;
+}
+
+/* Moves the offset to the residual that most nodes have. */
+static void
+find_level(struct fit *f)
+{
+    const size_t enough = 1 << 15, count = find_spread(f), every = count / enough + 1;
+    size_t n = 0;
+
+    for (size_t i = 0; i < count; i += every)
+        f->work[n++] = f->work[i];
+    if (n > 4)
+        f->q[3] += most_frequent(f->work, n);
 }
 
 static void
@@ -323,6 +372,7 @@ fit_solve(struct fit *f, struct rc_err *err)
     int status = GSL_SUCCESS;
     bool failed;
 
+    find_level(f);
     how.solver = gsl_multifit_nlinear_solver_cholesky;
     w = gsl_multifit_nlinear_alloc(gsl_multifit_nlinear_trust, &how, f->n, f->numbers);
     for (int round = 0; w != NULL && start != NULL && weight != NULL && round < ROUNDS; round++) {
@@ -582,10 +632,12 @@ solve_level(const struct rc_shape *a, const double *ha, const struct rc_shape *b
 
 /* ---- what has changed ---- */
 
-enum {
-    PATCH = 3,  /* nodes on either side of a mean                               */
-    MARGIN = 10 /* nodes around it that are marked: shallow rims pull the offset */
-};
+/* Nodes on either side of a mean, and nodes around it that are marked, because shallow rims pull the offset.
+ * The first row that leaves a quarter of the map counts: plateaus that are worn all over the map leave only
+ * small places. */
+static const struct patch {
+    size_t side, margin;
+} patches[] = {{3, 10}, {3, 4}, {1, 3}, {1, 1}};
 
 /* A - B on all nodes. */
 static void
@@ -600,13 +652,13 @@ find_change(const struct fit *f, double *out)
 
 /* The mean in the square around a node, NAN where most of it is missing. */
 static double
-patch_mean(const struct rc_shape *s, const double *v, size_t k)
+patch_mean(const struct rc_shape *s, const double *v, size_t k, size_t side)
 {
     const size_t i = k % s->nx, j = k / s->nx;
     double sum = 0, n = 0, all = 0;
 
-    for (size_t b = j < PATCH ? 0 : j - PATCH; b <= j + PATCH && b < s->ny; b++)
-        for (size_t a = i < PATCH ? 0 : i - PATCH; a <= i + PATCH && a < s->nx; a++) {
+    for (size_t b = j < side ? 0 : j - side; b <= j + side && b < s->ny; b++)
+        for (size_t a = i < side ? 0 : i - side; a <= i + side && a < s->nx; a++) {
             const double at = v[b * s->nx + a];
             sum += isnan(at) ? 0 : at;
             n += isnan(at) ? 0 : 1;
@@ -616,33 +668,36 @@ patch_mean(const struct rc_shape *s, const double *v, size_t k)
 }
 
 static void
-mark_patch(const struct rc_shape *s, size_t k, unsigned char *skip)
+mark_patch(const struct rc_shape *s, size_t k, size_t margin, unsigned char *skip)
 {
     const size_t i = k % s->nx, j = k / s->nx;
 
-    for (size_t b = j < MARGIN ? 0 : j - MARGIN; b <= j + MARGIN && b < s->ny; b++)
-        for (size_t a = i < MARGIN ? 0 : i - MARGIN; a <= i + MARGIN && a < s->nx; a++)
+    for (size_t b = j < margin ? 0 : j - margin; b <= j + margin && b < s->ny; b++)
+        for (size_t a = i < margin ? 0 : i - margin; a <= i + margin && a < s->nx; a++)
             skip[b * s->nx + a] = 1;
 }
 
-/* Marks the patches whose mean is far from 0; false, and no mark, if that is 3/4 of the map. */
+/* Marks the patches whose mean is far from 0; false, and no mark, if less than a quarter of the map is left. */
 static bool
-mark_changes(const struct fit *f, const double *change, double *mean, unsigned char *skip)
+mark_changes(const struct fit *f, const struct patch *patch, const double *change, double *mean,
+             double *room, unsigned char *skip)
 {
     const double far = 4; /* standard deviations of the means */
     const size_t n = f->shape.nx * f->shape.ny;
-    size_t marked = 0, there = 0;
+    size_t marked = 0, there = 0, means = 0;
     double limit;
 
 #pragma omp parallel for num_threads(f->threads) schedule(static)
     for (size_t k = 0; k < n; k++)
-        mean[k] = patch_mean(&f->shape, change, k);
-    limit = far * 1.4826 *
-            rc_median(mean, n, rc_median(mean, n, 0, false, f->threads), true, f->threads);
+        mean[k] = patch_mean(&f->shape, change, k, patch->side);
+    for (size_t k = 0; k < n; k++)
+        if (!isnan(mean[k]))
+            room[means++] = mean[k];
+    limit = far * smaller_side(room, means, room + n);
     memset(skip, 0, n);
     for (size_t k = 0; k < n; k++)
         if (fabs(mean[k]) > limit)
-            mark_patch(&f->shape, k, skip);
+            mark_patch(&f->shape, k, patch->margin, skip);
     for (size_t k = 0; k < n; k++) {
         marked += skip[k] && !isnan(change[k]) ? 1 : 0;
         there += isnan(change[k]) ? 0 : 1;
@@ -650,6 +705,51 @@ mark_changes(const struct fit *f, const double *change, double *mean, unsigned c
     if (4 * marked > 3 * there)
         memset(skip, 0, n);
     return 4 * marked <= 3 * there;
+}
+
+static bool
+mark_all(const struct fit *f, const double *change, double *mean, double *room, unsigned char *skip)
+{
+    for (size_t k = 0; k < sizeof patches / sizeof *patches; k++)
+        if (mark_changes(f, patches + k, change, mean, room, skip))
+            return true;
+    return false;
+}
+
+/* ---- slight changes ---- */
+
+/* Where the weighted mean of the residuals is 0, for another reach. */
+static double
+level_within(const struct fit *f, double within)
+{
+    double level = 0, step = INFINITY;
+
+    for (int round = 0; round < ROUNDS && fabs(step) > 1e-6 * f->spread; round++) {
+        double sum = 0, weights = 0;
+        for (size_t i = 0; i < f->n; i++) {
+            const double w = rc_biweight(f->r[i] - level, within);
+            if (w > 0) {
+                sum += w * (f->r[i] - level);
+                weights += w;
+            }
+        }
+        step = weights > 0 ? sum / weights : 0;
+        level += step;
+    }
+    return level;
+}
+
+/* Nodes that have changed by less than the reach cannot be told from noise. If all changes within it are equally
+ * frequent, they pull the offset by the square of the reach. The pull follows from two reaches; it is taken away,
+ * and returned, m. */
+static double
+take_pull(struct fit *f)
+{
+    const double pull =
+        (level_within(f, reach * f->spread) - level_within(f, reach / 2 * f->spread)) * 4 / 3;
+
+    f->q[3] -= pull;
+    return pull;
 }
 
 /* ---- uncertainty ---- */
@@ -682,13 +782,13 @@ correlated_nodes(const struct fit *f, const double *change)
 }
 
 /* With the residuals r and the derivatives G of B the numbers err by N^-1 sum psi(r) G, N = sum psi'(r) G G'.
- * The volume is the sum of r, which changes by -(sum G)' of that. */
+ * The volume is the sum of r, which changes by -(sum G)' of that, and by the level that was taken away. */
 static enum rc_status
-find_errors(const struct fit *f, const double *change, struct rc_alignment *found,
+find_errors(const struct fit *f, const double *change, double level, struct rc_alignment *found,
             struct rc_err *err)
 {
-    /* standard deviations: 95 %; of the volume more, by 60 pairs of scans of tests/long/law_align.c: the rims
-     * of a change are not known */
+    /* standard deviations: 95 %; of the volume more, by the pairs of scans of tests/long/law_align.c: the rims of
+     * a change are not known, and the more has changed, the less the rest stands for the whole map */
     const double bar = 2, bar_of_volume = 2.5;
     const double far_off = 3; /* deviations of a node that has changed: 0.3 % are by chance */
     const size_t n = f->shape.nx * f->shape.ny, p = f->numbers;
@@ -752,31 +852,38 @@ find_errors(const struct fit *f, const double *change, struct rc_alignment *foun
     }
     found->shift_error = p == NUMBERS ? hypot(by[0], by[1]) : by[0];
     found->rotation_error = p == NUMBERS ? by[2] : 0;
-    found->volume_error = bar_of_volume * sqrt(sum * volume) * f->shape.dx * f->shape.dy;
-    found->overlap = there / (double)n;
     found->changed = changed / there;
+    found->volume_error =
+        (bar_of_volume * (1 + found->changed) * sqrt(sum * volume) + fabs(level) * there) *
+        f->shape.dx * f->shape.dy;
+    found->overlap = there / (double)n;
     return RC_OK;
 }
 
-/* The spread of the levelled heights of A where they have a residual. */
+/* The spread of A - B over that of the levelled heights of A, both as median absolute deviations: of unrelated
+ * surfaces too, whose differences have no side. */
 static enum rc_status
-find_heights(const struct fit *f, double *room, double *spread, struct rc_err *err)
+find_likeness(const struct fit *f, const double *change, double *room, double *ratio,
+              struct rc_err *err)
 {
     const struct rc_form plane = {.degree = 1, .threads = 1};
     const size_t n = f->shape.nx * f->shape.ny;
+    double *values = room + n, *work = room + 2 * n;
     size_t count = 0;
 
-    for (size_t k = 0; k < n; k++)
-        room[k] = NAN;
-    for (size_t i = 0; i < f->n; i++)
-        if (!isnan(f->r[i]))
-            room[i * f->step] = f->a[i * f->step];
+    for (size_t k = 0; k < n; k++) {
+        room[k] = isnan(change[k]) ? NAN : f->a[k];
+        if (!isnan(change[k]))
+            values[count++] = change[k];
+    }
+    *ratio = gsl_stats_mad(values, 1, count, work);
     if (rc_detrend_form(&f->shape, &plane, room, NULL, err) != RC_OK)
         return RC_FAIL;
+    count = 0;
     for (size_t k = 0; k < n; k++)
         if (!isnan(room[k]))
-            f->work[count++] = room[k];
-    *spread = gsl_stats_mad(f->work, 1, count, f->work + f->n);
+            values[count++] = room[k];
+    *ratio /= gsl_stats_mad(values, 1, count, work);
     return RC_OK;
 }
 
@@ -790,11 +897,12 @@ align(const struct rc_shape *a, const double *ha, const struct rc_shape *b, cons
     RC_ENDS(fit_free) struct fit f = {0};
     RC_OWNED unsigned char *skip = rc_calloc(n, 1);
     RC_OWNED double *mean = rc_alloc(n, sizeof *mean);
+    RC_OWNED double *room = rc_alloc(3 * n, sizeof *room);
     double q[NUMBERS] = {NAN};
     struct rc_statistics sum;
-    double heights;
+    double ratio, pull;
 
-    if (skip == NULL || mean == NULL)
+    if (skip == NULL || mean == NULL || room == NULL)
         return rc_err_set(err, "out of memory for the alignment of %zu heights", n);
     for (size_t k = 0; k < 3; k++)
         side = (size_t)fmax((double)side, (double)(k == 0 ? a->ny : k == 1 ? b->nx : b->ny));
@@ -812,16 +920,18 @@ align(const struct rc_shape *a, const double *ha, const struct rc_shape *b, cons
         if (fit_solve(&f, err) != RC_OK)
             return RC_FAIL;
         find_change(&f, out);
-        if (pass < 2 && !mark_changes(&f, out, mean, skip))
+        if (pass < 2 && !mark_all(&f, out, mean, room, skip))
             break;
     }
     if (find_spread(&f) <= f.numbers)
         return rc_err_set(err, "%s", apart);
-    if (find_heights(&f, mean, &heights, err) != RC_OK)
+    pull = take_pull(&f);
+    find_spread(&f);
+    find_change(&f, out);
+    if (find_likeness(&f, out, room, &ratio, err) != RC_OK)
         return RC_FAIL;
-    if (f.spread > unlike * heights)
-        return rc_err_set(err, "%s (they differ by %.0f %% of the heights)", apart,
-                          100 * f.spread / heights);
+    if (ratio > unlike)
+        return rc_err_set(err, "%s (they differ by %.0f %% of the heights)", apart, 100 * ratio);
     *found = (struct rc_alignment){.shift_x = f.q[0],
                                    .shift_y = f.q[1],
                                    .rotation = f.q[2],
@@ -831,7 +941,7 @@ align(const struct rc_shape *a, const double *ha, const struct rc_shape *b, cons
                                    .residual = f.spread};
     rc_measure(a, out, &sum);
     found->volume = sum.sum * a->dx * a->dy;
-    return find_errors(&f, out, found, err);
+    return find_errors(&f, out, pull, found, err);
 }
 
 static enum rc_status

@@ -4,7 +4,7 @@
 #include "tests/surface/scans.h"
 
 static void
-campaign(void **state)
+campaign(bool worn)
 {
     enum {
         CASES = 100
@@ -12,12 +12,12 @@ campaign(void **state)
     int shifts = 0, turns = 0, volumes = 0;
     struct surface s;
 
-    (void)state;
     srand(91);
     for (int k = 0; k < CASES; k++) {
-        const struct scans c = random_scans(150, 130);
+        const struct scans c = worn ? worn_scans(150, 130, &s) : random_scans(150, 130);
         struct errors e;
-        make_surface(&s, 1);
+        if (!worn)
+            make_surface(&s, 1);
         e = align_scans(&s, &c);
         shifts += e.shift < 0.02;
         turns += e.turn < 0.01;
@@ -38,11 +38,26 @@ campaign(void **state)
     assert_true(volumes >= 0.95 * CASES);
 }
 
+static void
+test_groove(void **state)
+{
+    (void)state;
+    campaign(false);
+}
+
+static void
+test_honed(void **state)
+{
+    (void)state;
+    campaign(true);
+}
+
 int
 main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(campaign),
+        cmocka_unit_test(test_groove),
+        cmocka_unit_test(test_honed),
     };
 
     return cmocka_run_group_tests(tests, NULL, NULL);

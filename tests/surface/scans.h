@@ -12,11 +12,14 @@
 #include "maps.h"
 
 enum {
-    WAVES = 160
+    WAVES = 160,
+    MARKS = 60
 };
 
 struct surface {
     double q[WAVES], direction[WAVES], amplitude[WAVES], phase[WAVES];
+    /* grooves of honing: angle of the normal, distance from the middle, depth, width (m) */
+    double normal[MARKS], distance[MARKS], depth[MARKS], width[MARKS];
 };
 
 static inline double
@@ -50,6 +53,25 @@ make_surface(struct surface *s, double lay)
     }
     for (int k = 0; k < WAVES; k++)
         s->amplitude[k] *= 1e-6 / sqrt(sum);
+    memset(s->depth, 0, sizeof s->depth);
+}
+
+/* Roughness with Sq = `size` and waves from 5 um to `longest`, and the grooves of two directions in it, up to 3
+ * `size` deep. */
+static inline void
+make_honed(struct surface *s, double size, double longest)
+{
+    make_surface(s, 1);
+    for (int k = 0; k < WAVES; k++) {
+        s->amplitude[k] *= size / 1e-6;
+        s->q[k] = 2 * exact_pi / 5e-6 * pow(5e-6 / longest, (k + 0.5) / WAVES);
+    }
+    for (int k = 0; k < MARKS; k++) {
+        s->normal[k] = (k % 2 ? 1 : -1) * uniform(0.45, 0.55) + exact_pi / 2;
+        s->distance[k] = uniform(-150e-6, 150e-6);
+        s->depth[k] = uniform(0.3, 3) * size;
+        s->width[k] = uniform(2.5e-6, 6e-6);
+    }
 }
 
 static inline double
@@ -60,6 +82,11 @@ surface_height(const struct surface *s, double x, double y)
     for (int k = 0; k < WAVES; k++)
         h += s->amplitude[k] *
              cos(s->q[k] * (x * cos(s->direction[k]) + y * sin(s->direction[k])) + s->phase[k]);
+    for (int k = 0; k < MARKS && s->depth[k] > 0; k++) {
+        const double u =
+            (x * cos(s->normal[k]) + y * sin(s->normal[k]) - s->distance[k]) / s->width[k];
+        h -= s->depth[k] * exp(-u * u);
+    }
     return h;
 }
 
@@ -70,8 +97,9 @@ struct scans {
     double tilt_x, tilt_y, offset; /* of A over B */
     double noise;                  /* m, of each scan */
     double groove, width;          /* m: depth of a groove in A, and its half width */
-    double lay;                    /* 1: no lay */
-    int holes;                     /* in each scan */
+    double share, cut; /* of the nodes of A that lose their tops, and the height (m) above */
+    double lay;        /* 1: no lay */
+    int holes;         /* in each scan */
 };
 
 static inline void
@@ -86,12 +114,15 @@ punch_holes(const struct rc_shape *s, int holes, double *h)
     }
 }
 
-/* Depth of the groove: a parabola across, along a line that is inclined to the map. */
+/* Of the groove: a parabola across, along a line that is inclined to the map. Of tops above a height: all but
+ * a twentieth. */
 static inline double
-worn_depth(const struct scans *c, double x, double y)
+worn_depth(const struct surface *s, const struct scans *c, double x, double y)
 {
     const double u = (0.94 * x + 0.34 * y - 5e-6) / c->width, v = (-0.34 * x + 0.94 * y) / 70e-6;
 
+    if (c->share > 0)
+        return 0.95 * fmax(surface_height(s, x, y) - c->cut, 0);
     return c->groove > 0 && fabs(u) < 1 && fabs(v) < 1 ? c->groove * (1 - u * u) * (1 - v * v) : 0;
 }
 
@@ -101,13 +132,33 @@ place(size_t k, size_t n, double d)
     return ((double)k - (double)(n - 1) / 2) * d;
 }
 
+/* The height that leaves its share of the nodes of A above. */
+static inline double
+find_cut(const struct surface *s, const struct scans *c)
+{
+    double low = -1e-3, high = 1e-3;
+
+    for (int step = 0; step < 40; step++) {
+        const double now = (low + high) / 2;
+        size_t above = 0, n = 0;
+        for (size_t k = 0; k < c->a.nx * c->a.ny; k += 7, n++)
+            above += surface_height(s, place(k % c->a.nx, c->a.nx, c->a.dx),
+                                    place(k / c->a.nx, c->a.ny, c->a.dy)) > now;
+        if ((double)above > c->share * (double)n)
+            low = now;
+        else
+            high = now;
+    }
+    return low;
+}
+
 static inline void
 scan_both(const struct surface *s, const struct scans *c, double *a, double *b)
 {
     for (size_t j = 0; j < c->a.ny; j++)
         for (size_t i = 0; i < c->a.nx; i++) {
             const double x = place(i, c->a.nx, c->a.dx), y = place(j, c->a.ny, c->a.dy);
-            a[j * c->a.nx + i] = surface_height(s, x, y) - worn_depth(c, x, y) + c->offset +
+            a[j * c->a.nx + i] = surface_height(s, x, y) - worn_depth(s, c, x, y) + c->offset +
                                  c->tilt_x * x + c->tilt_y * y + c->noise * normal();
         }
     for (size_t j = 0; j < c->b.ny; j++)
@@ -143,6 +194,21 @@ random_scans(size_t nx, size_t ny)
     return c;
 }
 
+/* A honed surface that has lost the tops of 30 to 50 % of its nodes, up to several micrometres. */
+static inline struct scans
+worn_scans(size_t nx, size_t ny, struct surface *s)
+{
+    struct scans c = random_scans(nx, ny);
+    const double size = 1e-6 * exp(uniform(log(0.7), log(5)));
+
+    make_honed(s, size, 5e-6 * exp(uniform(log(2), log(24))));
+    c.noise *= size / 1e-6;
+    c.groove = 0;
+    c.share = uniform(0.3, 0.5);
+    c.cut = find_cut(s, &c);
+    return c;
+}
+
 struct errors {
     double shift, turn;       /* nodes, degrees */
     double volume, bar, worn; /* m^3: error, its bar, the volume itself */
@@ -163,7 +229,7 @@ align_scans(const struct surface *s, const struct scans *c)
         fail_msg("%s", err.text);
     for (size_t k = 0; k < c->a.nx * c->a.ny; k++)
         if (!isnan(out[k]))
-            e.worn -= worn_depth(c, place(k % c->a.nx, c->a.nx, c->a.dx),
+            e.worn -= worn_depth(s, c, place(k % c->a.nx, c->a.nx, c->a.dx),
                                  place(k / c->a.nx, c->a.ny, c->a.dy)) *
                       c->a.dx * c->a.dy;
     e.shift = hypot((found.shift_x - c->shift_x) / c->a.dx, (found.shift_y - c->shift_y) / c->a.dy);

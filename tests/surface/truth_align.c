@@ -25,6 +25,24 @@ test_random(void **state)
     }
 }
 
+/* A honed surface that has lost the tops of half of its nodes, all over the map. */
+static void
+test_worn(void **state)
+{
+    struct surface s;
+    struct scans c;
+    struct errors e;
+
+    (void)state;
+    srand(1005);
+    c = worn_scans(150, 130, &s);
+    e = align_scans(&s, &c);
+    assert_true(c.share > 0.45);
+    assert_true(e.shift < 0.02 && e.turn < 0.01);
+    assert_true(fabs(e.volume) < e.bar && e.bar < 0.05 * fabs(e.worn));
+    assert_true(e.found.residual < 1.1 * sqrt(2) * c.noise);
+}
+
 /* Without noise and wear only the spline is left. */
 static void
 test_clean(void **state)
@@ -105,9 +123,8 @@ int
 main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_random),
-        cmocka_unit_test(test_clean),
-        cmocka_unit_test(test_profile),
+        cmocka_unit_test(test_random),   cmocka_unit_test(test_worn),
+        cmocka_unit_test(test_clean),    cmocka_unit_test(test_profile),
         cmocka_unit_test(test_refusals),
     };
 
