@@ -13,14 +13,14 @@
 Each tool is one function: add cost deflect detrend export fatigue heat info leak open (rc-import) pick render report scene
 slip solve stress synth wear. help(rcg.solve) lists its options. frame, read, write, loads and dumps handle the
 grid stream, run calls a tool by its name, and so does report with the name of a tool and frames.
-sample('rough-steel.x3p') is the path of a sample surface. Long runs show their progress in terminals and notebooks.
+sample('rough-steel.x3p') is the path of a sample surface; materials() is the table behind body1='steel'. Long runs show their progress in terminals and notebooks.
 """
 from .stream import Error, Frame, dumps, frame, loads, read, write
-from .tools import FUNCTIONS, NotConverged, Page, Picture, Result, ToolWarning, function, run, sample
+from .tools import FUNCTIONS, NotConverged, Page, Picture, Result, ToolWarning, function, materials, run, sample
 
 __version__ = '0.1.0'
 __all__ = ['Error', 'Frame', 'NotConverged', 'Page', 'Picture', 'Result', 'ToolWarning', 'frame', 'loads', 'read',
-           'dumps', 'write', 'run', 'sample'] + sorted(FUNCTIONS)
+           'dumps', 'write', 'run', 'sample', 'materials'] + sorted(FUNCTIONS)
 
 
 def __getattr__(name):

@@ -13,7 +13,7 @@ import numpy
 
 from .stream import Error as Error, Frame as Frame, dumps as dumps, frame as frame, loads as loads, read as read, write as write
 from .tools import NotConverged as NotConverged, Page as Page, Picture as Picture, Result as Result, ToolWarning as ToolWarning
-from .tools import run as run, sample as sample
+from .tools import materials as materials, run as run, sample as sample
 
 __version__: str
 

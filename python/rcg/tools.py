@@ -599,7 +599,7 @@ class Result:
             dims = [d for d in coords if d in 'yx' or (d == 'depth' and depths) or (d == 'case' and len(cases) > 1)]
             shape = [len(coords[d] if d == 'case' else coords[d][1]) for d in dims]
             data[channel] = xarray.DataArray(cube.reshape(shape), {d: coords[d] for d in dims}, dims,
-                                             attrs={'units': f.unit})
+                                             attrs={'units': f.unit, 'long_name': channel.replace('-', ' ')})
         figures = self.lines[0] if len(self.lines) == 1 else {}
         attributes = {k: v for k, v in figures.items() if isinstance(v, (float, str)) or type(v) is int}
         return xarray.Dataset(data, self._along_cases(data), attrs=dict(attributes, command=' '.join(self.command)))
@@ -615,6 +615,11 @@ class Result:
             if None not in values and len(set(values)) > 1:
                 found[name] = ('case', values, {'units': units[name]} if units.get(name) else {})
         return found
+
+    @property
+    def units(self):
+        """{channel or figure of the report: its unit}: result.units['pressure'] is 'Pa'."""
+        return dict({f.channel: f.unit for f in self.frames}, **self._units())
 
     def _units(self):
         """{figure: its unit in the report}."""
@@ -721,13 +726,54 @@ def _settled(status, words, result):
     return result
 
 
-def open_file(path, **given):
-    """A measured surface from an instrument or exchange file (rc-import), or the frames of a grid stream."""
+def open_file(paths, **given):
+    """A measured surface from an instrument or exchange file (rc-import), or the frames of a grid stream.
+
+    A list of files gives a case for each: rcg.open(sorted(glob.glob('scans/*.x3p'))).
+    """
+    if isinstance(paths, (list, tuple)):
+        return _open_all([os.fspath(one) for one in paths], given)
+    if _is_stream(paths) and not given:
+        return Result('rc-import', ['rc-import', os.fspath(paths)], frames=stream.read(paths))
+    return call('rc-import', None, (paths,), **given)
+
+
+def _is_stream(path):
     with open(path, 'rb') as file:
-        head = file.read(4)
-    if head == b'RCG1' and not given:
-        return Result('rc-import', ['rc-import', os.fspath(path)], frames=stream.read(path))
-    return call('rc-import', None, (path,), **given)
+        return file.read(4) == b'RCG1'
+
+
+def _open_all(paths, given):
+    """The files as cases, in their order: rc-import reads them at once, unless some are streams."""
+    if not paths:
+        raise ValueError('the list of files is empty')
+    if given or not any(map(_is_stream, paths)):
+        return call('rc-import', None, paths, **given)
+    frames, last = [], 0
+    for opened in map(open_file, paths):
+        numbers = sorted(set(map(_case, opened.frames)))
+        for f in opened.frames:
+            f.keys['case'] = str(last + 1 + numbers.index(_case(f)))
+        last += len(numbers)
+        frames += opened.frames
+    return Result('rc-import', ['rc-import'] + paths, frames=frames)
+
+
+def materials():
+    """The named materials of body1= and body2=, as rc-solve --materials prints them: {'steel': {'E': '211.9GPa', 'nu': 0.291, ...}, ...}.
+
+    Values with units are texts that options take: rcg.solve(surface, load='5N', E1=rcg.materials()['copper']['E'], ...). Values
+    without a source are left out. pandas.DataFrame(rcg.materials()).T is a table.
+    """
+    status, output, words = execute(['rc-solve', '--materials'])
+    if status != 0:
+        raise Error(words, status)
+    heads, *rows = [[cell.strip() for cell in line.split('\t')] for line in bytes(output).decode('utf-8').splitlines()]
+    found = {}
+    for names, *cells in rows:
+        row = {head: float(cell) if head == 'nu' else cell for head, cell in zip(heads[1:], cells) if cell not in ('-', '')}
+        found.update((name, dict(row)) for name in names.split('|'))
+    return found
 
 
 def sample(name='rough-steel.x3p'):
@@ -913,7 +959,7 @@ EXAMPLES = {
 # Type hints by the type of an option; those of other parameters. stubs.py explains the names.
 HINTS = {'flag': 'bool', 'number': 'Quantity', 'count': 'int', 'numbers': 'Quantity | list[Quantity]', 'words': 'str | list[str]',
          'step': 'bool | Quantity | list[Quantity | bool]'}
-OWN_HINTS = {'surface': 'Surface', 'command': 'str | list[str]', 'a': 'Surface', 'b': 'Surface', 'path': 'Path', 'shape': 'str',
+OWN_HINTS = {'surface': 'Surface', 'command': 'str | list[str]', 'a': 'Surface', 'b': 'Surface', 'path': 'Path', 'paths': 'Path | list[Path]', 'shape': 'str',
              'dx': 'float | tuple[float, float]', 'timeout': 'float', 'progress': 'bool | Callable[[dict[str, Any]], object]'}
 
 

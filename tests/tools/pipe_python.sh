@@ -72,6 +72,8 @@ claim "a warning of a tool becomes a Python warning" check warns
 
 # ---- functions ----
 
+claim "a list of files gives a case for each file" check files ball.rcg hole.txt
+claim "the table of materials is that of rc-solve" check named_materials
 claim "functions accept a file, a frame, an array or a result, and return what the tools write" check functions ball.rcg
 claim "  steps act in the order of the keywords" check steps ball.rcg
 claim "  layers are a list of tuples" check layers ball.rcg

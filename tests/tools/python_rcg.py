@@ -8,6 +8,7 @@ import json
 import math
 import multiprocessing
 import os
+import pathlib
 import pickle
 import signal
 import subprocess
@@ -375,6 +376,34 @@ def functions(name):
     assert (rcg.add(ball, ball, subtract=True).height == 0).all()
 
 
+def files(name, scan):
+    """A list of files gives a case for each file, whether it is a stream or a file of an instrument."""
+    two = rcg.open([name, name])
+    assert [f.keys['case'] for f in two.frames] == ['1', '2'] and two.height.shape[0] == 2
+    assert (two.height[0] == two.height[1]).all() and (two.height[0] == rcg.open(name).height).all()
+    read = rcg.open([scan, scan], dx='1um', z_unit='um')
+    assert rcg.dumps(read.frames) == tool('rc-import', '--dx', '1um', '--z-unit', 'um', scan, scan)[1]
+    solved = rcg.solve(name, load=[0.5, 1], estar='114GPa', quiet=True)
+    solved.save('three.rcg')
+    mixed = rcg.open(('three.rcg', pathlib.Path(name)))
+    assert [case.channels[0] for case in mixed.cases] == ['pressure', 'pressure', 'height']
+    assert solved.units['pressure'] == 'Pa' and solved.units['contact_area'] == 'm2'
+    assert 'empty' in str(raised(ValueError, rcg.open, []))
+
+
+def named_materials():
+    """materials() has every row of rc-solve --materials, and its values go into the options."""
+    known = rcg.materials()
+    rows = [line.split(b'\t') for line in tool('rc-solve', '--materials')[1].splitlines()[1:]]
+    assert {name.decode() for row in rows for name in row[0].strip().split(b'|')} == set(known) and len(rows) >= 20
+    assert known['52100'] == known['100Cr6'] and known['steel']['nu'] == 0.291 and 'hardness' not in known['copper']
+    assert all(row['source'] for row in known.values())
+    ball = rcg.synth('sphere', nx=33, dx='1.1um', radius='2.385mm')
+    bodies = dict(E1=known['copper']['E'], nu1=known['copper']['nu'], E2=known['steel']['E'], nu2=known['steel']['nu'])
+    by_name = rcg.solve(ball, load=0.5, body1='copper', body2='steel', quiet=True)
+    assert (rcg.solve(ball, load=0.5, quiet=True, **bodies).pressure == by_name.pressure).all()
+
+
 def steps(name):
     """Options that a tool applies in order keep the order of the keywords; options may repeat."""
     ball = rcg.open(name)
@@ -571,6 +600,7 @@ def data_sets(name):
     solved = rcg.solve(ball, load=[0.5, 1], estar='114GPa', quiet=True)
     cube = solved.to_xarray()
     assert cube.pressure.dims == ('case', 'y', 'x') and cube.pressure.attrs['units'] == 'Pa'
+    assert cube.pressure.attrs['long_name'] == 'pressure' and cube.x.attrs['units'] == 'm'
     assert (cube.pressure.values == solved.pressure).all() and list(cube.case) == [1, 2]
     assert abs(float(cube.x[1] - cube.x[0]) / ball.dx - 1) < 1e-9 and abs(float(cube.y[1] - cube.y[0]) / ball.dy - 1) < 1e-9
     stress = rcg.stress(solved, nu=0.3, depths='1um,3um', components=['mises', 'szz'])
