@@ -20,6 +20,8 @@ claim "thirty scans, a table with error bars" drawn many-scans 1
 claim "elastic-plastic indentation" drawn indentation 2
 claim "running-in" drawn running-in 2
 claim "the notebook of a seal runs" drawn seal 2
+claim "before and after, with a known volume" drawn before-and-after 1
+claim "rolling with creepage" drawn rolling 2
 [ -z "${NOTEBOOK_PICTURES-}" ] || cp pictures/*.png "$NOTEBOOK_PICTURES" # to be looked at
 claim "no notebook is left out, and none holds results" bash -c '
-    [ "$(ls "$RC_SOURCE"/notebooks/*.ipynb | wc -l)" = 5 ] && ! grep -l "image/png" "$RC_SOURCE"/notebooks/*.ipynb'
+    [ "$(ls "$RC_SOURCE"/notebooks/*.ipynb | wc -l)" = 7 ] && ! grep -l "image/png" "$RC_SOURCE"/notebooks/*.ipynb'
