@@ -49,6 +49,23 @@ def start(file, *given):
     return found('steps', body={'file': file, 'steps': steps(*given), 'start': True})['run']
 
 
+def added_steps():
+    """Each step, as the page adds it after the first contact, runs; stresses and friction take the bodies from the contact."""
+    with open(os.path.join(os.environ['RC_SOURCE'], 'python', 'rcg', 'page', 'page.js'), encoding='utf-8') as file:
+        rows = re.search(r'const STEPS = \{\n(.*?)\n\};', file.read(), re.S).group(1)
+    begin = {}
+    for name, options in re.findall(r"^  (\w+): \['[^']*'(?:, \{(.*)\})?\],$", rows, re.M):
+        pairs = re.findall(r"'?([\w-]+)'?: (?:'([^']*)'|(true))", options)
+        begin['rc-' + name] = [[key, True if flag else text] for key, text, flag in pairs]
+    assert len(begin) >= 10 and ['load', '10N'] in begin['rc-solve'], begin
+    first = [{'tool': tool, 'options': begin[tool], 'from': k} for k, tool in enumerate(('rc-import', 'rc-detrend', 'rc-solve'))]
+    for tool in set(begin) - {'rc-import', 'rc-pick', 'rc-detrend', 'rc-solve', 'rc-deflect'}:
+        assert all(text != '' for _, text in begin[tool]), begin[tool]
+        number = found('steps', body={'file': SAMPLE, 'steps': first + [{'tool': tool, 'options': begin[tool], 'from': 3}], 'start': True})['run']
+        last = ended(number)
+        assert last['state'] == 'done', (tool, last)
+
+
 STATE = []
 
 

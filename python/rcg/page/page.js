@@ -3,19 +3,19 @@
 // The page: forms from the option tables, runs on the server, views of their results. The tools do all work.
 
 const $ = id => document.getElementById(id);
-// Steps: their titles, and the options that a new one begins with.
+// Steps: their titles, and the options that a new one begins with: examples that run after the first contact.
 const STEPS = {
   import: ['Read the file'],
   pick: ['Crop, resample, turn'],
   detrend: ['Level and filter', {poly: '2', spikes: '5', fill: true}],
   solve: ['Press', {load: '10N', body1: 'steel', body2: 'steel', hardness: '6GPa'}],
-  stress: ['Stresses below', {nu: '0.28', section: 'y=0', depths: '0:40um:41'}],
-  slip: ['Friction', {mu: '0.3', nu: '0.28', tangential: ''}],
-  wear: ['Wear', {coefficient: '', distance: ''}],
-  heat: ['Flash temperatures', {mu: '0.3', speed: '', conductivity: '', diffusivity: ''}],
-  fatigue: ['Fatigue', {'bending-limit': '', 'torsion-limit': '', nu: '0.28', pass: 'x', depths: 'auto'}],
+  stress: ['Stresses below', {section: 'y=0', depths: '0:40um:41'}],
+  slip: ['Friction', {mu: '0.3', tangential: '1N'}],
+  wear: ['Wear', {coefficient: '1e-7mm3/Nm', distance: '1m'}],
+  heat: ['Flash temperatures', {mu: '0.3', speed: '1m/s', body1: 'steel', body2: 'steel'}],
+  fatigue: ['Fatigue', {'bending-limit': '600MPa', 'torsion-limit': '400MPa', pass: 'x', depths: 'auto'}],
   deflect: ['Displacement'],
-  leak: ['Leakage', {viscosity: '', 'pressure-drop': ''}],
+  leak: ['Leakage', {viscosity: '1mPas', 'pressure-drop': '100kPa'}],
 };
 // Views, and the options of rc-render (for Numbers, of rc-info) that they begin with.
 const VIEWS = {
@@ -33,7 +33,9 @@ const TITLES = {
   highpass: 'Remove waves longer than', lowpass: 'Remove waves shorter than', robust: 'Robust filters',
   crop: 'Cut out a part', resample: 'New spacing or size', set: 'Set a key', section: 'Section at', depths: 'Depths',
   tol: 'Tolerance', yield: 'Yield stress', tangential: 'Tangential force', coefficient: 'Wear coefficient',
-  distance: 'Sliding distance', speed: 'Sliding speed', pass: 'Passes along', view: 'Direction of view', cut: 'Cut at',
+  distance: 'Sliding distance', displacement: 'Displacement along the surface', creep: 'Creepage',
+  hardness: 'Hardness', conductivity: 'Thermal conductivities', diffusivity: 'Thermal diffusivities',
+  'bending-limit': 'Endurance limit in bending', 'torsion-limit': 'Endurance limit in torsion', speed: 'Sliding speed', pass: 'Passes along', view: 'Direction of view', cut: 'Cut at',
   psd: 'Power spectrum', areal: 'Areal parameters', output: 'Frames to write', mean: 'Mean',
 };
 // What the page says of the states of steps and of runs.
@@ -86,6 +88,9 @@ const clash = (rows, a, b) => a !== b && rows.some(row => row.name === a && excl
   row.one_of.some(rule => plain(rule).includes(a) && plain(rule).includes(b)));
 // Words for people: the title of an option, and its help with the words that it takes.
 const named = name => TITLES[name] ?? name[0].toUpperCase() + name.slice(1).replaceAll('-', ' ');
+// A message of a tool names options as a shell has them: the form has titles.
+const spoken = (words, tool) => words.replace(/--([a-zA-Z][a-zA-Z0-9-]*)/g, (whole, name) =>
+  (tables[tool]?.options.some(row => row.name === name) ? `“${named(name)}” (${whole})` : whole));
 const helped = ({help, words}) => help.replaceAll('%s', words.join(', '));
 const given = options => options.filter(([, value]) => value !== '' && value !== false);
 // changed() follows a new value, redo() another number of the options [[name, value], ...].
@@ -178,7 +183,7 @@ function states() {
     if (step.shown === step.command + words) continue; // a selection of the text stays
     step.shown = step.command + words;
     step.line.replaceChildren(...(step.command ? [command(step.command)] : []),
-      make('p', {className: 'said', textContent: words}));
+      make('p', {className: 'said', textContent: spoken(words, step.tool)}));
   }
 }
 const start = trying(async count => {
@@ -214,7 +219,7 @@ function news() {
   if (seen === document.body.dataset.run && !now) return;
   seen = document.body.dataset.run;
   const doing = now ? `${now.tool}: ${now.doing || 'running'}` : WORDS[run.state];
-  tell(failed?.words ?? doing, failed && 'failed');
+  tell(failed ? spoken(failed.words, failed.tool) : doing, failed && 'failed');
   if (!active(run)) collect();
 }
 // The frames of all steps of the selected run.
