@@ -118,6 +118,21 @@ struct rc_form {
 RC_API enum rc_status rc_detrend_form(const struct rc_shape *shape, const struct rc_form *form,
                                       double *h, double *radius, struct rc_err *err);
 
+/* Heights (m) that are not in memory. */
+struct rc_row_source {
+    void *ctx;
+    /* the next row to read is the first one; called before each of several passes */
+    enum rc_status (*again)(void *ctx, struct rc_err *err);
+    /* reads the next n rows to v */
+    enum rc_status (*read)(void *ctx, size_t n, double *v, struct rc_err *err);
+    /* gets the next n rows of the result, during the last pass */
+    enum rc_status (*write)(void *ctx, size_t n, const double *v, struct rc_err *err);
+};
+/* rc_detrend_form with the same results for a polynomial that is not robust, in the memory of some rows.
+ * RC_FAIL also when the source fails, with its sentence. */
+RC_API enum rc_status rc_detrend_source(const struct rc_shape *shape, const struct rc_form *form,
+                                        const struct rc_row_source *source, struct rc_err *err);
+
 /* Levels each row separately, for scan lines. Degree 0 subtracts the median of the row; 1 or 2 subtract its
  * best straight line or parabola. The fit is by least squares, or with the weights of struct rc_form if
  * `robust`. A row with fewer than twice as many points as coefficients is levelled by its median, an empty
@@ -221,8 +236,8 @@ RC_API enum rc_status rc_resample(const struct rc_shape *from, const double *v,
                                   struct rc_boundary boundary, const struct rc_shape *to,
                                   double *out, struct rc_err *err);
 
-/* The to->nx by to->ny values from column `left` and row `top` on; out may be v. RC_FAIL when they exceed the
- * map. */
+/* The to->nx by to->ny values from column `left` and row `top` on; out may be v. With NULL for v only checks
+ * them. RC_FAIL when they exceed the map. */
 RC_API enum rc_status rc_crop(const struct rc_shape *from, const double *v, size_t left, size_t top,
                               const struct rc_shape *to, double *out, struct rc_err *err);
 /* Reverses left and right (axis 'x') or top and bottom ('y'), in place. */

@@ -55,7 +55,7 @@ libcontact/rolling  | %base libcontact/friction/friction.h     | libcontact libc
 libcontact/rolling  | libcontact/friction/discs.h libcontact/model/row.h | libcontact/model libcontact/operator libcontact/body
 libcontact/features | %base                                   | libcontact
 libcontact/surface  | %base %ranks                             | libcontact libcontact/ranks
-libcontact/surface  | libcontact/transform/transform.h         | libcontact/transform libcontact/surface/parameters
+libcontact/surface  | libcontact/transform/transform.h libcontact/surface/parameters/measure.h | libcontact/transform libcontact/surface/parameters
 libcontact/surface/parameters | %base %ranks                  | libcontact libcontact/ranks
 libcontact/surface/parameters | libcontact/transform/transform.h | libcontact/transform
 formats/core        | libcontact/grid.h                        | libcontact

@@ -6,6 +6,7 @@
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/stat.h>
 
 static struct args {
     bool subtract, align;
@@ -49,7 +50,8 @@ enum {
 /* A second struct tool reads B and reports under the name of the first one; its failure also ends the output
  * of the first. */
 struct second {
-    struct tool t;
+    struct tool t, first; /* first: before its first frame, to read a file again */
+    bool file;
     struct rc_grid *g; /* from the same case as A */
     size_t n;          /* surfaces read so far  */
 };
@@ -75,11 +77,18 @@ next_second(struct tool *t, struct second *b, const struct rc_grid *a)
     if (g == NULL && b->n > 1)
         tool_refuse(t, a, "%s has only %zu surfaces: B must have one surface, or as many as A",
                     t->operand[1], b->n);
-    if (g == NULL)
+    if (g == NULL && (b->g == NULL || tool_has_values(b->g)))
         return;
+    if (g == NULL) { /* a single one for all of A, whose values are read again */
+        b->t = b->first;
+        g = read_second(t, b);
+        b->n--;
+    }
     rc_grid_free(b->g);
     b->g = g;
     b->n++;
+    if (!b->file) /* it may be needed again */
+        tool_load(&b->t, g);
 }
 
 static void
@@ -103,7 +112,8 @@ demand_heights(struct tool *t, const struct rc_grid *g)
         tool_refuse(t, g,
                     "its unit is '%s': heights are in metres; import the file again with --z-unit",
                     g->unit);
-    tool_demand_measured(t, g);
+    if (tool_has_values(g))
+        tool_demand_measured(t, g);
 }
 
 /* If one map is finer than the other, suggests averaging its nodes rather than interpolating the coarser
@@ -217,10 +227,60 @@ add_history(struct tool *t, struct rc_grid *a, const struct rc_grid *b, struct r
 
 /* ---- the sum ---- */
 
-/* Replaces A by the sum, which keeps A's keys. */
+/* The next row of B. */
 static void
-add(struct tool *t, struct rc_grid *a, const struct rc_grid *b)
+next_row(struct second *b, size_t j, double *row)
 {
+    if (tool_has_values(b->g))
+        memcpy(row, b->g->v + j * b->g->nx, b->g->nx * sizeof *row);
+    else
+        tool_read_rows(&b->t, 1, row);
+}
+
+/* Ends the tool if a height in the rest of A or of B is infinite, too. */
+static void
+demand_rest(struct tool *t, const struct rc_grid *a, struct second *b)
+{
+    tool_skip_rows(t, tool_rows_left(t));
+    tool_demand_measured(t, a);
+    if (tool_has_values(b->g))
+        return;
+    tool_skip_rows(&b->t, tool_rows_left(&b->t));
+    tool_demand_measured(&b->t, b->g);
+}
+
+/* Writes the sum row by row; `sum` is its frame, of these shapes. */
+static void
+write_rows(struct tool *t, struct rc_grid *sum, const struct rc_shape *sa, struct second *b)
+{
+    const struct rc_shape a_row = {sa->nx, 1, sa->dx, sa->dy};
+    const struct rc_shape b_row = {b->g->nx, 1, b->g->dx, b->g->dy};
+    const size_t top = (b->g->ny - sum->ny) / 2;
+    RC_OWNED double *va = tool_room(t, sa->nx, sizeof *va, "a row of a map");
+    RC_OWNED double *vb = tool_room(t, b->g->nx, sizeof *vb, "a row of a map");
+
+    tool_write_head(t, sum);
+    tool_skip_rows(t, (sa->ny - sum->ny) / 2);
+    if (!tool_has_values(b->g))
+        tool_skip_rows(&b->t, top);
+    for (size_t j = 0; j < sum->ny; j++) {
+        tool_read_rows(t, 1, va);
+        next_row(b, top + j, vb);
+        tool_must(t, sum,
+                  (args.subtract ? rc_subtract : rc_add)(&a_row, va, &b_row, vb, va, &t->err));
+        t->input.missing |= b->t.input.missing;
+        t->input.infinite |= b->t.input.infinite;
+        if (j + 1 == sum->ny)
+            demand_rest(t, sum, b);
+        tool_write_rows(t, sum, 1, va);
+    }
+}
+
+/* Writes the sum of A and B, which keeps A's keys. */
+static void
+add(struct tool *t, struct rc_grid *a, struct second *second)
+{
+    const struct rc_grid *b = second->g;
     struct rc_shape sa = rc_grid_shape(a), sb = rc_grid_shape(b), sum;
     struct rc_boundary cut;
 
@@ -230,14 +290,14 @@ add(struct tool *t, struct rc_grid *a, const struct rc_grid *b)
     if (rc_repeats(cut) > 0)
         tool_note(t, "%s: %zu x %zu nodes and %zu x %zu of B: cut to the %zu x %zu that they share",
                   tool_where(t, a), sa.nx, sa.ny, sb.nx, sb.ny, sum.nx, sum.ny);
-    tool_must(t, a, (args.subtract ? rc_subtract : rc_add)(&sa, a->v, &sb, b->v, a->v, &t->err));
     set_periodic(t, a, b, cut);
     tool_must(t, a, set_form(a, b, &t->err));
     tool_must(t, a, add_history(t, a, b, &t->err));
     a->nx = sum.nx;
-    a->ny = sum.ny;
+    a->ny = a->elsewhere = sum.ny;
     if (b->type == RC_F64)
         a->type = RC_F64;
+    write_rows(t, a, &sa, second);
 }
 
 /* ---- alignment ---- */
@@ -291,10 +351,11 @@ report_alignment(const struct rc_grid *a, const struct rc_alignment *is)
     report_finish_row(r);
 }
 
-/* Replaces A by A - B, with B aligned; the map keeps the nodes of A. */
+/* Writes A - B, with B aligned; the map keeps the nodes of A. */
 static void
-align(struct tool *t, struct rc_grid *a, const struct rc_grid *b)
+align(struct tool *t, struct rc_grid *a, struct second *second)
 {
+    const struct rc_grid *b = second->g;
     const struct rc_shape sa = rc_grid_shape(a), sb = rc_grid_shape(b);
     double *change = tool_room(t, rc_grid_nodes(a), sizeof *change, "the change");
     struct rc_alignment is;
@@ -318,6 +379,7 @@ align(struct tool *t, struct rc_grid *a, const struct rc_grid *b)
     a->type = b->type == RC_F64 ? RC_F64 : a->type;
     tell(t, a, &is);
     report_alignment(a, &is);
+    tool_write(t, a);
 }
 
 /* ---- the command line ---- */
@@ -325,13 +387,19 @@ align(struct tool *t, struct rc_grid *a, const struct rc_grid *b)
 static void
 open_two(struct tool *t, struct second *b)
 {
+    struct stat st;
+
     if (t->operands != 2)
         tool_usage(t, "%zu files named: give two, A and B; - is standard input", t->operands);
     if (strcmp(t->operand[0], "-") == 0 && strcmp(t->operand[1], "-") == 0)
         tool_usage(t, "- and -: standard input is one surface, A or B");
+    if (!args.align)
+        tool_by_rows(t);
     *b = (struct second){.t = *t};
     b->t.operand = t->operand + 1;
     t->operands = b->t.operands = 1;
+    b->first = b->t;
+    b->file = stat(b->t.operand[0], &st) == 0 && S_ISREG(st.st_mode);
 }
 
 int
@@ -351,8 +419,7 @@ main(int argc, char **argv)
         t.input.infinite |= b.t.input.infinite;
         demand_heights(&t, a);
         demand_heights(&b.t, b.g);
-        (args.align ? align : add)(&t, a, b.g);
-        tool_write(&t, a);
+        (args.align ? align : add)(&t, a, &b);
         rc_grid_free(a);
         n++;
     }

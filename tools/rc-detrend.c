@@ -338,6 +338,88 @@ detrend(struct tool *t, struct rc_grid *g)
     tool_sign(t, g);
 }
 
+/* ---- row by row ---- */
+
+struct rows_of {
+    struct tool *t;
+    struct rc_grid *g;
+    bool begun;
+};
+
+static enum rc_status
+again(void *ctx, struct rc_err *err)
+{
+    (void)err;
+    tool_read_again(((struct rows_of *)ctx)->t);
+    return RC_OK;
+}
+
+static enum rc_status
+read_rows(void *ctx, size_t n, double *v, struct rc_err *err)
+{
+    (void)err;
+    tool_read_rows(((struct rows_of *)ctx)->t, n, v);
+    return RC_OK;
+}
+
+static enum rc_status
+write_rows(void *ctx, size_t n, const double *v, struct rc_err *err)
+{
+    struct rows_of *of = ctx;
+
+    (void)err;
+    if (!of->begun) {
+        tool_sign(of->t, of->g);
+        tool_write_head(of->t, of->g);
+    }
+    of->begun = true;
+    tool_write_rows(of->t, of->g, n, v);
+    return RC_OK;
+}
+
+/* True if the only step is a polynomial that needs neither medians nor the heights before it. */
+static bool
+works_by_rows(const struct tool *t, const struct rc_grid *g)
+{
+    const struct work *work = args.steps.step[0].opt->of;
+
+    return args.steps.n == 1 && work->run == remove_form && work->form.kind == RC_POLYNOMIAL &&
+           !args.robust && rc_repeats(map_repeats(g)) == 0 && tool_reads_file(t);
+}
+
+/* The frame is read several times, and is never in memory as a whole. */
+static void
+detrend_rows(struct tool *t, struct rc_grid *g)
+{
+    const struct step *step = &args.steps.step[0];
+    struct rows_of of = {t, g, false};
+    const struct rc_row_source source = {&of, again, read_rows, write_rows};
+    struct rc_form form = ((const struct work *)step->opt->of)->form;
+
+    form.degree += (size_t)step->value;
+    form.threads = t->threads;
+    if (rc_detrend_source(rc_shape_of(g), &form, &source, &t->err) != RC_OK) {
+        tool_demand_measured(t, g);
+        failed(t, g, step, &t->err);
+    }
+}
+
+/* ---- frame by frame ---- */
+
+static void
+one(struct tool *t, struct rc_grid *g)
+{
+    if (works_by_rows(t, g)) {
+        demand_one_period(t, g);
+        detrend_rows(t, g);
+        return;
+    }
+    tool_load(t, g);
+    tool_demand_measured(t, g);
+    detrend(t, g);
+    tool_write(t, g);
+}
+
 /* Mirrors the other frames of the case, such as a map of hardness, with the heights. */
 static void
 passing(struct tool *t, struct rc_grid *g)
@@ -350,6 +432,7 @@ passing(struct tool *t, struct rc_grid *g)
         const char *axes = args.steps.step[k].text;
         if (work->run != mirror)
             continue;
+        tool_load(t, g);
         snprintf(step, sizeof step, "%s %s --mirror%s%s", t->info->name, rc_version(),
                  axes == NULL ? "" : " ", axes == NULL ? "" : axes);
         tool_must(t, g, mirror(t, g, &args.steps.step[k], &t->err));
@@ -428,10 +511,9 @@ main(int argc, char **argv)
 
     tool_start(&t, &info, argc, argv, &args);
     check_steps(&t);
+    tool_by_rows(&t);
     while ((g = tool_channel(&t, "height", true)) != NULL) {
-        tool_demand_measured(&t, g);
-        detrend(&t, g);
-        tool_write(&t, g);
+        one(&t, g);
         rc_grid_free(g);
     }
     return tool_finish(&t);

@@ -184,7 +184,7 @@ demand_one_channel(struct tool *t, const struct rc_grid *g)
 }
 
 static void
-change(struct tool *t, struct rc_grid *g)
+change(struct tool *t, struct rc_grid *g, struct part *part)
 {
     bool renamed = false;
 
@@ -199,12 +199,42 @@ change(struct tool *t, struct rc_grid *g)
         tool_set(t, g, "frames", NULL);
     for (size_t k = 0; k < args.steps.n; k++)
         if (pick_geometry(&args.steps.step[k]))
-            pick_geometry_do(t, g, &args.steps.step[k]);
+            pick_geometry_do(t, g, &args.steps.step[k], part);
         else
             set(t, g, &args.steps.step[k]);
     if (rc_keys_check(g, &t->err) != RC_OK)
         tool_refuse(t, g, "%s: correct it with --set", t->err.text);
     tool_sign(t, g);
+}
+
+/* True if only rows are needed: frames that wait for a decision about depths need their values. */
+static bool
+works_by_rows(void)
+{
+    bool does = args.wanted.depth.n == 0;
+
+    for (size_t k = 0; k < args.steps.n; k++)
+        does = does && pick_by_rows(&args.steps.step[k]);
+    return does;
+}
+
+/* Writes a part of the map that was read last. */
+static void
+write_part(struct tool *t, struct rc_grid *g, size_t nx, const struct part *part)
+{
+    const size_t together = tool_rows_together(nx);
+    RC_OWNED double *v = tool_room(t, together * nx, sizeof *v, "some rows of a map");
+
+    tool_skip_rows(t, part->top);
+    tool_write_head(t, g);
+    for (size_t n, left = g->ny; left > 0; left -= n) {
+        n = left < together ? left : together;
+        tool_read_rows(t, n, v);
+        tool_must(t, g,
+                  rc_crop(&(struct rc_shape){nx, n, g->dx, g->dy}, v, part->left, 0,
+                          &(struct rc_shape){g->nx, n, g->dx, g->dy}, v, &t->err));
+        tool_write_rows(t, g, n, v);
+    }
 }
 
 int
@@ -214,9 +244,16 @@ main(int argc, char **argv)
     struct tool t;
 
     tool_start(&t, &info, argc, argv, &args);
+    if (works_by_rows())
+        tool_by_rows(&t);
     while ((g = wanted_read(&args.wanted, &t)) != NULL) {
-        change(&t, g);
-        tool_write(&t, g);
+        const size_t nx = g->nx;
+        struct part part = {0, 0};
+        change(&t, g, &part);
+        if (tool_has_values(g))
+            tool_write(&t, g);
+        else
+            write_part(&t, g, nx, &part);
         rc_grid_free(g);
     }
     return tool_finish(&t);

@@ -60,6 +60,19 @@ enum rc_status rc_reader_next(struct rc_reader *reader, struct rc_grid **grid, s
 enum rc_status rc_reader_head(struct rc_reader *reader, struct rc_grid **grid, struct rc_err *err);
 enum rc_status rc_reader_values(struct rc_reader *reader, struct rc_grid *grid, struct rc_err *err);
 
+/* From now on, before the first head: heads come without memory for values (`elsewhere` is ny), which
+ * rc_reader_rows reads. */
+void rc_reader_by_rows(struct rc_reader *reader);
+/* The rows of the last head that were not read yet. Read them all before the next head. */
+size_t rc_reader_left(const struct rc_reader *reader);
+/* Reads the next n rows to v; with the last one it also checks the checksum. */
+enum rc_status rc_reader_rows(struct rc_reader *reader, size_t n, double *v, struct rc_err *err);
+/* Continues after the values of the last head, which are neither read nor checked. RC_FAIL if the frame is not
+ * complete, or the input is a pipe. */
+enum rc_status rc_reader_skip(struct rc_reader *reader, struct rc_err *err);
+/* The next row is the first one of the last head again. RC_FAIL if the input is a pipe. */
+enum rc_status rc_reader_again(struct rc_reader *reader, struct rc_err *err);
+
 /* After RC_FAIL: the message of the RCGFAIL that ended the stream, and the exit status of the program that
  * wrote it, 1 or 2. NULL after another failure. Valid as long as the reader. */
 const char *rc_reader_failure(const struct rc_reader *reader, int *exit_status);
@@ -82,6 +95,11 @@ struct rc_writer *rc_writer_new_shared(const struct rc_share *share, uint64_t at
 /* Writes one frame, in grid->type. RC_FAIL when the header is too long or the device fails. */
 enum rc_status rc_writer_put(struct rc_writer *writer, const struct rc_grid *grid,
                              struct rc_err *err);
+/* The same in parts, for one process: the header, then all values in any number of pieces. */
+enum rc_status rc_writer_begin(struct rc_writer *writer, const struct rc_grid *grid,
+                               struct rc_err *err);
+enum rc_status rc_writer_values(struct rc_writer *writer, const double *v, size_t n,
+                                struct rc_err *err);
 /* Writes the end line and flushes. */
 enum rc_status rc_writer_end(struct rc_writer *writer, struct rc_err *err);
 void rc_writer_free(struct rc_writer *writer);

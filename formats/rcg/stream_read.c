@@ -17,6 +17,11 @@ struct rc_reader {
     size_t memory;
     rc_reader_allow *allow; /* NULL: none */
     void *allow_ctx;
+    bool by_rows; /* heads come without memory for values; the rows of the last one: */
+    size_t row, rows, left;
+    enum rc_type type;
+    off_t values;                  /* where its values begin; below 0: unknown */
+    uint32_t crc_head;             /* checksum up to there                     */
     size_t first_case;             /* added to the case numbers of the stream being read */
     size_t last_case;              /* the largest one returned                           */
     size_t frames;                 /* since the last end line                            */
@@ -42,6 +47,8 @@ rc_reader_new(FILE *file, size_t first_case, size_t memory, struct rc_err *err)
     r->share = NULL;
     r->allow = NULL;
     r->allow_ctx = NULL;
+    r->by_rows = false;
+    r->row = r->rows = r->left = 0;
     r->first_case = r->last_case = first_case;
     r->frames = 0;
     r->ended = false;
@@ -62,6 +69,12 @@ rc_reader_ask(struct rc_reader *r, rc_reader_allow *allow, void *ctx)
 {
     r->allow = allow;
     r->allow_ctx = ctx;
+}
+
+void
+rc_reader_by_rows(struct rc_reader *r)
+{
+    r->by_rows = true;
 }
 
 void
@@ -248,6 +261,8 @@ read_shape(const struct rc_reader *r, const struct head *head, struct rc_shape *
         rc_size_mul(shape->nx, shape->ny, &nodes, err) != RC_OK ||
         rc_size_mul(nodes, sizeof(double), &bytes, err) != RC_OK)
         return RC_FAIL;
+    if (r->by_rows)
+        bytes = shape->nx * sizeof(double);
     if (r->memory != 0 && r->share == NULL && bytes > r->memory)
         return rc_err_set(err,
                           "a frame of %zu x %zu nodes needs %zu bytes, more than --memory allows",
@@ -305,13 +320,18 @@ grid_of_head(struct rc_reader *r, const struct head *head, struct rc_err *err)
         return NULL;
     if (strcmp(head->field[TYPE], "f64") != 0 && strcmp(head->field[TYPE], "f32") != 0)
         return rc_err_null(err, "type=%.40s is neither f64 nor f32", head->field[TYPE]);
-    rows = shape.ny;
+    rows = r->by_rows ? 0 : shape.ny;
     if (r->share != NULL)
         r->share->rows(r->share->ctx, &shape, &first, &rows);
     g = rc_grid_new_part(&shape, rows, head->field[CHANNEL], head->field[UNIT], err);
     if (g == NULL)
         return NULL;
     g->type = strcmp(head->field[TYPE], "f32") == 0 ? RC_F32 : RC_F64;
+    r->type = g->type;
+    r->row = g->nx;
+    r->rows = r->left = g->ny;
+    r->values = r->by_rows ? ftello(r->file) : -1;
+    r->crc_head = r->crc;
     return set_keys(g, head, err) == RC_OK && number_case(r, g, err) == RC_OK ? rc_give(&g) : NULL;
 }
 
@@ -392,8 +412,9 @@ read_values(struct rc_reader *r, struct rc_grid *g, struct rc_err *err)
     return (g->type == RC_F32 ? read_f32 : read_f64)(r, g->v, g->nx * g->ny, err);
 }
 
+/* The line after the values of a frame; `compare` it with their checksum. */
 static enum rc_status
-read_crc(struct rc_reader *r, struct rc_err *err)
+read_crc(struct rc_reader *r, bool compare, struct rc_err *err)
 {
     char line[32], wanted[32];
     long n = read_line(r, line, sizeof line);
@@ -405,7 +426,7 @@ read_crc(struct rc_reader *r, struct rc_err *err)
         return rc_err_set(
             err,
             "no crc32 line follows the values: nx, ny or type in the header do not match the data");
-    if (strcmp(line, wanted) != 0)
+    if (compare && strcmp(line, wanted) != 0)
         return rc_err_set(
             err,
             "the checksum is %s, but that of the data is %s: the stream is damaged; make it again",
@@ -438,14 +459,57 @@ read_frame(struct rc_reader *r, struct rc_grid **grid, struct rc_err *err)
     return RC_MORE;
 }
 
-enum rc_status
-rc_reader_values(struct rc_reader *r, struct rc_grid *g, struct rc_err *err)
+static enum rc_status
+end_frame(struct rc_reader *r, bool compare, struct rc_err *err)
 {
-    if (read_values(r, g, err) != RC_OK || read_crc(r, err) != RC_OK)
+    if (read_crc(r, compare, err) != RC_OK)
         return RC_FAIL;
+    r->left = 0;
     r->frames++;
     r->ended = false;
     return RC_OK;
+}
+
+enum rc_status
+rc_reader_values(struct rc_reader *r, struct rc_grid *g, struct rc_err *err)
+{
+    return read_values(r, g, err) == RC_OK ? end_frame(r, true, err) : RC_FAIL;
+}
+
+size_t
+rc_reader_left(const struct rc_reader *r)
+{
+    return r->left;
+}
+
+enum rc_status
+rc_reader_skip(struct rc_reader *r, struct rc_err *err)
+{
+    const size_t width = r->type == RC_F32 ? sizeof(float) : sizeof(double);
+
+    if (fseeko(r->file, (off_t)(r->left * r->row * width), SEEK_CUR) != 0)
+        return rc_err_set(err, "reading failed (%s)", strerror(errno));
+    return end_frame(r, false, err);
+}
+
+enum rc_status
+rc_reader_again(struct rc_reader *r, struct rc_err *err)
+{
+    if (r->values < 0 || fseeko(r->file, r->values, SEEK_SET) != 0)
+        return rc_err_set(err, "the input cannot be read twice (%s)", strerror(errno));
+    r->frames -= r->left == 0 ? 1 : 0;
+    r->left = r->rows;
+    r->crc = r->crc_head;
+    return RC_OK;
+}
+
+enum rc_status
+rc_reader_rows(struct rc_reader *r, size_t n, double *v, struct rc_err *err)
+{
+    if ((r->type == RC_F32 ? read_f32 : read_f64)(r, v, n * r->row, err) != RC_OK)
+        return RC_FAIL;
+    r->left -= n;
+    return r->left == 0 ? end_frame(r, true, err) : RC_OK;
 }
 
 static enum rc_status

@@ -13,6 +13,10 @@ struct rc_writer {
     const struct rc_share *share; /* with several processes; position of the next byte */
     uint64_t at;
     size_t frames;
+    enum rc_type
+        type; /* of the frame that is being written: its values to come, and its checksum */
+    size_t left;
+    uint32_t crc;
 };
 
 struct rc_writer *
@@ -191,19 +195,19 @@ put_shared(struct rc_writer *w, const struct text *t, const struct rc_grid *g, s
 
 /* ---- frames ---- */
 
-enum rc_status
-rc_writer_put(struct rc_writer *w, const struct rc_grid *g, struct rc_err *err)
+/* The header of a frame; the caller frees it. NULL on failure, with several processes on all of them. */
+static struct text *
+header(const struct rc_writer *w, const struct rc_grid *g, struct rc_err *err)
 {
     RC_OWNED struct text *t = malloc(sizeof *t);
     enum rc_status status = RC_OK;
-    uint32_t crc;
 
     if (t == NULL)
         status = rc_err_set(err, "out of memory for a header (%zu bytes)", sizeof *t);
     if (w->share != NULL)
         status = w->share->agree(w->share->ctx, status, err);
     if (t == NULL || status != RC_OK)
-        return status;
+        return NULL;
     t->n = 0;
     t->full = false;
     for (const char *s = "RCG1\n"; *s != '\0'; s++)
@@ -219,23 +223,51 @@ rc_writer_put(struct rc_writer *w, const struct rc_grid *g, struct rc_err *err)
         put_line(t, g->key[k].name, g->key[k].value);
     put_char(t, '\n');
     if (t->full)
-        return rc_err_set(
+        return rc_err_null(
             err,
             "the header of a frame would be longer than %d bytes: its keys carry too much text",
             RC_HEADER_MAX);
-    if (w->share != NULL) {
-        status = put_shared(w, t, g, err);
-        w->frames += status == RC_OK;
-        return status;
-    }
+    return rc_give(&t);
+}
+
+enum rc_status
+rc_writer_begin(struct rc_writer *w, const struct rc_grid *g, struct rc_err *err)
+{
+    RC_OWNED struct text *t = header(w, g, err);
+
+    if (t == NULL)
+        return RC_FAIL;
     fwrite(t->text, 1, t->n, w->file);
-    crc = rc_crc32_add(0, t->text, t->n);
-    crc = (g->type == RC_F32 ? write_f32 : write_f64)(w->file, g->v, g->nx * g->ny, crc);
-    fprintf(w->file, "crc32 %08" PRIx32 "\n", crc);
-    if (ferror(w->file))
-        return rc_put_failed(err);
-    w->frames++;
-    return RC_OK;
+    w->crc = rc_crc32_add(0, t->text, t->n);
+    w->type = g->type;
+    w->left = g->nx * g->ny;
+    return ferror(w->file) ? rc_put_failed(err) : RC_OK;
+}
+
+enum rc_status
+rc_writer_values(struct rc_writer *w, const double *v, size_t n, struct rc_err *err)
+{
+    w->crc = (w->type == RC_F32 ? write_f32 : write_f64)(w->file, v, n, w->crc);
+    w->left -= n;
+    if (w->left == 0) {
+        fprintf(w->file, "crc32 %08" PRIx32 "\n", w->crc);
+        w->frames++;
+    }
+    return ferror(w->file) ? rc_put_failed(err) : RC_OK;
+}
+
+enum rc_status
+rc_writer_put(struct rc_writer *w, const struct rc_grid *g, struct rc_err *err)
+{
+    if (w->share != NULL) {
+        RC_OWNED struct text *t = header(w, g, err);
+        if (t == NULL || put_shared(w, t, g, err) != RC_OK)
+            return RC_FAIL;
+        w->frames++;
+        return RC_OK;
+    }
+    return rc_writer_begin(w, g, err) == RC_OK ? rc_writer_values(w, g->v, g->nx * g->ny, err)
+                                               : RC_FAIL;
 }
 
 enum rc_status

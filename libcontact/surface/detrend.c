@@ -24,12 +24,14 @@
 #include "form.h"
 #include "handler.h"
 #include "libcontact/memory.h"
+#include "libcontact/surface/parameters/measure.h"
 #include "robust.h"
 
 enum {
-    BLOCK = 1024,   /* points that are factored together; more than the largest number of terms */
-    ROWS = 512,     /* rows of the map that are summed together */
-    CORRECTIONS = 4 /* corrections of a solution of the normal equations */
+    BLOCK = 1024,     /* points that are factored together; more than the largest number of terms */
+    ROWS = 512,       /* rows of the map that are summed together */
+    WINDOW = 1 << 20, /* values of rows that are read together */
+    CORRECTIONS = 4   /* corrections of a solution of the normal equations */
 };
 
 /* Reciprocal condition numbers. Below the first limit for the normal equations the QR factorisation is used.
@@ -63,7 +65,12 @@ struct system {
 
 struct fit {
     const struct rc_shape *shape;
-    const double *h;
+    const double *h; /* from row `first` on: in memory, or rows that were read last to `window` */
+    size_t first;
+    const struct rc_row_source *from; /* NULL: in memory */
+    double *window;
+    bool failed; /* they could not be read, and why */
+    struct rc_err problem;
     double mean; /* subtracted first, because a large constant would cost digits */
     struct basis basis;
     int threads;
@@ -82,23 +89,68 @@ row_sums(const struct basis *basis)
 }
 
 struct rc_box
-rc_box_of(const struct rc_shape *shape, const double *h)
+rc_box_none(const struct rc_shape *shape)
 {
-    struct rc_box b = {.left = shape->nx, .top = shape->ny};
+    return (struct rc_box){.left = shape->nx, .top = shape->ny};
+}
 
-    for (size_t j = 0; j < shape->ny; j++)
-        for (size_t i = 0; i < shape->nx; i++) {
-            double v = h[j * shape->nx + i];
+void
+rc_box_add(struct rc_box *b, size_t nx, size_t first, size_t n, const double *h)
+{
+    for (size_t j = first; j < first + n; j++, h += nx)
+        for (size_t i = 0; i < nx; i++) {
+            double v = h[i];
             if (isnan(v))
                 continue;
-            b.count++;
-            b.infinite += isinf(v) != 0;
-            b.left = i < b.left ? i : b.left;
-            b.right = i > b.right ? i : b.right;
-            b.top = j < b.top ? j : b.top;
-            b.bottom = j > b.bottom ? j : b.bottom;
+            b->count++;
+            b->infinite += isinf(v) != 0;
+            b->left = i < b->left ? i : b->left;
+            b->right = i > b->right ? i : b->right;
+            b->top = j < b->top ? j : b->top;
+            b->bottom = j > b->bottom ? j : b->bottom;
         }
+}
+
+struct rc_box
+rc_box_of(const struct rc_shape *shape, const double *h)
+{
+    struct rc_box b = rc_box_none(shape);
+
+    rc_box_add(&b, shape->nx, 0, shape->ny, h);
     return b;
+}
+
+/* ---- the heights, in memory or elsewhere ---- */
+
+static const double *
+row_of(const struct fit *f, size_t j)
+{
+    return f->h + (j - f->first) * f->shape->nx;
+}
+
+/* The number of rows from row j on that are used together. */
+static size_t
+together(const struct fit *f, size_t j)
+{
+    const size_t most = f->from == NULL || WINDOW / f->shape->nx > ROWS ? ROWS
+                        : WINDOW / f->shape->nx > 0                     ? WINDOW / f->shape->nx
+                                                                        : 1;
+
+    return f->shape->ny - j < most ? f->shape->ny - j : most;
+}
+
+/* Reads n rows from row j on, which follows those of the last call or is 0. After a failure nothing is read
+ * any more. */
+static void
+fetch(struct fit *f, size_t j, size_t n)
+{
+    const struct rc_row_source *from = f->from;
+
+    if (from == NULL || f->failed)
+        return;
+    f->failed = (j == 0 && from->again(from->ctx, &f->problem) != RC_OK) ||
+                from->read(from->ctx, n, f->window, &f->problem) != RC_OK;
+    f->first = j;
 }
 
 /* T_0 ... T_(orders-1) at the n nodes of a side, first..last being -1..1. */
@@ -155,14 +207,32 @@ fit_allocate(struct fit *f, const struct rc_box *box, bool robust, struct rc_err
     return RC_OK;
 }
 
+/* The first pass: where heights are, and their mean. */
+static void
+look_through(struct fit *f, struct rc_box *box)
+{
+    const size_t nx = f->shape->nx;
+    struct rc_first figures;
+
+    *box = rc_box_none(f->shape);
+    rc_first_begin(&figures);
+    for (size_t n, j = 0; j < f->shape->ny; j += n) {
+        n = together(f, j);
+        fetch(f, j, n);
+        rc_box_add(box, nx, j, n, row_of(f, j));
+        for (size_t k = 0; k < n; k++)
+            rc_first_row(&figures, row_of(f, j + k), nx);
+    }
+    f->mean = rc_first_mean(&figures);
+}
+
 static enum rc_status
 fit_new(struct fit *f, const struct rc_shape *shape, const struct rc_form *form, const double *h,
-        struct rc_err *err)
+        const struct rc_row_source *from, struct rc_err *err)
 {
-    struct rc_statistics figures;
-    struct rc_box box = rc_box_of(shape, h);
+    struct rc_box box;
 
-    *f = (struct fit){.shape = shape, .h = h, .basis.degree = form->degree};
+    *f = (struct fit){.shape = shape, .h = h, .from = from, .basis.degree = form->degree};
     if (f->basis.degree > RC_DEGREE_MAX)
         return rc_err_set(err, "a polynomial of degree %zu: at most %d", f->basis.degree,
                           RC_DEGREE_MAX);
@@ -174,6 +244,13 @@ fit_new(struct fit *f, const struct rc_shape *shape, const struct rc_form *form,
         for (size_t a = 0; a < f->basis.nx_terms && a + b <= f->basis.degree; a++)
             f->basis.term[f->basis.terms++] = (struct term){a, b};
     f->threads = rc_useful_threads(shape, form->threads);
+    if (from != NULL)
+        f->h = f->window = rc_store_take(&f->own, shape->nx, together(f, 0) * sizeof *f->window);
+    if (f->h == NULL)
+        return rc_err_set(err, "out of memory for %zu rows of heights", together(f, 0));
+    look_through(f, &box);
+    if (f->failed)
+        return RC_FAIL;
     f->missing = box.count < shape->nx * shape->ny;
     if (box.infinite > 0)
         return rc_err_set(err, "%zu infinite heights: no polynomial fits them", box.infinite);
@@ -182,8 +259,6 @@ fit_new(struct fit *f, const struct rc_shape *shape, const struct rc_form *form,
                           "a polynomial of degree %zu has %zu coefficients, and only %zu "
                           "points are there: take a lower degree",
                           f->basis.degree, f->basis.terms, box.count);
-    rc_measure(shape, h, &figures);
-    f->mean = figures.mean;
     return fit_allocate(f, &box, form->robust, err);
 }
 
@@ -224,8 +299,8 @@ residual_row(const struct fit *f, size_t j, double *to, double *scratch)
 
     for (size_t t = 0; t < f->basis.terms; t++)
         in_x[f->basis.term[t].a] += f->c[t] * f->basis.py[f->basis.term[t].b * f->shape->ny + j];
-    subtract_row(f->shape->nx, f->basis.nx_terms, in_x, f->basis.px, f->mean,
-                 f->h + j * f->shape->nx, to, scratch);
+    subtract_row(f->shape->nx, f->basis.nx_terms, in_x, f->basis.px, f->mean, row_of(f, j), to,
+                 scratch);
 }
 
 static double *
@@ -290,7 +365,7 @@ add_row(const struct fit *f, size_t j, const double *row, size_t n, size_t order
 /* Sums over the map, with `weights` also those of the weights. Without missing points and with equal weights,
  * the sums of the weights are the same in every row. */
 static void
-sum_map(const struct fit *f, bool weights)
+sum_map(struct fit *f, bool weights)
 {
     size_t ny = f->shape->ny, orders = f->basis.nx_orders;
     bool alike = !f->missing && f->reach == 0;
@@ -301,11 +376,13 @@ sum_map(const struct fit *f, bool weights)
     memset(f->system.of_residuals, 0,
            f->basis.nx_terms * f->basis.ny_terms * sizeof *f->system.of_residuals);
     if (weights && alike) {
+        fetch(f, 0, 1);
         sum_rows(f, 0, 1, true);
         memcpy(first, f->system.rows, orders * sizeof *first);
     }
-    for (size_t j = 0; j < ny; j += ROWS) {
-        size_t count = ny - j < ROWS ? ny - j : ROWS;
+    for (size_t count, j = 0; j < ny; j += count) {
+        count = together(f, j);
+        fetch(f, j, count);
         sum_rows(f, j, count, weights && !alike);
         for (size_t k = 0; k < count; k++) {
             const double *row = f->system.rows + k * row_sums(&f->basis);
@@ -432,6 +509,7 @@ factor_all(struct fit *f, struct blocks *q)
     size_t n = 0; /* equations in the block */
 
     for (size_t j = 0; j < f->shape->ny; j++) {
+        fetch(f, j, 1);
         weigh_row(f, j, e, w, we);
         for (size_t i = 0; i < f->shape->nx && code == GSL_SUCCESS; i++) {
             if (!(w[i] > 0))
@@ -552,22 +630,54 @@ fit_form(struct fit *f, struct rc_err *err)
     return reweight(f, size, err);
 }
 
+/* Subtracts from rows that are read once more, and writes them. */
+static enum rc_status
+subtract_rows(struct fit *f, struct rc_err *err)
+{
+    enum rc_status status = RC_OK;
+
+    for (size_t n, j = 0; j < f->shape->ny && status == RC_OK && !f->failed; j += n) {
+        n = together(f, j);
+        fetch(f, j, n);
+#pragma omp parallel for schedule(static) num_threads(f->threads)
+        for (size_t k = 0; k < n; k++)
+            residual_row(f, j + k, f->window + k * f->shape->nx, lines_of(f));
+        if (!f->failed)
+            status = f->from->write(f->from->ctx, n, f->window, err);
+    }
+    return status;
+}
+
+/* Of heights in memory, or from a source, which gets the result. */
 static enum rc_status
 detrend_polynomial(const struct rc_shape *shape, const struct rc_form *form, double *h,
-                   struct rc_err *err)
+                   const struct rc_row_source *from, struct rc_err *err)
 {
     enum rc_status status;
     struct fit f;
 
     rc_handler_begin();
-    status = fit_new(&f, shape, form, h, err);
+    status = fit_new(&f, shape, form, h, from, err);
     if (status == RC_OK)
         status = fit_form(&f, err);
-    if (status == RC_OK)
+    if (status == RC_OK && from == NULL)
         subtract(&f, h);
+    else if (status == RC_OK && !f.failed)
+        status = subtract_rows(&f, err);
+    if (f.failed)
+        status = rc_err_set(err, "%s", f.problem.text);
     fit_free(&f);
     rc_handler_end();
     return status;
+}
+
+enum rc_status
+rc_detrend_source(const struct rc_shape *shape, const struct rc_form *form,
+                  const struct rc_row_source *from, struct rc_err *err)
+{
+    if (form->kind != RC_POLYNOMIAL || form->robust)
+        return rc_err_set(err, "row by row only a polynomial without weights is fitted");
+    return detrend_polynomial(shape, form, NULL, from, err);
 }
 
 enum rc_status
@@ -577,7 +687,7 @@ rc_detrend_form(const struct rc_shape *shape, const struct rc_form *form, double
     if (radius != NULL)
         *radius = NAN;
     if (form->kind == RC_POLYNOMIAL)
-        return detrend_polynomial(shape, form, h, err);
+        return detrend_polynomial(shape, form, h, NULL, err);
     return rc_detrend_round(shape, form, h, radius, err);
 }
 

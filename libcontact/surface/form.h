@@ -13,6 +13,9 @@ struct rc_box {
     size_t left, right, top, bottom, count, infinite;
 };
 struct rc_box rc_box_of(const struct rc_shape *shape, const double *h);
+/* The same piece by piece: adds n rows from row `first` on to a box that began as rc_box_none. */
+struct rc_box rc_box_none(const struct rc_shape *shape);
+void rc_box_add(struct rc_box *box, size_t nx, size_t first, size_t n, const double *h);
 
 /* rc_detrend_form for a sphere and a cylinder, on a profile a circle. */
 enum rc_status rc_detrend_round(const struct rc_shape *shape, const struct rc_form *form, double *h,

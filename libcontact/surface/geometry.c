@@ -18,7 +18,7 @@ rc_crop(const struct rc_shape *from, const double *v, size_t left, size_t top,
             "%zu x %zu nodes from column %zu and row %zu on: the map has columns 0 to "
             "%zu and rows 0 to %zu",
             to->nx, to->ny, left, top, from->nx - 1, from->ny - 1);
-    for (size_t j = 0; j < to->ny;
+    for (size_t j = 0; v != NULL && j < to->ny;
          j++) /* if out is v, each value is read before it is overwritten */
         memmove(out + j * to->nx, v + (top + j) * from->nx + left, to->nx * sizeof *v);
     return RC_OK;

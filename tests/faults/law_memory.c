@@ -96,6 +96,61 @@ polynomial(double *out, struct rc_err *err)
     return or_as_before(rc_detrend_form(&shape, &what, out, NULL, err), out, rough);
 }
 
+/* Heights of `rough` that are read row by row, and the result. */
+struct rows {
+    size_t at, put;
+    double *out;
+};
+
+static enum rc_status
+rows_again(void *of, struct rc_err *err)
+{
+    (void)err;
+    ((struct rows *)of)->at = 0;
+    return RC_OK;
+}
+
+static enum rc_status
+rows_read(void *of, size_t n, double *v, struct rc_err *err)
+{
+    struct rows *r = of;
+
+    (void)err;
+    memcpy(v, rough + r->at, n * shape.nx * sizeof *v);
+    r->at += n * shape.nx;
+    return RC_OK;
+}
+
+static enum rc_status
+rows_write(void *of, size_t n, const double *v, struct rc_err *err)
+{
+    struct rows *r = of;
+
+    (void)err;
+    memcpy(r->out + r->put, v, n * shape.nx * sizeof *v);
+    r->put += n * shape.nx;
+    return RC_OK;
+}
+
+/* By rows, with the result of the heights in memory. */
+static enum rc_status
+polynomial_of_rows(double *out, struct rc_err *err)
+{
+    static const struct rc_form what = {.degree = 3};
+    struct rows r = {0, 0, out};
+    const struct rc_row_source source = {&r, rows_again, rows_read, rows_write};
+    enum rc_status status = rc_detrend_source(&shape, &what, &source, err);
+    double whole[N];
+
+    if (status != RC_OK)
+        return status;
+    memcpy(whole, rough, sizeof whole);
+    status = rc_detrend_form(&shape, &what, whole, NULL, err);
+    return status == RC_OK && memcmp(whole, out, sizeof whole) != 0
+               ? rc_err_set(err, "rows give another result")
+               : status;
+}
+
 static enum rc_status
 robust_sphere(double *out, struct rc_err *err)
 {
@@ -1108,6 +1163,7 @@ static const struct {
     {.name = "grids and their keys", .use = grids},
     {.name = "self-affine roughness", .use = selfaffine},
     {.name = "a polynomial", .use = polynomial},
+    {.name = "a polynomial of rows", .use = polynomial_of_rows},
     {.name = "rows", .use = levelled_rows},
     {.name = "a robust sphere", .use = robust_sphere},
     {.name = "a cylinder", .use = cylinder},

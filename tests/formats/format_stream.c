@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+#define _GNU_SOURCE /* memmem */
 /* A grid stream is read back bit by bit. A damaged one is refused with the reason, without a crash and
  * without a frame that was not written. */
 #include <setjmp.h>
@@ -219,6 +220,107 @@ test_round_trip_f32(void **state)
         assert_true(back->v[k] == g->v[k]);
     rc_grid_free(g);
     rc_grid_free(back);
+}
+
+/* Rows are those of whole frames, also again; skipped values are not compared with their checksum, read ones
+ * are. A frame that is written in pieces has the same bytes. */
+static void
+test_rows(void **state)
+{
+    const struct rc_shape shape = {3, 5, 1.1e-6, 1e-6};
+    struct rc_grid *g[2], *head;
+    struct stream b;
+
+    (void)state;
+    for (int k = 0; k < 2; k++) {
+        g[k] = rc_grid_new(&shape, "height", "m", NULL);
+        for (size_t i = 0; i < 15; i++)
+            g[k]->v[i] = (double)i * (k + 1);
+        g[k]->type = k == 0 ? RC_F64 : RC_F32;
+        rc_grid_set_number(g[k], "case", k + 1, NULL);
+    }
+    b = write_frames(g, 2);
+    for (int damaged = 0; damaged < 2; damaged++) {
+        FILE *file = fmemopen(b.data, b.size, "rb");
+        struct rc_reader *r = rc_reader_new(file, 0, 0, NULL);
+        struct rc_err err;
+        double v[15];
+
+        rc_reader_by_rows(r);
+        assert_int_equal(rc_reader_head(r, &head, &err), RC_MORE);
+        assert_int_equal(head->elsewhere, 5);
+        assert_int_equal(rc_reader_left(r), 5);
+        assert_int_equal(rc_reader_rows(r, 2, v, &err), RC_OK);
+        assert_int_equal(rc_reader_left(r), 3);
+        assert_int_equal(rc_reader_again(r, &err), RC_OK);
+        for (int pass = 0; pass < 2 && !damaged; pass++) {
+            memset(v, 0, sizeof v);
+            assert_int_equal(rc_reader_rows(r, 4, v, &err), RC_OK);
+            assert_int_equal(rc_reader_rows(r, 1, v + 12, &err), RC_OK);
+            assert_memory_equal(v, g[0]->v, sizeof v);
+            if (pass == 0)
+                assert_int_equal(rc_reader_again(r, &err), RC_OK);
+        }
+        if (damaged) /* a value of the first frame */
+            assert_int_equal(rc_reader_skip(r, &err), RC_OK);
+        rc_grid_free(head);
+        assert_int_equal(rc_reader_head(r, &head, &err), RC_MORE);
+        assert_int_equal(rc_reader_rows(r, 5, v, &err), RC_OK);
+        assert_memory_equal(v, g[1]->v, sizeof v);
+        rc_grid_free(head);
+        assert_int_equal(rc_reader_head(r, &head, &err), RC_OK);
+        rc_reader_free(r);
+        fclose(file);
+        ((char *)memmem(b.data, b.size, "\n\n", 2))[10] ^= 1;
+    }
+    { /* the damaged value, read */
+        FILE *file = fmemopen(b.data, b.size, "rb");
+        struct rc_reader *r = rc_reader_new(file, 0, 0, NULL);
+        struct rc_err err;
+        double v[15];
+
+        ((char *)memmem(b.data, b.size, "\n\n", 2))[11] ^= 1;
+        rc_reader_by_rows(r);
+        assert_int_equal(rc_reader_head(r, &head, &err), RC_MORE);
+        assert_int_equal(rc_reader_rows(r, 5, v, &err), RC_FAIL);
+        assert_non_null(strstr(err.text, "checksum"));
+        rc_grid_free(head);
+        rc_reader_free(r);
+        fclose(file);
+    }
+    { /* skipped values that end too early */
+        FILE *file = tmpfile(); /* fmemopen does not seek beyond the end */
+        struct rc_reader *r = rc_reader_new(file, 0, 0, NULL);
+        struct rc_err err;
+
+        assert_int_equal(fwrite(b.data, 1, 150, file), 150);
+        rewind(file);
+        rc_reader_by_rows(r);
+        assert_int_equal(rc_reader_head(r, &head, &err), RC_MORE);
+        assert_int_equal(rc_reader_skip(r, &err), RC_FAIL);
+        assert_non_null(strstr(err.text, "the stream stops"));
+        rc_grid_free(head);
+        rc_reader_free(r);
+        fclose(file);
+    }
+    free(b.data);
+    for (int k = 0; k < 2; k++) {
+        struct stream whole = write_frames(&g[k], 1), pieces = {0};
+        FILE *file = open_memstream(&pieces.data, &pieces.size);
+        struct rc_writer *w = rc_writer_new(file, NULL);
+
+        assert_int_equal(rc_writer_begin(w, g[k], NULL), RC_OK);
+        assert_int_equal(rc_writer_values(w, g[k]->v, 3, NULL), RC_OK);
+        assert_int_equal(rc_writer_values(w, g[k]->v + 3, 12, NULL), RC_OK);
+        assert_int_equal(rc_writer_end(w, NULL), RC_OK);
+        rc_writer_free(w);
+        fclose(file);
+        assert_int_equal(pieces.size, whole.size);
+        assert_memory_equal(pieces.data, whole.data, whole.size);
+        free(pieces.data);
+        free(whole.data);
+        rc_grid_free(g[k]);
+    }
 }
 
 /* The bytes are those of the manual. */
@@ -811,6 +913,7 @@ main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_round_trip_f64),
         cmocka_unit_test(test_round_trip_f32),
+        cmocka_unit_test(test_rows),
         cmocka_unit_test(test_layout),
         cmocka_unit_test(test_no_frames),
         cmocka_unit_test(test_every_truncation),

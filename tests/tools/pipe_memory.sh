@@ -172,7 +172,7 @@ refuses 1 "--kernel mlms needs less" "another engine is named where it fits" "rc
 refuses 1 "$more 4 MiB" "rc-deflect --periodic" "rc-deflect --memory 4M --periodic --estar 3GPa round.rcg -o never.rcg"
 refuses 1 "$more [0-9]+ MiB" "rc-leak" "rc-leak --memory 8M round.rcg -o never.rcg"
 refuses 1 "$more 3 MiB" "rc-pick" "rc-pick --memory 3M --rotate 90 odd.rcg -o never.rcg"
-refuses 1 "$more 2 MiB" "rc-add" "rc-add --memory 2M odd.rcg odd.rcg -o never.rcg"
+refuses 1 "$more 2 MiB" "rc-add" "rc-add --subtract --align --memory 2M odd.rcg odd.rcg -o never.rcg"
 refuses 1 "$more 2 MiB" "rc-info --areal" "rc-info --memory 2M --areal odd.rcg"
 refuses 1 "$more 4 MiB" "rc-detrend" "rc-detrend --memory 4M --lowpass 20um odd.rcg -o never.rcg"
 refuses 1 "$more 4 MiB" "rc-export" "rc-export --memory 4M --format x3p odd.rcg -o never.x3p"

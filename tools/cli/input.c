@@ -9,6 +9,7 @@
 #include <float.h>
 #include <math.h>
 #include <string.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include "foreign.h"
@@ -88,6 +89,8 @@ open_next(struct tool *t)
         rc_reader_share(t->input.reader, t->input.share);
     }
     rc_reader_ask(t->input.reader, allow, t);
+    if (t->input.by_rows)
+        rc_reader_by_rows(t->input.reader);
 }
 
 static void
@@ -126,7 +129,7 @@ check_keys(struct tool *t, const struct rc_grid *g)
 
 /* An error that a program before this one in the pipe has reported is not reported again. */
 static _Noreturn void
-cannot_read(struct tool *t, const struct rc_err *err)
+cannot_read(struct tool *t, size_t frame, const struct rc_err *err)
 {
     int status;
     const char *failure = rc_reader_failure(t->input.reader, &status), *head, *remedy;
@@ -146,23 +149,30 @@ cannot_read(struct tool *t, const struct rc_err *err)
                  pipe_is(fileno(t->input.file))
                      ? "the program before this one in the pipe wrote no output"
                      : "make it again");
-    tool_die(t, "%s, frame %zu: %s", t->input.source, t->input.frame + 1, err->text);
+    tool_die(t, "%s, frame %zu: %s", t->input.source, frame, err->text);
+}
+
+struct not_finite
+not_finite_in(enum rc_type type, const double *v, size_t n)
+{
+    const double most = type == RC_F32 ? (double)FLT_MAX : DBL_MAX;
+    struct not_finite found = {0, 0};
+    size_t outside = 0; /* the compiler vectorises an integer count */
+
+    for (size_t k = 0; k < n; k++) /* most frames have none */
+        outside += fabs(v[k]) <= most ? 0 : 1;
+    for (size_t k = 0; outside > 0 && k < n; k++) {
+        found.missing += isnan(v[k]) ? 1 : 0;
+        found.infinite += fabs(v[k]) > most ? 1 : 0;
+    }
+    return found;
 }
 
 struct not_finite
 not_finite(const struct tool *t, const struct rc_grid *g)
 {
-    const double most = g->type == RC_F32 ? (double)FLT_MAX : DBL_MAX;
-    struct not_finite n = {0, 0};
-    const size_t nodes = rc_grid_nodes(g);
-    size_t outside = 0; /* the compiler vectorises an integer count */
+    struct not_finite n = not_finite_in(g->type, g->v, rc_grid_nodes(g));
 
-    for (size_t k = 0; k < nodes; k++) /* most frames have none */
-        outside += fabs(g->v[k]) <= most ? 0 : 1;
-    for (size_t k = 0; outside > 0 && k < nodes; k++) {
-        n.missing += isnan(g->v[k]) ? 1 : 0;
-        n.infinite += fabs(g->v[k]) > most ? 1 : 0;
-    }
     n.missing = (size_t)ranks_sum(t, (double)n.missing);
     n.infinite = (size_t)ranks_sum(t, (double)n.infinite);
     return n;
@@ -180,6 +190,101 @@ note_not_finite(struct tool *t, const struct rc_grid *g)
     t->input.infinite |= n.infinite > 0;
 }
 
+/* ---- row by row ---- */
+
+enum {
+    TOGETHER = 1 << 16 /* values that are read or written together */
+};
+
+void
+tool_by_rows(struct tool *t)
+{
+    t->input.by_rows = true;
+}
+
+size_t
+tool_rows_together(size_t nx)
+{
+    return nx < TOGETHER ? TOGETHER / nx : 1;
+}
+
+size_t
+tool_rows_left(const struct tool *t)
+{
+    return t->input.reader == NULL ? 0 : rc_reader_left(t->input.reader);
+}
+
+void
+tool_read_rows(struct tool *t, size_t n, double *v)
+{
+    const size_t values = n * t->input.row;
+    struct not_finite found;
+    struct rc_err err;
+
+    if (rc_reader_rows(t->input.reader, n, v, &err) != RC_OK)
+        cannot_read(t, t->input.frame, &err);
+    found = not_finite_in(t->input.type, v, values);
+    t->input.missing |= found.missing > 0;
+    t->input.infinite |= found.infinite > 0;
+    for (size_t k = 0; found.infinite > 0 && k < values; k++)
+        if (isinf(v[k]) && t->input.infinite_count++ == 0)
+            t->input.infinite_first = t->input.read + k;
+    t->input.read += values;
+}
+
+void
+tool_skip_rows(struct tool *t, size_t n)
+{
+    const size_t together = tool_rows_together(t->input.row);
+    RC_OWNED double *v = NULL;
+
+    if (n > 0)
+        v = tool_room(t, together * t->input.row, sizeof *v, "some rows of a map");
+    for (size_t m; n > 0; n -= m) {
+        m = n < together ? n : together;
+        tool_read_rows(t, m, v);
+    }
+}
+
+bool
+tool_reads_file(const struct tool *t)
+{
+    struct stat st;
+
+    return fstat(fileno(t->input.file), &st) == 0 && S_ISREG(st.st_mode);
+}
+
+void
+tool_read_again(struct tool *t)
+{
+    struct rc_err err;
+
+    if (rc_reader_again(t->input.reader, &err) != RC_OK)
+        cannot_read(t, t->input.frame, &err);
+    t->input.read = t->input.infinite_count = 0;
+}
+
+void
+tool_load(struct tool *t, struct rc_grid *g)
+{
+    const struct rc_shape shape = rc_grid_shape(g);
+    RC_OWN(rc_grid, whole) = NULL;
+    struct rc_err err;
+    double *none = g->v;
+
+    if (tool_has_values(g))
+        return;
+    if (allow(t, &shape, g->nx * g->ny * sizeof *g->v, &err) != RC_OK ||
+        (whole = rc_grid_new(&shape, g->channel, g->unit, &err)) == NULL)
+        cannot_read(t, t->input.frame, &err);
+    tool_read_rows(t, g->ny, whole->v);
+    g->v = whole->v;
+    g->elsewhere = 0;
+    whole->v = none;
+}
+
+/* ---- frame by frame ---- */
+
 /* Reads the header of the next frame of the open input to `ahead`. False at the end of the input, which is
  * then closed. */
 static bool
@@ -189,6 +294,8 @@ look_ahead(struct tool *t)
 
     if (t->input.ahead != NULL || t->input.reader == NULL)
         return t->input.ahead != NULL;
+    if (t->input.by_rows && t->input.frame > 0)
+        tool_skip_rows(t, tool_rows_left(t));
     switch (rc_reader_head(t->input.reader, &t->input.ahead, &err)) {
     case RC_MORE:
         return true;
@@ -196,7 +303,7 @@ look_ahead(struct tool *t)
         close_input(t);
         return false;
     default:
-        cannot_read(t, &err);
+        cannot_read(t, t->input.frame + 1, &err);
     }
 }
 
@@ -208,8 +315,11 @@ take_ahead(struct tool *t)
     struct rc_err err;
 
     t->input.ahead = NULL;
-    if (rc_reader_values(t->input.reader, g, &err) != RC_OK)
-        cannot_read(t, &err);
+    t->input.type = g->type;
+    t->input.row = g->nx;
+    t->input.read = t->input.infinite_count = 0;
+    if (!t->input.by_rows && rc_reader_values(t->input.reader, g, &err) != RC_OK)
+        cannot_read(t, t->input.frame + 1, &err);
     t->input.frame++;
     check_keys(t, g);
     check_convergence(t, g);
@@ -458,11 +568,15 @@ tool_demand_measured(struct tool *t, const struct rc_grid *g)
 {
     size_t count = 0, first = 0;
 
-    for (size_t k = g->nx * g->ny; k-- > 0;)
+    for (size_t k = rc_grid_nodes(g); k-- > 0;)
         if (isinf(g->v[k])) {
             count++;
             first = k;
         }
+    if (!tool_has_values(g)) {
+        count = t->input.infinite_count;
+        first = t->input.infinite_first;
+    }
     if (count > 0)
         tool_refuse(t, g,
                     "%zu heights are infinite, the first in column %zu of row %zu: a point without "

@@ -184,15 +184,11 @@ output_open(struct tool *t)
         tool_die(t, "%s", t->err.text);
 }
 
-/* Values near the limits of a double can overflow in the computation: then there is no output. */
+/* Values near the limits of a double can overflow in the computation: then there is no output. n: of the map
+ * so far. */
 static void
-demand_no_new(struct tool *t, const struct rc_grid *g)
+demand_no_new(struct tool *t, const struct rc_grid *g, struct not_finite n)
 {
-    struct not_finite n;
-
-    if (t->input.missing && t->input.infinite)
-        return;
-    n = not_finite(t, g);
     if (n.infinite > 0 && !t->input.infinite)
         tool_refuse(t, g,
                     "%zu of %zu values of %s are too large for %s: are the units of heights, "
@@ -207,6 +203,21 @@ demand_no_new(struct tool *t, const struct rc_grid *g)
                     n.missing, g->nx * g->ny, g->channel);
 }
 
+/* Copies the rows of the last frame that was read. */
+static void
+copy_rows(struct tool *t, struct rc_grid *g)
+{
+    const size_t most = tool_rows_together(g->nx);
+    RC_OWNED double *v = tool_room(t, most * g->nx, sizeof *v, "some rows of a map");
+
+    tool_write_head(t, g);
+    for (size_t n, left = g->ny; left > 0; left -= n) {
+        n = left < most ? left : most;
+        tool_read_rows(t, n, v);
+        tool_write_rows(t, g, n, v);
+    }
+}
+
 void
 tool_write(struct tool *t, struct rc_grid *g)
 {
@@ -214,14 +225,51 @@ tool_write(struct tool *t, struct rc_grid *g)
 
     if (t->output.report_alone)
         return;
+    if (t->input.by_rows && !tool_has_values(g)) {
+        copy_rows(t, g);
+        return;
+    }
     if (t->ranks != NULL && t->output.writer == NULL)
         open_shared(t);
     if (t->output.type_given)
         g->type = t->output.type;
-    demand_no_new(t, g);
+    if (!(t->input.missing && t->input.infinite))
+        demand_no_new(t, g, not_finite(t, g));
     t->output.began = true;
     tool_must(t, g, rc_writer_put(t->output.writer, g, &t->err));
     g->type = type;
+}
+
+void
+tool_write_head(struct tool *t, struct rc_grid *g)
+{
+    enum rc_type type = g->type;
+
+    if (t->output.type_given)
+        g->type = t->output.type;
+    t->output.began = true;
+    t->output.left = g->nx * g->ny;
+    t->output.missing = t->output.infinite = 0;
+    tool_must(t, g, rc_writer_begin(t->output.writer, g, &t->err));
+    g->type = type;
+}
+
+void
+tool_write_rows(struct tool *t, const struct rc_grid *g, size_t n, const double *v)
+{
+    const size_t values = n * g->nx;
+    struct rc_grid as = *g;
+    struct not_finite found;
+
+    if (t->output.type_given)
+        as.type = t->output.type;
+    found = not_finite_in(as.type, v, values);
+    t->output.missing += found.missing;
+    t->output.infinite += found.infinite;
+    t->output.left -= values;
+    if (t->output.left == 0)
+        demand_no_new(t, &as, (struct not_finite){t->output.missing, t->output.infinite});
+    tool_must(t, g, rc_writer_values(t->output.writer, v, values, &t->err));
 }
 
 void

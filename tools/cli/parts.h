@@ -36,6 +36,8 @@ void options_read(struct tool *tool, int argc, char **argv);
 struct not_finite {
     size_t missing, infinite;
 } not_finite(const struct tool *tool, const struct rc_grid *grid);
+/* The same of some values of this process. */
+struct not_finite not_finite_in(enum rc_type type, const double *v, size_t n);
 
 /* Makes SIGINT, SIGTERM and SIGHUP remove incomplete files and end the tool. */
 void output_handle_signals(void);

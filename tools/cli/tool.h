@@ -217,6 +217,10 @@ struct tool {
         size_t next, last_case;       /* next: operand                                         */
         struct rc_grid *ahead; /* the next frame without its values; NULL: not read yet        */
         bool warned_short;
+        bool by_rows;      /* tool_by_rows                                                 */
+        enum rc_type type; /* of the last frame                                            */
+        size_t row, read;  /* values of its row; values read by rows so far                */
+        size_t infinite_count, infinite_first; /* infinite ones among these; first: which node */
     } input;
     struct {
         FILE *file;
@@ -226,6 +230,8 @@ struct tool {
         bool type_given, began, ended; /* began, ended: state of the stream */
         bool expected; /* a stream is expected on standard output, according to the command line */
         bool report_alone; /* standard output holds only the report                       */
+        size_t left, missing, infinite; /* values of the frame that is written by rows: those to
+                                           come, and those so far that are not finite */
     } output;
     struct { /* the current case of tool_channel; number 0: none yet                */
         size_t number, found;
@@ -279,6 +285,29 @@ size_t tool_result_words(struct tool *tool, const char *word[], size_t most);
 
 /* The next frame of all inputs, with continued case numbers; NULL at the end. The caller frees it. */
 struct rc_grid *tool_read(struct tool *tool);
+/* Before the first frame is read: from now on the values of frames are not in memory (tool_has_values), and
+ * tool_write copies those of the last frame that was read. Not for processes that share maps. */
+void tool_by_rows(struct tool *tool);
+static inline bool
+tool_has_values(const struct rc_grid *g)
+{
+    return g->elsewhere < g->ny;
+}
+/* Reads the values of the last frame that was read, all of them, to the memory of the frame; if it has them,
+ * nothing. */
+void tool_load(struct tool *tool, struct rc_grid *grid);
+/* Reads its next n rows to v; the rows that are left are read, and checked, before the next frame. */
+void tool_read_rows(struct tool *tool, size_t n, double *v);
+void tool_skip_rows(struct tool *tool, size_t n);
+/* The next row is the first one of the frame again; the input must be a file (tool_reads_file). */
+void tool_read_again(struct tool *tool);
+bool tool_reads_file(const struct tool *tool);
+size_t tool_rows_left(const struct tool *tool);
+/* tool_write in parts: the header of a frame, then its rows in any number of pieces. */
+void tool_write_head(struct tool *tool, struct rc_grid *grid);
+void tool_write_rows(struct tool *tool, const struct rc_grid *grid, size_t n, const double *v);
+/* Rows of nx nodes that are read or written together. */
+size_t tool_rows_together(size_t nx);
 /* The next frame of this channel, one in each case. With `pass` the other frames of the case are written,
  * changed only by info->passing; otherwise they are dropped. A case with no such frame, or with several, ends
  * the tool. With `pass`, a case with both heights and results ends the tool too, see results.h. Returns NULL
@@ -402,7 +431,8 @@ const char *tool_where_to(const struct tool *tool, const struct rc_grid *grid, c
 /* Ends the tool if a value is NaN or infinite, with their number and the place of the first one; `remedy` is
  * the advice. */
 void tool_demand_finite(struct tool *tool, const struct rc_grid *grid, const char *remedy);
-/* Ends the tool if a height is infinite; NaN is a point without a measurement. */
+/* Ends the tool if a height is infinite; NaN is a point without a measurement. By rows: of the rows read so
+ * far. */
 void tool_demand_measured(struct tool *tool, const struct rc_grid *grid);
 /* Ends the tool before the work if the file of an option (NULL: none) cannot be written. */
 void tool_demand_writable(struct tool *tool, const char *option, const char *name);

@@ -10,12 +10,14 @@
 struct request {
     bool lengths;
     double v[4];
-    size_t n; /* n of v */
+    size_t n;          /* n of v */
+    struct part *part; /* of the map whose values are read later */
 };
 
 struct geometry {
     const char *option;
     bool turns;
+    bool by_rows; /* does not need the values of a frame */
     /* RC_FAIL for an invalid argument. */
     enum rc_status (*read)(const char *text, struct request *r, struct rc_err *err);
     enum rc_status (*apply)(struct tool *t, struct rc_grid *g, const struct request *r,
@@ -213,10 +215,14 @@ crop(struct tool *t, struct rc_grid *g, const struct request *r, struct rc_err *
         (nodes_between(r->v[0], r->v[2], from.nx, from.dx, &left, &to.nx, err) != RC_OK ||
          nodes_between(r->v[1], r->v[3], from.ny, from.dy, &top, &to.ny, err) != RC_OK))
         return RC_FAIL;
-    if (rc_crop(&from, g->v, left, top, &to, g->v, err) != RC_OK)
+    if (rc_crop(&from, tool_has_values(g) ? g->v : NULL, left, top, &to, g->v, err) != RC_OK)
         return RC_FAIL;
+    r->part->left += left;
+    r->part->top += top;
     if (to.nx == from.nx && to.ny == from.ny)
         return RC_OK;
+    if (!tool_has_values(g))
+        g->elsewhere = to.ny;
     g->nx = to.nx;
     g->ny = to.ny;
     forget_period(t, g, rc_boundary_of(to.nx < from.nx, to.ny < from.ny));
@@ -347,9 +353,11 @@ extrude(struct tool *t, struct rc_grid *g, const struct request *r, struct rc_er
 /* ---- the table ---- */
 
 static const struct geometry steps[] = {
-    {"crop", false, read_crop, crop},          {"resample", false, read_resample, resample},
-    {"mirror", true, read_mirror, mirror},     {"rotate", true, read_rotate, rotate},
-    {"extrude", false, read_extrude, extrude},
+    {"crop", false, true, read_crop, crop},
+    {"resample", false, false, read_resample, resample},
+    {"mirror", true, false, read_mirror, mirror},
+    {"rotate", true, false, read_rotate, rotate},
+    {"extrude", false, false, read_extrude, extrude},
 };
 
 static const struct geometry *
@@ -365,6 +373,12 @@ bool
 pick_geometry(const struct step *step)
 {
     return find(step) != NULL;
+}
+
+bool
+pick_by_rows(const struct step *step)
+{
+    return find(step) == NULL || find(step)->by_rows;
 }
 
 void
@@ -412,10 +426,10 @@ demand_map(struct tool *t, const struct rc_grid *g, const struct geometry *what)
 }
 
 void
-pick_geometry_do(struct tool *t, struct rc_grid *g, const struct step *step)
+pick_geometry_do(struct tool *t, struct rc_grid *g, const struct step *step, struct part *part)
 {
     const struct geometry *what = find(step);
-    struct request r = {0};
+    struct request r = {.part = part};
 
     demand_map(t, g, what);
     if (what->read(step->text, &r, &t->err) != RC_OK || what->apply(t, g, &r, &t->err) != RC_OK)

@@ -8,18 +8,16 @@
 #include <float.h>
 #include <math.h>
 
+#include "measure.h"
+
 enum {
-    LANES = 8 /* values processed together */
+    LANES = RC_LANES
 };
 
 /* The sum of rc_total for each lane; its rounding error is computed without comparing magnitudes (Knuth, The
  * Art of Computer Programming 2, 4.2.2, theorem B). */
-struct sums {
-    double sum[LANES], lost[LANES];
-};
-
 static inline void
-add(struct sums *t, size_t lane, double v)
+add(struct rc_lane_sums *t, size_t lane, double v)
 {
     double old = t->sum[lane], s = old + v, added = s - old;
 
@@ -28,7 +26,7 @@ add(struct sums *t, size_t lane, double v)
 }
 
 static double
-value(const struct sums *t)
+value(const struct rc_lane_sums *t)
 {
     struct rc_total all = {0};
 
@@ -51,13 +49,8 @@ count(const double n[LANES])
 
 /* ---- counts, extremes, sum ---- */
 
-struct first {
-    double there[LANES], missing[LANES], minimum[LANES], maximum[LANES];
-    struct sums sum;
-};
-
 static inline void
-take(struct first *f, size_t lane, double v)
+take(struct rc_first *f, size_t lane, double v)
 {
     bool is = rc_there(v);
     double low = f->minimum[lane], high = f->maximum[lane];
@@ -70,9 +63,9 @@ take(struct first *f, size_t lane, double v)
 }
 
 RC_CLONES static void
-take_row(struct first *restrict to, const double *restrict v, size_t n)
+take_row(struct rc_first *restrict to, const double *restrict v, size_t n)
 {
-    struct first f = *to;
+    struct rc_first f = *to;
     size_t k = 0;
 
     for (; k + LANES <= n; k += LANES) {
@@ -85,10 +78,48 @@ take_row(struct first *restrict to, const double *restrict v, size_t n)
     *to = f;
 }
 
+void
+rc_first_begin(struct rc_first *f)
+{
+    *f = (struct rc_first){0};
+    for (size_t l = 0; l < LANES; l++) {
+        f->minimum[l] = INFINITY;
+        f->maximum[l] = -INFINITY;
+    }
+}
+
+void
+rc_first_row(struct rc_first *f, const double *v, size_t n)
+{
+    take_row(f, v, n);
+}
+
+/* The extremes; NAN: no value. */
+static void
+extremes(const struct rc_first *f, double *minimum, double *maximum)
+{
+    *minimum = *maximum = NAN;
+    for (size_t l = 0; l < LANES && count(f->there) > 0; l++) {
+        *minimum = fmin(*minimum, f->minimum[l]);
+        *maximum = fmax(*maximum, f->maximum[l]);
+    }
+}
+
+double
+rc_first_mean(const struct rc_first *f)
+{
+    const double mean = value(&f->sum) / count(f->there);
+    double minimum, maximum;
+
+    extremes(f, &minimum, &maximum);
+    /* else the rounding of one height is larger */
+    return fabs(mean) < DBL_EPSILON * fmax(fabs(minimum), fabs(maximum)) ? 0 : mean;
+}
+
 /* ---- the second moment ---- */
 
 struct second {
-    struct sums squares, rest;
+    struct rc_lane_sums squares, rest;
 };
 
 static inline void
@@ -133,7 +164,7 @@ rms_about(const double *v, size_t n, double mean, double nodes)
 
 struct slope {
     double there[LANES];
-    struct sums squares;
+    struct rc_lane_sums squares;
 };
 
 static inline void
@@ -183,16 +214,13 @@ rc_measure(const struct rc_shape *shape, const double *v, struct rc_statistics *
     size_t nx = shape->nx, ny = shape->ny;
     size_t right = nx > 1 ? 1 : 0, below = ny > 1 ? nx : 0;
     const double per[2] = {1 / shape->dx, 1 / shape->dy};
-    struct first f = {0};
+    struct rc_first f;
     struct slope slope = {0};
     double nodes;
 
     *result = (struct rc_statistics){
         .minimum = NAN, .maximum = NAN, .mean = NAN, .rms = NAN, .rms_slope = NAN};
-    for (size_t l = 0; l < LANES; l++) {
-        f.minimum[l] = INFINITY;
-        f.maximum[l] = -INFINITY;
-    }
+    rc_first_begin(&f);
     for (size_t j = 0; j < ny; j++) {
         const double *row = v + j * nx;
         take_row(&f, row, nx);
@@ -205,14 +233,9 @@ rc_measure(const struct rc_shape *shape, const double *v, struct rc_statistics *
     result->sum = value(&f.sum);
     if (nodes == 0)
         return;
-    for (size_t l = 0; l < LANES; l++) {
-        result->minimum = fmin(result->minimum, f.minimum[l]);
-        result->maximum = fmax(result->maximum, f.maximum[l]);
-    }
-    result->mean = result->sum / nodes;
-    result->rms = rms_about(v, nx * ny, result->mean, nodes);
-    if (fabs(result->mean) < DBL_EPSILON * fmax(fabs(result->minimum), fabs(result->maximum)))
-        result->mean = 0; /* the rounding of one height is larger */
+    extremes(&f, &result->minimum, &result->maximum);
+    result->rms = rms_about(v, nx * ny, result->sum / nodes, nodes);
+    result->mean = rc_first_mean(&f);
     if (right + below > 0 && count(slope.there) > 0)
         result->rms_slope = sqrt(value(&slope.squares) / count(slope.there));
 }
