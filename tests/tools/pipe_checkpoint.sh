@@ -127,6 +127,23 @@ cp spoilt.rcg as-it-was.rcg
 refuses 1 'frame 1 cannot be read .*checksum' "one that is spoilt, not cut off, is refused" \
     "$solve --load 0.1N --checkpoint spoilt.rcg --resume -o x.rcg rough.rcg"
 claim "the file stays unchanged" cmp spoilt.rcg as-it-was.rcg
+# The index reads headers only, and of each case the last state is loaded.
+cat spoilt.rcg kept.rcg >later.rcg
+claim "damage in a state that a later one replaces does not matter" \
+    $solve --load 0.1N --checkpoint later.rcg --resume --report later.json -o again.rcg rough.rcg
+claim "  the later one is read" test "$(field iterations later.json)" -le 1
+cat kept.rcg spoilt.rcg >earlier.rcg
+refuses 1 'frame 4 cannot be read .*checksum' "  but in the last one" "$solve --load 0.1N --checkpoint earlier.rcg --resume -o x.rcg rough.rcg"
+# An earlier state of 64 GiB, which is a hole in the file.
+perl -0777 -ne '/^(.*?)\n\n/s; my $h = $1; $h =~ s/^ny=.*/ny=65536/m; $h =~ s/^nx=.*/nx=131072/m; print "$h\n\n"' kept.rcg >large.rcg
+truncate -s +68719476736 large.rcg
+echo 'crc32 00000000
+RCGEND 1' >>large.rcg
+cat kept.rcg >>large.rcg
+claim "  nor are the values of 64 GiB read" timeout 60 \
+    $solve --load 0.1N --checkpoint large.rcg --resume --report later.json -o again.rcg rough.rcg
+claim "  the later one is read" test "$(field iterations later.json)" -le 1
+rm large.rcg
 head -c 500000 kept.rcg >tail.rcg # two frames and a part of the third; a power failure may append zeros
 head -c 100000 /dev/zero >>tail.rcg
 claim "an incomplete last frame is removed" bash -c "

@@ -172,6 +172,6 @@ refuses 1 'case 1 cannot be continued \(.*a size is out of range' "one without s
 lie slabs 2 begun.rcg
 refuses 1 'case 1 cannot be continued \(.*not a state' "one with fewer" \
     "$solve $history --checkpoint lies.rcg --resume -o x.rcg rough.rcg"
-(head -c 500000 kept.rcg && printf X && tail -c +500002 kept.rcg) >spoilt.rcg
-refuses 1 'frame [0-9]* cannot be read .*checksum' "a file with a damaged frame" "$solve $history --checkpoint spoilt.rcg --resume -o x.rcg rough.rcg"
+(head -c -2000 kept.rcg && printf X && tail -c 1999 kept.rcg) >spoilt.rcg
+refuses 1 'frame [0-9]* cannot be read .*checksum' "a file whose last state is damaged" "$solve $history --checkpoint spoilt.rcg --resume -o x.rcg rough.rcg"
 claim "refused runs leave no file" bash -c '! ls x.rcg* 2>/dev/null'

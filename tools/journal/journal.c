@@ -126,7 +126,7 @@ journal_cut(struct journal *j, size_t frames, off_t end)
 }
 
 struct rc_grid *
-journal_read(const struct journal *j, off_t at)
+journal_read(const struct journal *j, off_t at, size_t number)
 {
     const struct rc_share *share;
     struct rc_reader *reader;
@@ -139,7 +139,9 @@ journal_read(const struct journal *j, off_t at)
     if (reader != NULL)
         rc_reader_share(reader, share);
     if (reader == NULL || rc_reader_next(reader, &g, &j->t->err) != RC_MORE)
-        tool_die(j->t, "--checkpoint %s: %s", j->name, j->t->err.text);
+        tool_die(j->t,
+                 "--checkpoint %s: frame %zu cannot be read (%s): remove the file to start again",
+                 j->name, number, j->t->err.text);
     rc_reader_free(reader);
     ranks_close(j->t, share);
     return g;

@@ -34,8 +34,8 @@ bool journal_is_cut_off(const struct journal *j, off_t at);
 /* Truncates the file after its last frame, which ends here; frames: their number. */
 void journal_cut(struct journal *j, size_t frames, off_t end);
 
-/* Reads the frame that begins here. Ends the tool on failure. */
-struct rc_grid *journal_read(const struct journal *j, off_t at);
+/* Reads frame `number`, which begins here. Ends the tool on failure. */
+struct rc_grid *journal_read(const struct journal *j, off_t at, size_t number);
 /* Adds a frame; *at is its position. On failure returns false with a warning, and adds nothing from then on,
  * because a full disk is not a reason to lose the solution. */
 bool journal_add(struct journal *j, const struct rc_grid *g, off_t *at);

@@ -94,27 +94,30 @@ is_checkpoint(const struct checkpoint *c)
     return false;
 }
 
-/* Finds the frames, and removes an incomplete last one. */
+/* Finds the frames, and removes an incomplete last one. Reads only their headers: values are checked when a
+ * state is loaded. */
 static void
 look_through(struct checkpoint *c)
 {
     struct tool *t = c->t;
     struct rc_reader *reader = rc_reader_new(c->journal.file, 0, t->memory, &t->err);
-    const struct rc_share *share = ranks_read(t, c->journal.name);
     struct rc_grid *g;
     enum rc_status status;
     off_t end = 0;
 
     if (reader == NULL)
         tool_die(t, "%s", t->err.text);
-    rc_reader_share(reader, share);
-    while ((status = rc_reader_next(reader, &g, &t->err)) == RC_MORE) {
-        note(c, g, end);
-        end = journal_frame_end(&c->journal);
+    rc_reader_by_rows(reader);
+    while ((status = rc_reader_head(reader, &g, &t->err)) == RC_MORE) {
+        if ((status = rc_reader_skip(reader, &t->err)) == RC_OK) {
+            note(c, g, end);
+            end = journal_frame_end(&c->journal);
+        }
         rc_grid_free(g);
+        if (status != RC_OK)
+            break;
     }
     rc_reader_free(reader);
-    ranks_close(t, share);
     clearerr(c->journal.file);
     if (fseeko(c->journal.file, 0, SEEK_END) == 0 && ftello(c->journal.file) == 0)
         return;
@@ -316,7 +319,8 @@ checkpoint_load(struct course *course, size_t *n)
     c->next = c->wait;
     saved = last_state(course, &maps);
     for (size_t j = maps; j-- > 0;) {
-        RC_OWN(rc_grid, g) = journal_read(&c->journal, saved[j].at);
+        RC_OWN(rc_grid, g) =
+            journal_read(&c->journal, saved[j].at, (size_t)(saved + j - c->saved) + 1);
         if (j + 1 == maps) { /* frames are read from the last one backwards */
             const char *text = rc_grid_get(g, "checkpoint.numbers");
             if (strcmp(text, in_a_row) != 0)
