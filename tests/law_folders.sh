@@ -22,7 +22,7 @@ libcontact/ranks    | libcontact/common.h libcontact/contact_mpi.h libcontact/me
 libcontact/transform | %base                                   | libcontact
 libcontact/body     | %base %ranks                             | libcontact libcontact/ranks
 libcontact/operator | %base %ranks                             | libcontact libcontact/ranks
-libcontact/operator | libcontact/transform/transform.h libcontact/body/body.h libcontact/body/line.h | libcontact/transform libcontact/body
+libcontact/operator | libcontact/transform/transform.h libcontact/transform/fourier.h libcontact/body/body.h libcontact/body/line.h | libcontact/transform libcontact/body
 libcontact/operator |                                          | libcontact/operator/real_space=rc_engine_
 libcontact/operator/real_space | %base libcontact/operator/engine.h | libcontact libcontact/ranks libcontact/operator
 libcontact/solver   | %base libcontact/operator/operator.h     | libcontact libcontact/ranks libcontact/operator libcontact/body
@@ -30,7 +30,7 @@ libcontact/solver   | libcontact/model/row.h                   | libcontact/mode
 libcontact/solver   | libcontact/pyramid/pyramid.h             | libcontact/pyramid
 libcontact/pyramid  | %base libcontact/operator/operator.h     | libcontact libcontact/ranks
 libcontact/stress   | %base libcontact/operator/operator.h     | libcontact libcontact/ranks libcontact/operator
-libcontact/stress   | libcontact/body/line.h                   | libcontact/transform libcontact/body
+libcontact/stress   | libcontact/body/line.h libcontact/operator/waves.h                  | libcontact/transform libcontact/body
 libcontact/stress   | libcontact/volume/volume.h               | libcontact/volume
 libcontact/fatigue  | %base                                    | libcontact libcontact/stress libcontact/body
 libcontact/heat     | %base libcontact/operator/operator.h     | libcontact libcontact/operator libcontact/transform libcontact/body libcontact/surface/parameters
@@ -48,7 +48,7 @@ libcontact/wear     | %base libcontact/model/row.h             | libcontact libc
 libcontact/travel   | %base libcontact/model/row.h             | libcontact libcontact/ranks libcontact/model
 libcontact/viscoelastic | %base libcontact/model/row.h             | libcontact libcontact/ranks libcontact/model
 libcontact/viscoelastic | libcontact/solver/elastic.h libcontact/transform/fourier.h | libcontact/solver libcontact/operator libcontact/transform
-libcontact/viscoelastic | libcontact/operator/operator.h libcontact/body/body.h libcontact/body/quadrature.h | libcontact/body
+libcontact/viscoelastic | libcontact/operator/operator.h libcontact/operator/waves.h libcontact/body/body.h libcontact/body/quadrature.h | libcontact/body
 libcontact/friction | %base libcontact/operator/operator.h     | libcontact libcontact/ranks libcontact/operator libcontact/transform libcontact/body
 libcontact/friction | libcontact/pyramid/pyramid.h libcontact/model/row.h | libcontact/pyramid libcontact/model libcontact/solver=rc_contact_apart
 libcontact/rolling  | %base libcontact/friction/friction.h     | libcontact libcontact/ranks libcontact/friction

@@ -24,6 +24,7 @@
 
 #include "libcontact/memory.h"
 #include "libcontact/operator/operator.h"
+#include "libcontact/operator/waves.h"
 
 enum {
     BINS = 400, /* bins of wave numbers, equal on a logarithmic scale */
@@ -99,97 +100,29 @@ collect(const struct rc_shape *s, const double *p, struct bins *b, struct rc_err
 
 /* ---- waves of a map that ranks share ---- */
 
-struct shared {
-    struct rc_turn turn;
-    struct rc_line *along_x, *along_y;
-    double complex *pieces, *columns, *line; /* pieces of rows; columns held here; one row or
-                                                column */
-    double *part;                            /* a column's real or imaginary part               */
-    double *power;                           /* power of all ranks, bin by bin */
-    struct rc_store own;
-};
-
 static void
-shared_free(struct shared *w)
+collect_amplitude(void *scan, size_t i, size_t j, double amplitude)
 {
-    rc_turn_free(&w->turn);
-    rc_line_free(w->along_x);
-    rc_line_free(w->along_y);
-    rc_store_free(&w->own);
-}
-
-static enum rc_status
-shared_new(struct shared *w, const struct rc_ranks *ranks, const struct rc_shape *s,
-           struct rc_err *err)
-{
-    size_t columns = rc_fourier_columns(s), most = columns > s->ny ? columns : s->ny, rows, here;
-    enum rc_status status = RC_FAIL;
-
-    *w = (struct shared){.along_x = rc_line_new(s->nx, 1, NULL),
-                         .along_y = rc_line_new(s->ny, 1, NULL)};
-    if (rc_turn_new(&w->turn, ranks, s->ny, rc_rows_unit(s->nx), 0, columns, sizeof *w->line,
-                    err) == RC_OK) {
-        rows = w->turn.row[w->turn.own + 1] - w->turn.row[w->turn.own];
-        here = w->turn.column[w->turn.own + 1] - w->turn.column[w->turn.own];
-        w->pieces = rc_store_take(&w->own, rows * columns, sizeof *w->pieces);
-        w->columns = rc_store_take(&w->own, here * s->ny, sizeof *w->columns);
-        w->line = rc_store_take(&w->own, 2 * most, sizeof *w->line);
-        w->part = rc_store_take(&w->own, s->ny, sizeof *w->part);
-        w->power = rc_store_take(&w->own, rc_ranks_count(ranks) * BINS, sizeof *w->power);
-        if (w->along_x != NULL && w->along_y != NULL && !w->own.failed)
-            status = RC_OK;
-        else
-            rc_err_set(err, "out of memory for the waves of %zu x %zu nodes", s->nx, s->ny);
-    }
-    return rc_ranks_agree(ranks, status, err);
-}
-
-/* Adds the waves of a column of complex numbers, from its two parts. */
-static void
-collect_column(struct scan *c, struct shared *w, size_t i, size_t here, size_t wide)
-{
-    size_t ny = c->s->ny;
-    double complex *re = w->line, *im = w->line + ny / 2 + 1;
-
-    for (size_t j = 0; j < ny; j++)
-        w->part[j] = creal(w->columns[j * wide + here]);
-    rc_line_forward(w->along_y, w->part, re);
-    for (size_t j = 0; j < ny; j++)
-        w->part[j] = cimag(w->columns[j * wide + here]);
-    rc_line_forward(w->along_y, w->part, im);
-    for (size_t j = 0; j < ny; j++) {
-        size_t k = 2 * j <= ny ? j : ny - j;
-        double complex a = re[k], b = im[k];
-        double power = k == j ? cabs(a + I * b) : cabs(conj(a) + I * conj(b));
-        collect_wave(c, i, j, power * power);
-    }
+    collect_wave(scan, i, j, amplitude * amplitude);
 }
 
 static enum rc_status
 collect_shared(const struct rc_ranks *ranks, const struct rc_shape *s, const double *p,
                struct bins *b, struct rc_err *err)
 {
-    struct rc_rows rows = rc_rows_of(ranks, s);
+    const size_t count = rc_ranks_count(ranks);
     struct scan c = scan_of(s, b);
-    RC_ENDS(shared_free) struct shared w;
-    size_t first, n;
+    RC_OWNED double *power = malloc(count * sizeof b->power);
 
-    if (shared_new(&w, ranks, s, err) != RC_OK)
+    if (rc_ranks_need(ranks, power != NULL, err, "out of memory for the waves of %zu x %zu nodes",
+                      s->nx, s->ny) != RC_OK ||
+        rc_waves_visit(ranks, s, p, collect_amplitude, &c, err) != RC_OK)
         return RC_FAIL;
-    for (size_t j = 0; j < rows.n; j++) {
-        rc_line_forward(w.along_x, p + j * s->nx, w.line);
-        rc_turn_put(&w.turn, j, w.line, w.pieces);
-    }
-    rc_ranks_turn(&w.turn, false, w.pieces, w.columns);
-    first = w.turn.column[w.turn.own];
-    n = w.turn.column[w.turn.own + 1] - first;
-    for (size_t i = 0; i < n; i++)
-        collect_column(&c, &w, first + i, i, n);
-    rc_ranks_gather(ranks, sizeof b->power, b->power, w.power);
+    rc_ranks_gather(ranks, sizeof b->power, b->power, power);
     for (int k = 0; k < BINS; k++) {
         b->power[k] = 0;
-        for (size_t q = 0; q < rc_ranks_count(ranks); q++)
-            b->power[k] += w.power[q * BINS + (size_t)k];
+        for (size_t q = 0; q < count; q++)
+            b->power[k] += power[q * BINS + (size_t)k];
     }
     return RC_OK;
 }

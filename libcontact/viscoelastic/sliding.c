@@ -40,6 +40,7 @@
 
 #include "libcontact/expected.h"
 #include "libcontact/model/row.h"
+#include "libcontact/operator/waves.h"
 #include "libcontact/solver/elastic.h"
 #include "libcontact/transform/fourier.h"
 #include "wake.h"
@@ -83,9 +84,9 @@ struct slide {
     struct rc_model base;
     struct rc_problem problem;
     struct rc_sliding_problem law;
-    struct rc_shape turned; /* shape of the inner model: x is along the motion */
-    size_t n, columns;
-    double *h, *g, *room; /* heights, G, and heights of the inner model */
+    struct rc_shape turned;       /* shape of the inner model: x is along the motion */
+    size_t n, all, rows, columns; /* nodes and rows held here; nodes of the map; waves along x */
+    double *h, *g, *room;         /* heights, G, and heights of the inner model */
     double top;
     struct wave *wave;
     struct rc_along along;            /* of a periodic map */
@@ -271,7 +272,7 @@ filter(struct slide *s, enum filter which, double *map)
         return;
     }
 #pragma omp parallel for num_threads(s->threads) schedule(static)
-    for (size_t j = 0; j < s->turned.ny; j++)
+    for (size_t j = 0; j < s->rows; j++)
         filter_row(s, which, map + j * s->turned.nx);
 }
 
@@ -288,8 +289,9 @@ next_heights(struct slide *s)
     s->course.convolutions += rc_elastic_work(s->base.inner, &iterations);
     s->course.iterations += iterations;
     if (rc_point_has(to, RC_APPROACH))
-        heights.approach = fmax(to->at[RC_APPROACH] + rc_highest(s->room, s->n) - s->top,
-                                1e-12 * to->at[RC_APPROACH]);
+        heights.approach =
+            fmax(to->at[RC_APPROACH] + rc_ranks_highest(s->base.rows.ranks, s->room, s->n) - s->top,
+                 1e-12 * to->at[RC_APPROACH]);
     return heights;
 }
 
@@ -436,10 +438,9 @@ find_friction(struct slide *s, double load, double friction[2], double *steep)
     const double *p = rc_elastic_pressure(s->base.inner);
     const bool open = rc_has_mean(s->problem.boundary);
     struct rc_total sum[2] = {{0}};
-    double low = INFINITY, high = -INFINITY;
+    double low = INFINITY, high = -INFINITY, total[2], most[2];
 
     for (int q = 1; q >= 0; q--) {
-        const double sign = q == 0 && open ? 1 : copysign(1, s->base.to.at[RC_SPEED]);
         if (q == 0)
             rc_elastic_displacement(s->base.inner, false, s->room);
         else
@@ -447,14 +448,39 @@ find_friction(struct slide *s, double load, double friction[2], double *steep)
         filter(s, q == 0 ? LOSS : SLOPE, s->room);
         for (size_t k = 0; k < s->n; k++)
             rc_total_add(&sum[q], -p[k] * s->room[k]);
-        friction[q] = sign * rc_total_value(&sum[q]) * s->turned.dx * s->turned.dy / load;
         for (size_t k = 0; q == 0 && k < s->n; k++)
             if (p[k] > 0) {
                 low = fmin(low, s->room[k]);
                 high = fmax(high, s->room[k]);
             }
     }
-    *steep = high > low ? high - low : 0;
+    most[0] = high;
+    most[1] = -low;
+    rc_ranks_totals(s->base.rows.ranks, 2, sum, total, 2, most);
+    *steep = most[0] > -most[1] ? most[0] + most[1] : 0;
+    for (int q = 0; q < 2; q++)
+        friction[q] = (q == 0 && open ? 1 : copysign(1, s->base.to.at[RC_SPEED])) * total[q] *
+                      s->turned.dx * s->turned.dy / load;
+}
+
+struct power {
+    const struct slide *s;
+    struct rc_total sum;
+};
+
+static void
+add_power(void *ctx, size_t k, size_t j, double amplitude)
+{
+    struct power *of = ctx;
+    const struct slide *s = of->s;
+    const double qx = rc_fourier_q(k, s->turned.nx, s->turned.dx);
+    const double qy = rc_fourier_q(j, s->turned.ny, s->turned.dy);
+
+    if (k > 0)
+        rc_total_add(&of->sum,
+                     2 * s->base.to.at[RC_SPEED] * qx * 2 / hypot(qx, qy) *
+                         (s->wave[k].factor * cimag(s->wave[k].phase) / s->problem.pair.estar) *
+                         (amplitude * amplitude));
 }
 
 /* The power of all waves of the pressure: v qx 2/|q| Im J |p|^2. */
@@ -462,23 +488,13 @@ static enum rc_status
 find_power(struct slide *s, double *power, struct rc_err *err)
 {
     const struct rc_shape *t = &s->turned;
-    const double speed = s->base.to.at[RC_SPEED], per = (double)s->n * (double)s->n;
-    RC_OWNED double complex *z = rc_alloc(rc_fourier_size(t), sizeof *z);
-    struct rc_total sum = {0};
+    const struct rc_ranks *ranks = s->base.rows.ranks;
+    const double per = (double)s->all * (double)s->all;
+    struct power of = {.s = s};
 
-    if (z == NULL)
-        return rc_err_set(err, "out of memory for the waves of %zu x %zu nodes", t->nx, t->ny);
-    if (rc_fourier_forward(t, rc_elastic_pressure(s->base.inner), z, err) != RC_OK)
+    if (rc_waves_visit(ranks, t, rc_elastic_pressure(s->base.inner), add_power, &of, err) != RC_OK)
         return RC_FAIL;
-    for (size_t j = 0; j < t->ny; j++)
-        for (size_t k = 1; k < s->columns; k++) {
-            const double qx = rc_fourier_q(k, t->nx, t->dx), qy = rc_fourier_q(j, t->ny, t->dy);
-            const double complex p = z[j * s->columns + k];
-            const double loss = s->wave[k].factor * cimag(s->wave[k].phase) / s->problem.pair.estar;
-            rc_total_add(&sum, 2 * speed * qx * 2 / hypot(qx, qy) * loss *
-                                   (creal(p) * creal(p) + cimag(p) * cimag(p)));
-        }
-    *power = rc_total_value(&sum) / per * t->dx * (double)t->nx * t->dy * (double)t->ny;
+    *power = rc_ranks_total(ranks, of.sum) / per * t->dx * (double)t->nx * t->dy * (double)t->ny;
     return RC_OK;
 }
 
@@ -519,12 +535,10 @@ done:
     return RC_OK;
 }
 
-/* Copies a map of this shape; `over`: with x and y exchanged. */
+/* Copies ny rows of nx nodes; `over`: with x and y exchanged. */
 static void
-turn(const struct rc_shape *shape, bool over, const double *from, double *to)
+turn(size_t nx, size_t ny, bool over, const double *from, double *to)
 {
-    const size_t nx = shape->nx, ny = shape->ny;
-
     for (size_t j = 0; j < ny; j++)
         for (size_t i = 0; i < nx; i++)
             to[over ? i * ny + j : j * nx + i] = from[j * nx + i];
@@ -542,7 +556,7 @@ fill(struct rc_model *m, size_t frame, double *to, struct rc_err *err)
         filter(s, PHASE, s->room);
         rc_elastic_displacement(m->inner, true, s->room);
     }
-    turn(&s->turned, s->law.along_y, s->room, to);
+    turn(s->turned.nx, s->rows, s->law.along_y, s->room, to);
     return RC_OK;
 }
 
@@ -673,8 +687,10 @@ check(const struct rc_shape *shape, const struct rc_problem *problem,
                                "repeat along one axis only: take a free or a periodic map");
     if (rc_has_mean(problem->boundary) && law->repeats)
         return rc_err_set(err, "only a periodic map has a repeated track");
-    if (problem->ranks != NULL)
-        return rc_err_set(err, "sliding over a viscoelastic body needs the map in one process");
+    if (problem->ranks != NULL && (law->along_y || rc_has_mean(problem->boundary)))
+        return rc_err_set(err, "sliding over a viscoelastic body on several processes needs %s",
+                          law->along_y ? "motion along x: rotate the map with rc-pick --rotate 90"
+                                       : "a periodic map");
     if (problem->tilt_free || (problem->hardness > 0 && !isinf(problem->hardness)) ||
         problem->hardness_map != NULL)
         return rc_err_set(err, "sliding over a viscoelastic body with a hardness or a free tilt is "
@@ -708,7 +724,7 @@ make_room(struct slide *s, struct rc_err *err)
     if (rc_model_room(&s->base, err) != RC_OK)
         return RC_FAIL;
     s->line = rc_line_new(s->turned.nx, (size_t)s->threads, err);
-    return s->line != NULL ? RC_OK : RC_FAIL;
+    return rc_ranks_agree(s->base.rows.ranks, s->line != NULL ? RC_OK : RC_FAIL, err);
 }
 
 struct rc_model *
@@ -720,7 +736,7 @@ rc_sliding_new(const struct rc_shape *shape, const double *h, const struct rc_pr
     struct slide *s;
 
     if (check(shape, problem, law, err) != RC_OK ||
-        (m = rc_model_make(&rc_model_sliding, sizeof *s, shape, NULL, err)) == NULL)
+        (m = rc_model_make(&rc_model_sliding, sizeof *s, shape, problem->ranks, err)) == NULL)
         return NULL;
     s = (struct slide *)m;
     m->boundary = problem->boundary;
@@ -728,15 +744,17 @@ rc_sliding_new(const struct rc_shape *shape, const double *h, const struct rc_pr
     s->problem.hurry = NULL;
     s->law = *law;
     s->turned = law->along_y ? other : *shape;
-    s->n = shape->nx * shape->ny;
+    s->n = rc_model_nodes(m);
+    s->all = shape->nx * shape->ny;
+    s->rows = law->along_y ? shape->nx : m->rows.n;
     if (!(problem->tol > 0))
-        s->problem.tol = fmin(usual_tol, pow((double)s->n, -0.75));
+        s->problem.tol = fmin(usual_tol, pow((double)s->all, -0.75));
     s->columns = s->turned.nx / 2 + 1;
     s->along = (struct rc_along){.factor = factor_of, .of = s};
     s->threads = rc_useful_threads(shape, problem->threads);
     if (make_room(s, err) != RC_OK)
         return NULL;
-    turn(shape, law->along_y, h, s->h);
-    s->top = rc_highest(s->h, s->n);
+    turn(shape->nx, m->rows.n, law->along_y, h, s->h);
+    s->top = rc_ranks_highest(m->rows.ranks, s->h, s->n);
     return make_inner(s, 0, err) == RC_OK ? rc_give(&m) : NULL;
 }

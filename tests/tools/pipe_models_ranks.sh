@@ -37,6 +37,9 @@ claim "yield, deep slabs on coarser grids" same "$deep --tol 1e-2 --periodic --m
 claim "yield, free, slabs chosen, several threads" same "RC_THREADS=2 ${yield/--slabs 3/} --load 40mN,0 --history ball.rcg"
 claim "creep" same "rc-solve --periodic --relaxation 1MPa,9MPa:1s --nu1 0.5 --E2 rigid --mean-pressure 20kPa --time 0,1s --increments 4 --quiet rough.rcg"
 claim "relaxation at an approach" same "rc-solve --relaxation 1MPa,9MPa:1s --nu1 0.5 --E2 rigid --approach 0.5um --time 0,1s --increments 4 --quiet ball.rcg"
+speed="rc-solve --relaxation 1MPa,9MPa:1s --nu1 0.5 --E2 rigid --quiet --speed"
+claim "sliding on rubber, loads and an approach" same "$speed 10um/s,-40um/s --periodic --mean-pressure 20kPa rough.rcg"
+claim "  an approach, a repeated track, several threads" same "RC_THREADS=2 $speed 10um/s --track repeated --periodic --approach 0.5um rough.rcg"
 travel="rc-solve --estar 1GPa --radius 200um --load 1mN --quiet"
 claim "travel against a rough map with more rows" same "$travel --travel=-1um,0,0.5um --counter other.rcg rough.rcg"
 claim "travel of a window" same "$travel --travel=-1um,0,1um --window 110x37 rough.rcg"
@@ -79,6 +82,7 @@ kept() {
 claim "a checkpoint of yield" kept "$yield --tol 1e-2 --periodic --mean-pressure 60MPa,20MPa --history rough.rcg"
 claim "  of yield, deep slabs on coarser grids" kept "${deep/--increments 2/--increments 1} --tol 1e-1 --periodic --mean-pressure 20MPa even.rcg"
 claim "  of creep" kept "rc-solve --periodic --relaxation 1MPa,9MPa:1s --nu1 0.5 --E2 rigid --mean-pressure 20kPa --time 0,1s --increments 2 --quiet rough.rcg"
+claim "  of sliding on rubber" kept "$speed 10um/s --periodic --mean-pressure 20kPa rough.rcg"
 claim "  of wear" kept "$wear --distance 0.1m pressed.rcg"
 if before_release; then
     claim "  of yield, no contact on one process" kept "$yield --tol 1e-2 --load 40mN,60mN --history ball.rcg"
@@ -100,6 +104,9 @@ refuses 1 'repeats along one axis only cannot be shared among processes' "yield 
 claim "  the message is printed once" test "$(grep -c 'along one axis' refuses.err)" = 1
 refuses 2 '--checkpoint does not work on several processes' "a checkpoint of friction" \
     "$run $slip --tangential 30mN --checkpoint kept.rcg -o no.rcg similar.rcg"
+refuses 1 'several processes needs a periodic map' "sliding on a free map" "$run $speed 10um/s --load 1mN -o no.rcg ball.rcg"
+claim "  the message is printed once" test "$(grep -c 'needs a periodic' refuses.err)" = 1
+refuses 1 'rotate the map with rc-pick --rotate 90' "  along y" "$run $speed 10um/s --along y --periodic --mean-pressure 20kPa -o no.rcg rough.rcg"
 refuses 2 'rolling does not work on several processes' "rolling" "$run $slip --creep 1e-3,0 --steady -o no.rcg similar.rcg"
 refuses 1 'friction carries less than' "a force above the limit" "$run $slip --tangential 9N -o no.rcg similar.rcg"
 claim "  the message is printed once" test "$(grep -c 'carries less' refuses.err)" = 1

@@ -115,8 +115,6 @@ read(struct run *run)
 {
     struct tool *t = &run->d.t;
 
-    if (ranks_of(t) != NULL)
-        tool_usage(t, "--speed does not work with several processes: take one");
     if (!(run->material->material->relaxed > 0))
         tool_usage(
             t, "--relaxation: the relaxed modulus is 0: body 2 would sink without end, and there "
