@@ -145,9 +145,6 @@ main(int argc, char **argv)
 
     tool_start(&run.d.t, &info, argc, argv, &args);
     check_arguments(&run);
-    if (ranks_of(&run.d.t) != NULL && args.drive.checkpoint != NULL)
-        tool_usage(&run.d.t, "--checkpoint does not work on several processes: leave it out, or "
-                             "take one process");
     if (ranks_of(&run.d.t) != NULL && run.motion != &slip_motion_path)
         tool_usage(&run.d.t, "rolling does not work on several processes: take one process");
     run.d.beside = beside;

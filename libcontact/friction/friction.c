@@ -243,6 +243,26 @@ rc_friction_solver_start(struct rc_friction_solver *s, const double *const q[2])
     s->tried = true;
 }
 
+/* Touched nodes are 1 in a map of zeros. */
+static void
+exchange_touched(struct rc_friction_solver *s, struct rc_state *state)
+{
+    const double *from = NULL;
+    double *to = NULL;
+
+    if (rc_state_reads(state))
+        from = rc_state_read_map(state, s->n);
+    else
+        to = rc_state_map(state, s->n, NULL);
+    for (size_t k = 0; k < s->n && to != NULL; k++)
+        to[k] = s->past.touched[k];
+    for (size_t k = 0; k < s->n && from != NULL; k++)
+        if (from[k] == 0 || from[k] == 1)
+            s->past.touched[k] = from[k] > 0;
+        else
+            rc_state_refuse(state, "a flag is out of range");
+}
+
 void
 rc_friction_solver_history(struct rc_friction_solver *s, struct rc_state *state)
 {
@@ -251,12 +271,8 @@ rc_friction_solver_history(struct rc_friction_solver *s, struct rc_state *state)
 
     RC_STATE_FLAGS(state, &s->past.has_gap, &s->apart);
     for (size_t k = 0; k < sizeof maps / sizeof *maps; k++)
-        rc_state_finite(state, s->n, maps[k]);
-    for (size_t k = 0; k < s->n; k++) {
-        size_t touched = s->past.touched[k];
-        rc_state_count(state, &touched, 1);
-        s->past.touched[k] = (unsigned char)touched;
-    }
+        rc_state_map(state, s->n, maps[k]);
+    exchange_touched(s, state);
     rc_state_finite(state, 1, &s->past.load);
     rc_state_finite(state, 2, s->past.force);
     if (!rc_state_reads(state))
@@ -271,7 +287,7 @@ void
 rc_friction_solver_increment(struct rc_friction_solver *s, struct rc_state *state)
 {
     for (int c = 0; c < 2; c++)
-        rc_state_finite(state, s->n, s->discs->q[c]);
+        rc_state_map(state, s->n, s->discs->q[c]);
     if (rc_state_reads(state))
         s->tried = true;
 }

@@ -661,12 +661,12 @@ exchange_increment(struct friction *f, struct rc_state *s)
     rc_state_count(s, &w->passes, SIZE_MAX / 2);
     RC_STATE_NUMBERS(s, &w->pressure_change, &w->traction_change, &w->factor, &w->pressure_error);
     for (int c = 0; c < 3 && f->alternates; c++) /* tractions of the previous pass */
-        rc_state_finite(s, f->n, c < 2 ? w->before[c] : w->p);
+        rc_state_map(s, f->n, c < 2 ? w->before[c] : w->p);
     for (int c = 0; c < 2 && f->problem.fewer > 0; c++)
-        rc_state_finite(s, f->n, f->lag[c]);
+        rc_state_map(s, f->n, f->lag[c]);
     if (f->alternates) /* else the increment begins again */
         rc_friction_solver_increment(w->slip, s);
-    if (!rc_state_reads(s))
+    if (!rc_state_agree(s, f->base.rows.ranks) || !rc_state_reads(s))
         return;
     f->leg = rc_friction_leg(&f->problem, &f->before, &f->base.from, &f->base.to);
     if (f->increment == 0 || f->increment > f->leg.increments) {
@@ -706,7 +706,7 @@ state(struct rc_model *m, struct rc_state *s)
     RC_STATE_FLAGS(s, &f->good, &f->before.carries);
     rc_state_count(s, &told, RC_TOLD_UNKNOWN);
     if (f->energy != NULL)
-        rc_state_finite(s, f->n, f->energy);
+        rc_state_map(s, f->n, f->energy);
     RC_STATE_NUMBERS(s, &f->dissipated, &f->lagging, &f->lag_before, &f->doubt);
     exchange_ways(f, s);
     if (rc_state_reads(s)) {

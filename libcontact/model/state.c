@@ -60,6 +60,14 @@ rc_state_refuse(struct rc_state *s, const char *why)
 }
 
 bool
+rc_state_agree(struct rc_state *s, const struct rc_ranks *ranks)
+{
+    if (rc_ranks_most(ranks, s->bad) > 0)
+        rc_state_refuse(s, "another process refuses it");
+    return !s->bad;
+}
+
+bool
 rc_state_holds(struct rc_state *s, size_t n)
 {
     if (s->part.on ? n > s->part.end - s->part.at : s->mode == READS && n > s->numbers - s->at)
@@ -371,7 +379,7 @@ rc_state_model(struct rc_state *s, struct rc_model *m)
     m->looked &= !rc_state_reads(s);
     if (m->moved && !m->row->forgets)
         rc_state_copy(s, &m->kept); /* a restored model needs it for its own later return */
-    if (!s->bad)
+    if (s->mode != READS || rc_state_agree(s, m->rows.ranks))
         exchange_members(m, s);
     if (rc_state_reads(s) && m->moved && m->inner != NULL && m->inner->status == RC_MORE)
         m->status = RC_MORE; /* the inner model must find its solution again */

@@ -426,10 +426,10 @@ read_dent(struct elastic *e, struct rc_state *s, bool some)
     bool others = false;
     struct rc_err err;
 
-    if (h == NULL || !rc_store_need(&e->base.own, e->n, &e->dent)) {
+    if (h == NULL || !rc_store_need(&e->base.own, e->n, &e->dent))
         rc_state_refuse(s, "memory is short");
+    if (!rc_state_agree(s, e->base.rows.ranks))
         return;
-    }
     shape(e, h);
     for (size_t k = 0; k < e->n; k++) {
         const double dent = now != NULL ? now[k] : 0, more = dent - e->dent[k];
@@ -451,9 +451,10 @@ read_pressure(struct elastic *e, struct rc_state *s, double load)
     const double *p = rc_state_read_map(s, e->n);
     struct rc_err err;
 
-    if (p != NULL && (press(e, by_approach ? 0 : to->at[RC_LOAD],
-                            by_approach ? to->at[RC_APPROACH] : 0, &err) != RC_OK ||
-                      rc_solver_warm_start(e->solver, load, p, &err) != RC_OK))
+    if (rc_state_agree(s, e->base.rows.ranks) &&
+        (press(e, by_approach ? 0 : to->at[RC_LOAD], by_approach ? to->at[RC_APPROACH] : 0, &err) !=
+             RC_OK ||
+         rc_solver_warm_start(e->solver, load, p, &err) != RC_OK))
         rc_state_refuse(s, "its load or its pressure is not finite or negative");
     e->base.status = RC_MORE; /* the next step decides whether it is the solution */
 }
@@ -478,7 +479,7 @@ read_inside(struct elastic *e, struct rc_state *s, const struct iteration *it, b
     struct rc_err err;
     double none;
 
-    if (!rc_state_reads(s))
+    if (!rc_state_agree(s, e->base.rows.ranks) || !rc_state_reads(s))
         return;
     if (press(e, by_approach ? 0 : it->load, by_approach ? to->at[RC_APPROACH] : 0, &err) !=
             RC_OK ||

@@ -65,26 +65,32 @@ claim "friction of a ball" same "$slip --nu 0.3 --tangential 20uN,10uN pressed-b
 
 # ---- states ----
 
-# kept COMMAND: two processes write the checkpoint of one. Its first half resumes on one and on three.
+# kept COMMAND [PARTS]: two processes write the checkpoint of one. Its first half, or each of these parts,
+# resumes on one and on three.
 kept() {
-    local command="$1 --interval 0" n middle
+    local command="$1 --interval 0" n middle part
     rm -f *.kept
     $command --checkpoint alone.kept -o alone.rcg || [ $? = 3 ] || return
     $MPIRUN -n 2 $command --checkpoint shared.kept -o shared.rcg || [ $? = 3 ] || return
     cmp alone.kept shared.kept && cmp alone.rcg shared.rcg || return
-    middle=$(perl -0777 -ne 'push @at, pos while /RCGEND 1\n/g; print $at[$#at / 2]' shared.kept)
-    for n in 1 3; do
-        head -c "$middle" shared.kept >"resumed-$n.kept"
-        $MPIRUN -n "$n" $command --checkpoint "resumed-$n.kept" --resume -o "resumed-$n.rcg" || [ $? = 3 ] || return
+    for part in ${2:-0.5}; do
+        middle=$(perl -0777 -ne 'push @at, pos while /RCGEND 1\n/g; print $at[$#at * '$part']' shared.kept)
+        for n in 1 3; do
+            head -c "$middle" shared.kept >"resumed-$n.kept"
+            $MPIRUN -n "$n" $command --checkpoint "resumed-$n.kept" --resume -o "resumed-$n.rcg" || [ $? = 3 ] || return
+        done
+        cmp resumed-1.rcg resumed-3.rcg && cmp resumed-1.kept resumed-3.kept || return
     done
-    cmp resumed-1.rcg resumed-3.rcg && cmp resumed-1.kept resumed-3.kept
 }
 claim "a checkpoint of yield" kept "$yield --tol 1e-2 --periodic --mean-pressure 60MPa,20MPa --history rough.rcg"
 claim "  of yield, deep slabs on coarser grids" kept "${deep/--increments 2/--increments 1} --tol 1e-1 --periodic --mean-pressure 20MPa even.rcg"
 claim "  of creep" kept "rc-solve --periodic --relaxation 1MPa,9MPa:1s --nu1 0.5 --E2 rigid --mean-pressure 20kPa --time 0,1s --increments 2 --quiet rough.rcg"
 claim "  of sliding on rubber" kept "$speed 10um/s --periodic --mean-pressure 20kPa rough.rcg"
 claim "  of wear" kept "$wear --distance 0.1m pressed.rcg"
+claim "  of friction" kept "rc-slip --nu 0.3 --mu 0.3 --quiet --tol 0.1 --increments 1 --tangential 20uN --output pressure,traction-x,dissipation pressed-ball.rcg"
 if before_release; then
+    claim "  of friction, loads and forces" kept "$slip --path '0.3N,0,0;0.3N,50mN,0;0.2N,30mN,20mN' --increments 4 similar.rcg"
+    claim "  of friction, dissimilar bodies" kept "$slip --tangential 30mN --increments 2 --tol 1e-1 dissimilar--periodic.rcg"
     claim "  of yield, no contact on one process" kept "$yield --tol 1e-2 --load 40mN,60mN --history ball.rcg"
     claim "  of travel over a body that yields" kept "$yield --periodic --tol 1e-2 --radius 200um --load 30mN --travel=-2um,0,2um --passes 2 rough.rcg"
     claim "  of wear of two rough bodies" kept "$wear --motion sliding --counter rough.rcg --tol 0.1 --distance 0.05m pressed.rcg"
@@ -102,8 +108,6 @@ claim "  the message is printed once" test "$(grep -c 'are NaN' refuses.err)" = 
 refuses 1 'repeats along one axis only cannot be shared among processes' "yield on a map that repeats along one axis" \
     "$run $yield --periodic=x --load 40mN -o no.rcg ball.rcg"
 claim "  the message is printed once" test "$(grep -c 'along one axis' refuses.err)" = 1
-refuses 2 '--checkpoint does not work on several processes' "a checkpoint of friction" \
-    "$run $slip --tangential 30mN --checkpoint kept.rcg -o no.rcg similar.rcg"
 refuses 1 'several processes needs a periodic map' "sliding on a free map" "$run $speed 10um/s --load 1mN -o no.rcg ball.rcg"
 claim "  the message is printed once" test "$(grep -c 'needs a periodic' refuses.err)" = 1
 refuses 1 'rotate the map with rc-pick --rotate 90' "  along y" "$run $speed 10um/s --along y --periodic --mean-pressure 20kPa -o no.rcg rough.rcg"

@@ -305,6 +305,22 @@ last_state(const struct course *course, size_t *maps)
     return first;
 }
 
+/* The numbers of a row, which one process has read, for all. */
+static double *
+spread_row(const struct course *course, const struct rc_grid *row, double *v, size_t *n)
+{
+    struct tool *t = course->checkpoint->t;
+    const bool own = rc_grid_nodes(row) > 0;
+    double *all = realloc(v, (row->nx + 1) * sizeof *v);
+
+    if (ranks_most(t, all == NULL) > 0)
+        tool_refuse(t, course->g, "out of memory for a state of --checkpoint");
+    *n = row->nx;
+    for (size_t k = 0; k < row->nx; k++)
+        all[k] = ranks_sum(t, own ? all[k] : -0.0); /* -0 + v is v, also for v = -0 */
+    return all;
+}
+
 double *
 checkpoint_load(struct course *course, size_t *n)
 {
@@ -335,6 +351,8 @@ checkpoint_load(struct course *course, size_t *n)
         }
         compare(course, g, few > 0);
         memcpy(v + few + j * nodes, g->v, nodes * sizeof *v);
+        if (few == 0)
+            v = spread_row(course, g, v, n);
     }
     return v;
 }
@@ -386,13 +404,16 @@ void
 checkpoint_save(struct course *c, const double *state, size_t n)
 {
     const size_t numbers = (size_t)state[0], maps = (size_t)state[1];
-    const struct rc_grid row = {.nx = n, .ny = 1};
+    struct rc_grid row = {.nx = n, .ny = 1};
     char text[FEW * RC_NUMBER_SIZE] = "";
-    size_t length = 0, nodes = rc_grid_nodes(c->g);
+    size_t length = 0, nodes = rc_grid_nodes(c->g), first, rows;
 
     if (c->checkpoint == NULL || c->checkpoint->journal.file == NULL)
         return;
     if (maps == 0 || numbers > FEW) {
+        /* the numbers of all processes are equal: one of them writes the row */
+        ranks_rows(c->t, rc_shape_of(&row), &first, &rows);
+        row.elsewhere = 1 - rows;
         (void)add(c, &row, state, 0, in_a_row);
         return;
     }
