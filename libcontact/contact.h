@@ -700,8 +700,8 @@ struct rc_adhesion_figures {
  * first point, retracts the bodies until they separate, and finds the lowest load on the way. Under a
  * tensile load the next stable state of lower energy is found, if there is one: see `separated`. Keeping a
  * point adds its plastic dents to the shape. Frames: adhesion, the attraction (Pa), and plastic, as for
- * elastic bodies. NULL when the problem is invalid, among ranks, when the engine or method does not suit
- * it, or memory is short. */
+ * elastic bodies. NULL when the problem is invalid, when the engine or method does not suit it, or memory is
+ * short. */
 RC_API struct rc_model *rc_adhesion_new(const struct rc_shape *shape, const double *h,
                                         const struct rc_adhesion_problem *problem,
                                         struct rc_err *err);

@@ -163,6 +163,15 @@ struct retraction {
     bool short_of;
 };
 
+/* Rows of the map are dealt to ranks as the caller holds them, rows of the grid as they are transformed. Each
+ * array has the first row of the map on each rank, and the number of all rows. */
+struct dealt {
+    size_t *given; /* as rows of the map; NULL: no ranks */
+    size_t *held;  /* as rows of the grid */
+    size_t *finer; /* as every other row of the finer map, with the rows of its grid */
+    bool moves;    /* given and held differ */
+};
+
 /* Coarser grids, for the start of the first state. */
 struct grids {
     struct rc_adhesion_solver *coarse; /* the next one; NULL: none */
@@ -190,12 +199,14 @@ struct stability {
 };
 
 struct rc_adhesion_solver {
-    struct rc_shape shape;
+    struct rc_shape shape; /* the whole map */
+    struct rc_rows rows;   /* of the caller's maps */
+    struct dealt dealt;
     struct grids grids;
     struct rc_whole *whole;
     struct rc_gap gap;
     struct rc_adhesion_scales scales;
-    double *h;     /* heights over the length, minus the largest height */
+    double *h;     /* heights over the length, minus the largest one; with the rows of the grid */
     double mean_h; /* their mean                                                       */
     struct asked asked;
     enum stage stage;
@@ -237,9 +248,6 @@ refuse(const struct rc_shape *shape, const struct rc_adhesion_problem *problem, 
         return rc_err_set(
             err, "range of adhesion %g m: it must be below the longer side of the map, %g m",
             problem->range, side);
-    if (c->ranks != NULL)
-        return rc_err_set(
-            err, "contact with adhesion cannot share its maps among processes: take one process");
     if (c->tilt_free)
         return rc_err_set(err, "with adhesion the counter body cannot tilt");
     if (!(c->hardness >= 0))
@@ -338,13 +346,93 @@ rc_adhesion_attraction(const struct rc_shape *shape, const struct rc_adhesion_pr
     return RC_OK;
 }
 
-static enum rc_status
-check_heights(const struct rc_shape *shape, const double *h, struct rc_err *err)
+/* ---- rows of the map and of the grid ---- */
+
+/* `of`: the map or the grid, by whose rows those of the map are dealt; `halved`: every other row. */
+static void
+set_starts(const struct rc_ranks *ranks, const struct rc_shape *of, size_t ny, bool halved,
+           size_t *starts)
 {
-    for (size_t k = 0; k < shape->nx * shape->ny; k++)
-        if (!isfinite(h[k]))
-            return rc_err_set(err, "height %zu is not a finite number", k);
+    const size_t count = rc_ranks_count(ranks), unit = rc_rows_unit(of->nx);
+
+    for (size_t r = 0; r <= count; r++) {
+        const size_t dealt = rc_rows_dealt(of->ny, unit, count, r), first = dealt < ny ? dealt : ny;
+        starts[r] = halved ? (first + 1) / 2 : first;
+    }
+}
+
+static enum rc_status
+deal(struct rc_adhesion_solver *a, struct rc_err *err)
+{
+    const struct rc_ranks *ranks = a->rows.ranks;
+    const size_t each = rc_ranks_count(ranks) + 1;
+    struct dealt *d = &a->dealt;
+
+    if (ranks == NULL)
+        return RC_OK;
+    d->given = malloc(3 * each * sizeof *d->given);
+    if (rc_ranks_need(ranks, d->given != NULL, err, "out of memory for the rows of %zu processes",
+                      each - 1) != RC_OK)
+        return RC_FAIL;
+    d->held = d->given + each;
+    d->finer = d->held + each;
+    set_starts(ranks, &a->shape, a->shape.ny, false, d->given);
+    set_starts(ranks, &a->whole->grid, a->shape.ny, false, d->held);
+    d->moves = memcmp(d->given, d->held, each * sizeof *d->given) != 0;
     return RC_OK;
+}
+
+/* Moves a map of the caller to the rows of the grid. */
+static void
+take_map(const struct rc_adhesion_solver *a, const double *map, double *to)
+{
+    const size_t bytes = a->shape.nx * sizeof *to;
+
+    if (a->dealt.moves)
+        rc_ranks_move(a->rows.ranks, bytes, a->dealt.given, a->dealt.held, 0, map, to);
+    else
+        memcpy(to, map, a->rows.n * bytes);
+}
+
+/* Memory for a map that give_map then moves to the rows of the caller. */
+static double *
+map_for(const struct rc_adhesion_solver *a, double *to)
+{
+    return a->dealt.moves ? a->gap.maps.step : to;
+}
+
+static void
+give_map(const struct rc_adhesion_solver *a, double *to)
+{
+    if (a->dealt.moves)
+        rc_ranks_move(a->rows.ranks, a->shape.nx * sizeof *to, a->dealt.held, a->dealt.given, 0,
+                      a->gap.maps.step, to);
+}
+
+/* A node of the caller's rows as one of the whole map, for messages. */
+static size_t
+node_of(const struct rc_rows *rows, const struct rc_shape *shape, size_t k)
+{
+    return rows->first * shape->nx + k;
+}
+
+static enum rc_status
+check_heights(const struct rc_adhesion_solver *a, const double *h, struct rc_err *err)
+{
+    enum rc_status status = RC_OK;
+
+    for (size_t k = 0; k < a->rows.n * a->shape.nx && status == RC_OK; k++)
+        if (!isfinite(h[k]))
+            status = rc_err_set(err, "height %zu is not a finite number",
+                                node_of(&a->rows, &a->shape, k));
+    return rc_ranks_agree(a->rows.ranks, status, err);
+}
+
+static void
+find_mean(struct rc_adhesion_solver *a)
+{
+    a->mean_h = rc_ranks_sum_of(a->rows.ranks, a->h, a->shape.nx * a->gap.problem.on_map) /
+                (double)(a->shape.nx * a->shape.ny);
 }
 
 /* Takes the heights h, which include the dents (NULL: none); approaches count from first touch without
@@ -352,38 +440,44 @@ check_heights(const struct rc_shape *shape, const double *h, struct rc_err *err)
 static void
 take_heights(struct rc_adhesion_solver *a, const double *h, const double *dent)
 {
-    size_t n = a->shape.nx * a->shape.ny;
     double top = -INFINITY;
 
-    for (size_t k = 0; k < n; k++)
+    for (size_t k = 0; k < a->rows.n * a->shape.nx; k++)
         top = fmax(top, dent != NULL ? h[k] - dent[k] : h[k]);
-    for (size_t k = 0; k < n; k++)
-        a->h[k] = (h[k] - top) / a->whole->length;
-    a->mean_h = rc_sum(a->h, n) / (double)n;
+    top = rc_ranks_most(a->rows.ranks, top);
+    take_map(a, h, a->h);
+    for (size_t k = 0; k < a->gap.problem.on_map * a->shape.nx; k++)
+        a->h[k] = (a->h[k] - top) / a->whole->length;
+    find_mean(a);
 }
 
+/* n: nodes of the map in the rows of the grid held here. */
 static enum rc_status
-take_hardness(const struct rc_shape *shape, const struct rc_whole *whole,
-              const struct rc_problem *c, double *hard, double **hards, struct rc_err *err)
+take_hardness(const struct rc_adhesion_solver *a, const struct rc_problem *c, size_t n,
+              double *hard, double **hards, struct rc_err *err)
 {
-    size_t n = shape->nx * shape->ny;
+    enum rc_status status = RC_OK;
 
-    *hard = c->hardness > 0 ? c->hardness / whole->modulus : INFINITY;
+    *hard = c->hardness > 0 ? c->hardness / a->whole->modulus : INFINITY;
     *hards = NULL;
     if (c->hardness_map == NULL)
         return RC_OK;
-    *hards = rc_alloc(n, sizeof **hards);
-    if (*hards == NULL)
-        return rc_err_set(err, "out of memory for the hardness of %zu nodes", n);
-    for (size_t k = 0; k < n; k++) {
-        double is = c->hardness_map[k];
-        if (!(is > 0) && !isnan(is)) {
-            free(*hards);
-            *hards = NULL;
-            return rc_err_set(err, "hardness %g Pa of node %zu: it must be positive", is, k);
-        }
-        (*hards)[k] = isnan(is) ? INFINITY : is / whole->modulus;
+    if ((*hards = rc_alloc(n, sizeof **hards)) == NULL)
+        status = rc_err_set(err, "out of memory for the hardness of %zu nodes", n);
+    for (size_t k = 0; k < a->rows.n * a->shape.nx && status == RC_OK; k++) {
+        const double is = c->hardness_map[k];
+        if (!(is > 0) && !isnan(is))
+            status = rc_err_set(err, "hardness %g Pa of node %zu: it must be positive", is,
+                                node_of(&a->rows, &a->shape, k));
     }
+    if (rc_ranks_agree(a->rows.ranks, status, err) != RC_OK) {
+        free(*hards);
+        *hards = NULL;
+        return RC_FAIL;
+    }
+    take_map(a, c->hardness_map, *hards);
+    for (size_t k = 0; k < n; k++)
+        (*hards)[k] = isnan((*hards)[k]) ? INFINITY : (*hards)[k] / a->whole->modulus;
     return RC_OK;
 }
 
@@ -406,8 +500,25 @@ rc_adhesion_solver_free(struct rc_adhesion_solver *a)
     rc_whole_free(a->whole);
     for (size_t k = 0; k < RC_RETRACTION_KEPT; k++)
         free(a->pull.kept[k]);
+    free(a->dealt.given);
     free(a->h);
     free(a);
+}
+
+/* Memory for heights, and the hardness. */
+static enum rc_status
+take_maps(struct rc_adhesion_solver *a, const struct rc_problem *c, struct rc_err *err)
+{
+    struct rc_gap_problem *p = &a->gap.problem;
+
+    p->h = a->h = rc_alloc(a->shape.nx * p->on_map, sizeof *a->h);
+    if (rc_ranks_need(a->rows.ranks, a->h != NULL, err,
+                      "out of memory for the adhesion of %zu x %zu nodes", a->shape.nx,
+                      a->shape.ny) != RC_OK ||
+        take_hardness(a, c, a->shape.nx * p->on_map, &p->hard, &p->hards, err) != RC_OK)
+        return RC_FAIL;
+    p->yields = p->hards != NULL || !isinf(p->hard);
+    return RC_OK;
 }
 
 /* A path without heights. */
@@ -417,28 +528,29 @@ path_new(const struct rc_shape *shape, const struct rc_adhesion_problem *problem
 {
     const struct rc_problem *c = &problem->contact;
     const struct rc_operator_options options = {
-        .boundary = c->boundary, .pair = &c->pair, .threads = c->threads};
+        .boundary = c->boundary, .pair = &c->pair, .threads = c->threads, .ranks = c->ranks};
     struct rc_adhesion_scales scales;
     struct rc_attraction law;
     struct rc_adhesion_solver *a;
-    double nodes = (double)shape->nx * (double)shape->ny, hard, *hards;
+    double nodes = (double)shape->nx * (double)shape->ny;
 
     if (attraction_of(shape, problem, &law, &scales, err) != RC_OK)
         return NULL;
     a = calloc(1, sizeof *a);
-    if (a == NULL || (a->h = rc_alloc(shape->nx * shape->ny, sizeof *a->h)) == NULL) {
-        rc_err_set(err, "out of memory for the adhesion of %zu x %zu nodes", shape->nx, shape->ny);
+    if (rc_ranks_need(c->ranks, a != NULL, err, "out of memory for the adhesion of %zu x %zu nodes",
+                      shape->nx, shape->ny) != RC_OK) {
         free(a);
         return NULL;
     }
     a->shape = *shape;
+    a->rows = rc_rows_of(c->ranks, shape);
     a->scales = scales;
     a->asked.tol = fmin(loosest, c->tol > 0 ? c->tol : pow(nodes, -0.75));
     a->asked.max_iterations =
         c->max_iterations > 0 ? c->max_iterations : 100 + (size_t)(10 * sqrt(nodes));
     if ((a->whole = rc_whole_new(shape, &options, err)) == NULL ||
-        take_hardness(&a->shape, a->whole, c, &hard, &hards, err) != RC_OK ||
-        rc_gap_new(&a->gap, a->whole, &law, a->h, hard, hards, err) != RC_OK) {
+        rc_gap_new(&a->gap, a->whole, &law, err) != RC_OK || deal(a, err) != RC_OK ||
+        take_maps(a, c, err) != RC_OK) {
         rc_adhesion_solver_free(a);
         return NULL;
     }
@@ -447,13 +559,36 @@ path_new(const struct rc_shape *shape, const struct rc_adhesion_problem *problem
 
 /* ---- a start from coarser grids ---- */
 
-/* Every other node of a map, times a factor. */
+/* Every other node of the first `rows` rows of a map nx wide, times a factor. */
 static void
-sample(const struct rc_shape *fine, const double *v, double factor, double *to)
+sample(size_t nx, size_t rows, const double *v, double factor, double *to)
 {
-    for (size_t j = 0; j < fine->ny; j += 2)
-        for (size_t i = 0; i < fine->nx; i += 2)
-            *to++ = factor * v[j * fine->nx + i];
+    for (size_t j = 0; j < rows; j += 2)
+        for (size_t i = 0; i < nx; i += 2)
+            *to++ = factor * v[j * nx + i];
+}
+
+/* The hardness of the coarser map, for path_new. NULL if memory is short on a rank. */
+static double *
+coarse_hardness(const struct rc_adhesion_solver *fine, const struct rc_shape *shape,
+                const double *map)
+{
+    const struct rc_ranks *ranks = fine->rows.ranks;
+    const size_t each = rc_ranks_count(ranks) + 1, rows = rc_rows_of(ranks, shape).n;
+    RC_OWNED size_t *starts = malloc(2 * each * sizeof *starts);
+    RC_OWNED double *under = rc_alloc((fine->rows.n + 1) / 2 * shape->nx, sizeof *under);
+    RC_OWNED double *own = rc_alloc(rows * shape->nx, sizeof *own);
+    const bool has = starts != NULL && under != NULL && own != NULL;
+
+    if (rc_ranks_agree(ranks, has ? RC_OK : RC_FAIL, NULL) != RC_OK)
+        return NULL;
+    sample(fine->shape.nx, fine->rows.n, map, 1, under);
+    if (ranks == NULL)
+        return rc_give(&under);
+    set_starts(ranks, &fine->shape, fine->shape.ny, true, starts);
+    set_starts(ranks, shape, shape->ny, false, starts + each);
+    rc_ranks_move(ranks, shape->nx * sizeof *own, starts, starts + each, 0, under, own);
+    return rc_give(&own);
 }
 
 /* The law on a coarser grid: the same work, and a range that the grid resolves. */
@@ -488,13 +623,14 @@ coarse_new(const struct rc_adhesion_solver *fine, const struct rc_adhesion_probl
     if (!fine->gap.problem.law.law->info.ranged) /* the first law, with a range of its own */
         p.law = NULL;
     if (p.contact.hardness_map != NULL) {
-        if ((hards = rc_alloc(shape.nx * shape.ny, sizeof *hards)) == NULL)
+        if ((hards = coarse_hardness(fine, &shape, p.contact.hardness_map)) == NULL)
             return NULL;
-        sample(f, p.contact.hardness_map, 1, hards);
         p.contact.hardness_map = hards;
     }
     a = path_new(&shape, &p, NULL);
     if (a != NULL) {
+        if (a->dealt.finer != NULL)
+            set_starts(a->rows.ranks, &fine->whole->grid, fine->shape.ny, true, a->dealt.finer);
         a->grids.rough = true;
         a->grids.coarse = coarse_new(a, &p);
     }
@@ -510,7 +646,7 @@ rc_adhesion_solver_new(const struct rc_shape *shape, const double *h,
 
     if (a == NULL)
         return NULL;
-    if (check_heights(&a->shape, h, err) != RC_OK) {
+    if (check_heights(a, h, err) != RC_OK) {
         rc_adhesion_solver_free(a);
         return NULL;
     }
@@ -541,14 +677,12 @@ set(struct rc_adhesion_solver *a, enum rc_gap_control control, double given)
 static double
 most_load(const struct rc_adhesion_solver *a)
 {
-    size_t n = a->shape.nx * a->shape.ny;
-    double sum = 0;
+    const struct rc_gap_problem *p = &a->gap.problem;
+    struct rc_total sum = {0};
 
-    for (size_t k = 0; k < n; k++) {
-        double hard = a->gap.problem.hards != NULL ? a->gap.problem.hards[k] : a->gap.problem.hard;
-        sum += fmax(hard - a->gap.problem.law.strength, 0);
-    }
-    return sum * a->whole->modulus * a->shape.dx * a->shape.dy;
+    for (size_t k = 0; k < a->shape.nx * p->on_map; k++)
+        rc_total_add(&sum, fmax((p->hards != NULL ? p->hards[k] : p->hard) - p->law.strength, 0));
+    return rc_ranks_total(a->rows.ranks, sum) * a->whole->modulus * a->shape.dx * a->shape.dy;
 }
 
 enum rc_status
@@ -565,7 +699,7 @@ rc_adhesion_solver_set_load(struct rc_adhesion_solver *a, double load, struct rc
             "the map carries only %.9g N: lower the load or raise the hardness",
             load, a->scales.strength, most);
     a->pull.on = false;
-    set(a, RC_GAP_LOAD, load / cell / a->whole->modulus / (double)a->gap.problem.n);
+    set(a, RC_GAP_LOAD, load / cell / a->whole->modulus / (double)a->gap.problem.all);
     return RC_OK;
 }
 
@@ -652,11 +786,15 @@ begin_coarse(struct rc_adhesion_solver *a)
     const double units =
         a->asked.control != RC_GAP_LOAD
             ? ratio
-            : a->whole->modulus * (double)a->gap.problem.n * a->shape.dx * a->shape.dy /
-                  (c->whole->modulus * (double)c->gap.problem.n * c->shape.dx * c->shape.dy);
+            : a->whole->modulus * (double)a->gap.problem.all * a->shape.dx * a->shape.dy /
+                  (c->whole->modulus * (double)c->gap.problem.all * c->shape.dx * c->shape.dy);
+    double *to = c->dealt.finer != NULL ? a->gap.maps.step : c->h;
 
-    sample(&a->shape, a->h, ratio, c->h);
-    c->mean_h = rc_sum(c->h, c->shape.nx * c->shape.ny) / (double)(c->shape.nx * c->shape.ny);
+    sample(a->shape.nx, a->gap.problem.on_map, a->h, ratio, to);
+    if (c->dealt.finer != NULL)
+        rc_ranks_move(c->rows.ranks, c->shape.nx * sizeof *to, c->dealt.finer, c->dealt.held, 0, to,
+                      c->h);
+    find_mean(c);
     rc_gap_apart(&c->gap, 0);
     set(c, a->asked.control, units * a->asked.given);
     a->stage = STAGE_COARSE;
@@ -722,17 +860,25 @@ is_strip(const struct rc_adhesion_solver *a)
 {
     const struct rc_gap_problem *p = &a->gap.problem;
     const struct rc_boundary boundary = a->whole->boundary;
-    const size_t lines = boundary.x ? p->nx : p->ny, along = boundary.x ? p->ny : p->nx;
+    const size_t lines = boundary.x ? p->nx : p->on_map, along = boundary.x ? p->on_map : p->nx;
+    const struct rc_ranks *ranks = p->rows.ranks;
+    double open = 0, *touched = boundary.x ? a->gap.maps.beside : NULL;
 
     if (rc_repeats(boundary) != 1)
         return false;
     for (size_t j = 0, i = 0; j < lines; j++, i = 0) {
         while (i < along && a->gap.maps.x[boundary.x ? i * p->px + j : j * p->px + i] > 0)
             i++;
-        if (i == along)
-            return false;
+        if (touched != NULL) /* a line has nodes on several ranks */
+            touched[j] = i < along;
+        else if (i == along)
+            open = 1;
     }
-    return true;
+    if (touched != NULL)
+        rc_ranks_each_most(ranks, lines, touched);
+    for (size_t j = 0; j < lines && touched != NULL; j++)
+        open = touched[j] > 0 ? open : 1;
+    return rc_ranks_most(ranks, open) == 0;
 }
 
 /* A circle of this radius, over the length, or a strip of the same area along the axis that repeats. In the
@@ -849,8 +995,8 @@ convolutions(const struct rc_adhesion_solver *a)
 {
     return a->stage != STAGE_COARSE
                ? a->gap.run.convolutions
-               : convolutions(a->grids.coarse) * (double)a->grids.coarse->gap.problem.n /
-                     (double)a->gap.problem.n;
+               : convolutions(a->grids.coarse) * (double)a->grids.coarse->gap.problem.all /
+                     (double)a->gap.problem.all;
 }
 
 /* The state on the coarser grid is the start on this grid. Bodies that separate there start as without it. */
@@ -863,8 +1009,7 @@ end_coarse(struct rc_adhesion_solver *a)
     if (c->stage == STAGE_COARSE)
         end_coarse(c);
     sum = convolutions(a);
-    if (!c->separated) {
-        rc_gap_refine(&a->gap, &c->gap);
+    if (!c->separated && rc_gap_refine(&a->gap, &c->gap)) {
         a->gap.set.control = a->asked.control;
         a->gap.set.given = a->asked.given;
     }
@@ -1055,16 +1200,19 @@ enum rc_status
 rc_adhesion_solver_pull_off(struct rc_adhesion_solver *a, struct rc_err *err)
 {
     struct retraction *p = &a->pull;
+    bool has = true;
 
     if (!a->past.begun)
         return rc_err_set(
             err, "a retraction needs a state to start from: set a load or an approach first");
     for (size_t k = 0; k < RC_RETRACTION_KEPT; k++) {
-        double *kept = p->kept[k] != NULL ? p->kept[k] : rc_alloc(a->gap.problem.n, sizeof *kept);
-        if (kept == NULL)
-            return rc_err_set(err, "out of memory for a retraction of %zu nodes", a->gap.problem.n);
-        p->kept[k] = kept;
+        if (p->kept[k] == NULL)
+            p->kept[k] = rc_alloc(a->gap.problem.n, sizeof *p->kept[k]);
+        has &= p->kept[k] != NULL;
     }
+    if (rc_ranks_need(a->rows.ranks, has, err, "out of memory for a retraction of %zu nodes",
+                      a->gap.problem.all) != RC_OK)
+        return RC_FAIL;
     if (a->gap.problem.yields)
         rc_adhesion_solver_keep_shape(a, NULL);
     p->on = true;
@@ -1186,11 +1334,14 @@ at_edge(const struct rc_gap *g)
 
     if (!rc_has_mean(boundary))
         return 0;
-    for (size_t j = 0; j < g->problem.ny; j++)
-        for (size_t i = 0; i < g->problem.nx; i++)
-            if ((!boundary.y && g->problem.ny > 1 && (j == 0 || j + 1 == g->problem.ny)) ||
+    for (size_t j = 0; j < g->problem.on_map; j++)
+        for (size_t i = 0; i < g->problem.nx; i++) {
+            const size_t at = g->problem.rows.first + j;
+            if ((!boundary.y && g->problem.ny > 1 && (at == 0 || at + 1 == g->problem.ny)) ||
                 (!boundary.x && g->problem.nx > 1 && (i == 0 || i + 1 == g->problem.nx)))
                 nearest = fmin(nearest, g->maps.x[j * g->problem.px + i]);
+        }
+    nearest = -rc_ranks_most(g->problem.rows.ranks, -nearest);
     if (isinf(nearest))
         return 0;
     nearest = fmax(nearest, 0);
@@ -1306,51 +1457,60 @@ rc_adhesion_solver_result(struct rc_adhesion_solver *a)
 void
 rc_adhesion_solver_pressure(const struct rc_adhesion_solver *a, double *pressure)
 {
-    for (size_t j = 0; j < a->gap.problem.ny; j++)
+    double *to = map_for(a, pressure);
+
+    for (size_t j = 0; j < a->gap.problem.on_map; j++)
         for (size_t i = 0; i < a->gap.problem.nx; i++)
-            pressure[j * a->gap.problem.nx + i] =
+            to[j * a->gap.problem.nx + i] =
                 a->stage == STAGE_COARSE
                     ? 0
                     : rc_gap_pressure_at(&a->gap.set, a->gap.maps.au, j * a->gap.problem.px + i) *
                           a->whole->modulus;
+    give_map(a, pressure);
 }
 
 void
 rc_adhesion_solver_gap(const struct rc_adhesion_solver *a, double *gap)
 {
-    for (size_t j = 0; j < a->gap.problem.ny; j++)
+    double *to = map_for(a, gap);
+
+    for (size_t j = 0; j < a->gap.problem.on_map; j++)
         for (size_t i = 0; i < a->gap.problem.nx; i++)
-            gap[j * a->gap.problem.nx + i] =
+            to[j * a->gap.problem.nx + i] =
                 a->gap.maps.x[j * a->gap.problem.px + i] * a->whole->length;
+    give_map(a, gap);
 }
 
 void
 rc_adhesion_solver_displacement(const struct rc_adhesion_solver *a, double *displacement)
 {
     const struct rc_gap *g = &a->gap;
-    double c = rc_gap_shift(g);
+    double c = rc_gap_shift(g), *to = map_for(a, displacement);
 
-    for (size_t j = 0; j < g->problem.ny; j++)
+    for (size_t j = 0; j < g->problem.on_map; j++)
         for (size_t i = 0; i < g->problem.nx; i++)
-            displacement[j * g->problem.nx + i] =
+            to[j * g->problem.nx + i] =
                 (g->maps.x[j * g->problem.px + i] + g->problem.h[j * g->problem.nx + i] + c) *
                 a->whole->length;
+    give_map(a, displacement);
 }
 
 void
 rc_adhesion_solver_traction(const struct rc_adhesion_solver *a, double *traction)
 {
     const struct rc_gap *g = &a->gap;
+    double *to = map_for(a, traction);
 
-    for (size_t j = 0; j < g->problem.ny; j++)
+    for (size_t j = 0; j < g->problem.on_map; j++)
         for (size_t i = 0; i < g->problem.nx; i += RC_GAP_LINE) {
             size_t n = g->problem.nx - i < RC_GAP_LINE ? g->problem.nx - i : RC_GAP_LINE;
             double v[RC_GAP_LINE], d[RC_GAP_LINE];
             g->problem.law.law->at(&g->problem.law, n, g->maps.x + j * g->problem.px + i, v,
-                                   traction + j * g->problem.nx + i, d);
+                                   to + j * g->problem.nx + i, d);
             for (size_t k = 0; k < n; k++)
-                traction[j * g->problem.nx + i + k] *= a->whole->modulus;
+                to[j * g->problem.nx + i + k] *= a->whole->modulus;
         }
+    give_map(a, traction);
 }
 
 void
@@ -1370,7 +1530,7 @@ rc_adhesion_solver_progress(const struct rc_adhesion_solver *a,
         .iterations = at->stage == STAGE_NEW ? 0 : at->way.iterations + g->run.iterations,
         .eigenvalue = a->stage == STAGE_EIGEN,
         .load = a->asked.control == RC_GAP_LOAD && a->asked.held
-                    ? a->asked.given * (double)a->gap.problem.n * a->shape.dx * a->shape.dy *
+                    ? a->asked.given * (double)a->gap.problem.all * a->shape.dx * a->shape.dy *
                           a->whole->modulus
                     : NAN,
         .approach = a->asked.control == RC_GAP_LOAD || !a->asked.held ? NAN
@@ -1415,26 +1575,32 @@ rc_adhesion_solver_start(struct rc_adhesion_solver *a, const double *pressure, d
 {
     struct rc_gap *g = &a->gap;
     double c = approach / a->whole->length;
+    enum rc_status status = RC_OK;
 
     if (!isfinite(approach))
         return rc_err_set(err, "approach %g m: it must be finite", approach);
-    for (size_t k = 0; k < g->problem.nx * g->problem.ny; k++)
+    for (size_t k = 0; k < a->rows.n * a->shape.nx && status == RC_OK; k++)
         if (!isfinite(pressure[k]))
-            return rc_err_set(err, "pressure %zu is not a finite number", k);
+            status = rc_err_set(err, "pressure %zu is not a finite number",
+                                node_of(&a->rows, &a->shape, k));
         else if (fabs(pressure[k]) > most_pressure * a->whole->modulus)
-            return rc_err_set(err, "pressure %zu, %g Pa, is more than %g of E*", k, pressure[k],
-                              most_pressure);
+            status = rc_err_set(err, "pressure %zu, %g Pa, is more than %g of E*",
+                                node_of(&a->rows, &a->shape, k), pressure[k], most_pressure);
+    if (rc_ranks_agree(a->rows.ranks, status, err) != RC_OK)
+        return RC_FAIL;
     free_coarse(&a->grids);
     memset(g->maps.d, 0, g->problem.n * sizeof *g->maps.d);
-    for (size_t j = 0; j < g->problem.ny; j++)
+    take_map(a, pressure, g->maps.step);
+    for (size_t j = 0; j < g->problem.on_map; j++)
         for (size_t i = 0; i < g->problem.nx; i++)
-            g->maps.d[j * g->problem.px + i] = pressure[j * g->problem.nx + i] / a->whole->modulus;
+            g->maps.d[j * g->problem.px + i] =
+                g->maps.step[j * g->problem.nx + i] / a->whole->modulus;
     rc_whole_apply(a->whole, g->maps.d, g->maps.x);
-    for (size_t j = 0; j < g->problem.py; j++)
+    for (size_t j = 0; j < g->problem.rows.n; j++)
         for (size_t i = 0; i < g->problem.px; i++) {
             double *x = g->maps.x + j * g->problem.px + i, p = g->maps.d[j * g->problem.px + i];
             *x -= c;
-            if (j >= g->problem.ny || i >= g->problem.nx)
+            if (i >= rc_gap_on_map(&g->problem, j))
                 continue;
             *x -= a->h[j * g->problem.nx + i];
             /* in contact within rounding; without a hardness no gap is negative */
@@ -1456,15 +1622,15 @@ rc_adhesion_solver_set_heights(struct rc_adhesion_solver *a, const double *h, co
     struct rc_gap *g = &a->gap;
     const double c = a->past.begun ? rc_gap_shift(g) : 0;
 
-    if (check_heights(&a->shape, h, err) != RC_OK)
+    if (check_heights(a, h, err) != RC_OK)
         return RC_FAIL;
-    for (size_t j = 0; j < g->problem.ny; j++)
+    for (size_t j = 0; j < g->problem.on_map; j++)
         for (size_t i = 0; i < g->problem.nx; i++)
             g->maps.x[j * g->problem.px + i] += a->h[j * g->problem.nx + i];
     take_heights(a, h, dent);
     a->past.dents[0] = a->past.dents[1] = 0;
     a->pull.on = false;
-    for (size_t j = 0; j < g->problem.ny; j++)
+    for (size_t j = 0; j < g->problem.on_map; j++)
         for (size_t i = 0; i < g->problem.nx; i++) {
             double *x = g->maps.x + j * g->problem.px + i;
             *x = fmax(*x - a->h[j * g->problem.nx + i], 0);
@@ -1482,21 +1648,29 @@ void
 rc_adhesion_solver_keep_shape(struct rc_adhesion_solver *a, double *h)
 {
     struct rc_gap *g = &a->gap;
-    bool dented = false;
+    struct rc_total sum = {0};
+    double dented = 0, shift;
 
-    for (size_t j = 0; j < g->problem.ny; j++)
+    if (h != NULL && a->dealt.moves) /* the new shape is made with the rows of the grid */
+        rc_ranks_move(a->rows.ranks, a->shape.nx * sizeof *h, a->dealt.given, a->dealt.held, 0, h,
+                      g->maps.step);
+    for (size_t j = 0; j < g->problem.on_map; j++)
         for (size_t i = 0; i < g->problem.nx; i++) {
             double *x = g->maps.x + j * g->problem.px + i;
             if (!(*x < 0))
                 continue;
-            dented = true;
+            dented = 1;
             a->h[j * g->problem.nx + i] += *x;
-            a->mean_h += *x / (double)(g->problem.nx * g->problem.ny);
+            rc_total_add(&sum, *x);
             if (h != NULL)
-                h[j * g->problem.nx + i] += *x * a->whole->length;
+                map_for(a, h)[j * g->problem.nx + i] += *x * a->whole->length;
             *x = 0;
         }
-    if (dented && !isinf(g->told.error)) {
+    if (h != NULL)
+        give_map(a, h);
+    rc_ranks_totals(a->rows.ranks, 1, &sum, &shift, 1, &dented);
+    a->mean_h += shift / (double)(g->problem.nx * g->problem.ny);
+    if (dented > 0 && !isinf(g->told.error)) {
         a->past.dents[0] += own_error(&a->gap, &a->stability, a->asked.control);
         a->past.dents[1] += own_error(&a->gap, &a->stability, a->asked.control) * g->told.size;
     }
@@ -1522,10 +1696,11 @@ rc_adhesion_expect(const struct rc_shape *shape, const struct rc_adhesion_proble
                         rc_by_padding(problem->contact.boundary, RC_ADHESION_FREE, 1) *
                         pow(nodes / 16384, 0.25),
         .memory = (size_t)((rc_by_padding(problem->contact.boundary, bytes[0], bytes[1]) + mapped) *
-                           nodes)};
+                           nodes / (double)rc_ranks_count(problem->contact.ranks))};
     expected->seconds =
         RC_ADHESION_PASSES * expected->convolutions *
         rc_conv_seconds(shape, &(struct rc_conv_options){.boundary = problem->contact.boundary,
-                                                         .threads = problem->contact.threads});
+                                                         .threads = problem->contact.threads,
+                                                         .ranks = problem->contact.ranks});
     return RC_OK;
 }

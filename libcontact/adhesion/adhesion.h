@@ -28,8 +28,9 @@ enum rc_status rc_adhesion_attraction(const struct rc_shape *shape,
 
 /* ---- a path of states ---- */
 
-/* h: nx ny m, copied. NULL when the problem is invalid, among ranks, when the engine or method does not suit
- * it, or memory is short. The path starts with undeformed bodies. */
+/* h: nx ny m, copied. NULL when the problem is invalid, when the engine or method does not suit it, or memory
+ * is short. The path starts with undeformed bodies. Among ranks maps are the rows held here, and all ranks
+ * call every function; of `progress` each rank has the same. */
 struct rc_adhesion_solver *rc_adhesion_solver_new(const struct rc_shape *shape, const double *h,
                                                   const struct rc_adhesion_problem *problem,
                                                   struct rc_err *err);

@@ -167,7 +167,7 @@ find_au(struct rc_gap *g)
     rc_whole_rows(g->problem.whole, RC_WHOLE_INVERSE, u_in, u_out, g);
     rc_sums_total(&g->sums, sums);
     if (g->set.control == RC_GAP_LOAD)
-        take_mean(g->maps.au, g->problem.n, sums[AU_SUM] / (double)g->problem.n, g->sums.threads);
+        take_mean(g->maps.au, g->problem.n, sums[AU_SUM] / (double)g->problem.all, g->sums.threads);
     g->run.convolutions++;
     g->told.drift = g->told.cuts = 0;
 }
@@ -254,7 +254,7 @@ find_residual(struct rc_gap *g)
     rc_sums_rows(&g->sums, hold_row, g, sums);
     g->residual.free = (size_t)sums[HOLD_FREE];
     g->way.same = sums[HOLD_CHANGED] == 0;
-    g->residual.mean = g->set.control != RC_GAP_MEAN ? sums[HOLD_SUM] / (double)g->problem.n
+    g->residual.mean = g->set.control != RC_GAP_MEAN ? sums[HOLD_SUM] / (double)g->problem.all
                        : g->residual.free > 0        ? sums[HOLD_SUM] / sums[HOLD_FREE]
                                                      : 0;
     g->residual.largest = sums[HOLD_LARGEST];
@@ -512,13 +512,13 @@ find_ad(struct rc_gap *g)
     rc_whole_rows(g->problem.whole, RC_WHOLE_ROUGH_INVERSE, d_in, ad_out, g);
     rc_sums_total(&g->sums, sums);
     g->run.convolutions += 0.5;
-    mean = g->set.control == RC_GAP_LOAD ? sums[AD_SUM] / (double)g->problem.n : 0;
+    mean = g->set.control == RC_GAP_LOAD ? sums[AD_SUM] / (double)g->problem.all : 0;
     take_mean(g->maps.ad, g->problem.n, mean, g->sums.threads);
     g->told.size = sums[AD_PRESSURE];
     g->told.moves = sums[AD_MOVES];
     g->told.change = sums[AD_CHANGE];
     find_error(&g->problem, &g->told);
-    g->way.mean = sums[AD_D] / (double)g->problem.n;
+    g->way.mean = sums[AD_D] / (double)g->problem.all;
     return fmax(sums[AD_DAD] - mean * sums[AD_D], single * sums[AD_DAD_SIZE]);
 }
 
@@ -598,7 +598,7 @@ lower_row(void *ctx, size_t j, double *sums)
 static void
 keep_mean(struct rc_gap *g, double sum, double count)
 {
-    const double want = g->set.given * (double)g->problem.n;
+    const double want = g->set.given * (double)g->problem.all;
     double sums[RC_GAP_SUMS] = {[RC_GAP_CLIP_SUM] = sum, [RC_GAP_CLIP_OPEN] = count};
 
     for (int k = 0; k < NEWTON && sums[RC_GAP_CLIP_OPEN] > 0; k++) {
@@ -696,7 +696,7 @@ rise(struct rc_gap *g, bool known, double *least)
         g->run.convolutions += 0.5;
         g->told.cut = 0;
     }
-    mean = g->set.control == RC_GAP_LOAD ? sums[STEP_AS] / (double)g->problem.n : 0;
+    mean = g->set.control == RC_GAP_LOAD ? sums[STEP_AS] / (double)g->problem.all : 0;
     take_mean(g->maps.a_step, g->problem.n, mean, g->sums.threads);
     rc_sums_rows(&g->sums, step_law_row, g, law);
     *least = 1e-14 * (law[STEP_V_SIZE] + fabs(sums[STEP_SAU])) + single * fabs(sums[STEP_SAS]);
@@ -1005,16 +1005,16 @@ rc_gap_shift(const struct rc_gap *g)
     if (g->set.control == RC_GAP_SHIFT)
         return g->set.given;
     rc_sums_rows(&g->sums, mean_row, &g, sums);
-    mean = sums[MEAN_SUM] / (double)g->problem.n;
+    mean = sums[MEAN_SUM] / (double)g->problem.all;
     return (g->set.control == RC_GAP_LOAD ? g->problem.whole->mean * g->set.given : 0) - mean;
 }
 
 void
 rc_gap_apart(struct rc_gap *g, double clearance)
 {
-    for (size_t j = 0; j < g->problem.py; j++)
+    for (size_t j = 0; j < g->problem.rows.n; j++)
         for (size_t i = 0; i < g->problem.px; i++) {
-            bool map = j < g->problem.ny && i < g->problem.nx;
+            bool map = i < rc_gap_on_map(&g->problem, j);
             g->maps.x[j * g->problem.px + i] =
                 clearance - (map ? g->problem.h[j * g->problem.nx + i] : 0);
         }
@@ -1059,7 +1059,7 @@ shift(struct rc_gap *g, double a)
         return;
     }
     for (int k = 0; k < NEWTON && g->set.control == RC_GAP_MEAN && sums[SHIFT_OPEN] > 0; k++) {
-        by.a = (g->set.given * (double)g->problem.n - sums[SHIFT_SUM]) / sums[SHIFT_OPEN];
+        by.a = (g->set.given * (double)g->problem.all - sums[SHIFT_SUM]) / sums[SHIFT_OPEN];
         if (fabs(by.a) <= 1e-15 * g->set.given)
             break;
         rc_sums_rows(&g->sums, shift_row, &by, sums);
@@ -1112,9 +1112,12 @@ static void
 edges_row(void *ctx, size_t j, double *sums)
 {
     const struct rc_gap *g = ctx;
-    const double *x = g->maps.x + j * g->problem.px,
-                 *next = j + 1 < g->problem.ny ? x + g->problem.px : x;
+    const struct rc_rows *rows = &g->problem.rows;
+    const double *x = g->maps.x + j * g->problem.px, *next = x;
     const size_t m = rc_gap_on_map(&g->problem, j);
+
+    if (rows->first + j + 1 < g->problem.ny)
+        next = j + 1 < rows->n ? x + g->problem.px : g->maps.beside + g->problem.px;
 
     for (size_t i = 0; i < m; i++)
         sums[EDGES] +=
@@ -1129,10 +1132,16 @@ edges_row(void *ctx, size_t j, double *sums)
 static double
 pinning(struct rc_gap *g)
 {
-    double sums[RC_GAP_SUMS];
+    const struct rc_gap_problem *p = &g->problem;
+    double sums[RC_GAP_SUMS], *x = g->maps.x, *beside = g->maps.beside;
+    bool has[2];
 
+    if (p->rows.ranks != NULL)
+        rc_ranks_beside(&p->rows, false, p->px * sizeof *x, x,
+                        x + (p->rows.n > 0 ? p->rows.n - 1 : 0) * p->px, beside, beside + p->px,
+                        has);
     rc_sums_rows(&g->sums, edges_row, g, sums);
-    return sums[EDGES] / 4 / (double)g->problem.n;
+    return sums[EDGES] / 4 / (double)p->all;
 }
 
 /* The compliance of a wave, with this stiffness added. */
@@ -1232,7 +1241,7 @@ energy_row(void *ctx, size_t j, double *sums)
 struct rc_gap_energy
 rc_gap_energy(struct rc_gap *g, enum rc_gap_control control)
 {
-    double sums[RC_GAP_SUMS], n = (double)g->problem.n, c = rc_gap_shift(g);
+    double sums[RC_GAP_SUMS], n = (double)g->problem.all, c = rc_gap_shift(g);
     struct rc_gap_energy e;
 
     rc_sums_rows(&g->sums, energy_row, g, sums);
@@ -1260,11 +1269,14 @@ enum {
 
 enum rc_status
 rc_gap_new(struct rc_gap *g, struct rc_whole *whole, const struct rc_attraction *law,
-           const double *h, double hard, double *hards, struct rc_err *err)
+           struct rc_err *err)
 {
-    size_t n = whole->grid.nx * whole->grid.ny;
+    const struct rc_rows *rows = &whole->rows;
+    const size_t n = whole->grid.nx * rows->n;
+    const size_t left = rows->first < whole->map.ny ? whole->map.ny - rows->first : 0;
     double **room[DOUBLES] = {&g->maps.x, &g->maps.au, &g->maps.r,   &g->maps.z,
                               &g->maps.d, &g->maps.ad, &g->maps.step};
+    enum rc_status status;
 
     *g = (struct rc_gap){.problem = {.whole = whole,
                                      .law = *law,
@@ -1272,11 +1284,11 @@ rc_gap_new(struct rc_gap *g, struct rc_whole *whole, const struct rc_attraction 
                                      .ny = whole->map.ny,
                                      .px = whole->grid.nx,
                                      .py = whole->grid.ny,
+                                     .rows = *rows,
+                                     .on_map = left < rows->n ? left : rows->n,
                                      .n = n,
-                                     .h = h,
-                                     .hard = hard,
-                                     .hards = hards,
-                                     .yields = hards != NULL || !isinf(hard)}};
+                                     .all = whole->grid.nx * whole->grid.ny,
+                                     .hard = INFINITY}};
     for (size_t k = 0; k < DOUBLES; k++)
         *room[k] = rc_store_take(&g->own, n, sizeof(double));
     if (g->maps.step != NULL)
@@ -1291,12 +1303,13 @@ rc_gap_new(struct rc_gap *g, struct rc_whole *whole, const struct rc_attraction 
     g->maps.start = rc_store_take(&g->own, n, sizeof(float));
     g->maps.off = rc_store_zeros(&g->own, n, 1);
     g->maps.a_step = g->maps.r;
-    if (rc_sums_new(&g->sums, NULL, g->problem.py, RC_GAP_MOST, RC_GAP_SUMS - RC_GAP_MOST,
-                    whole->threads) == RC_OK &&
-        !g->own.failed)
-        return RC_OK;
-    return rc_err_set(err, "out of memory for the adhesion of %zu x %zu nodes", g->problem.nx,
-                      g->problem.ny);
+    if (rows->ranks != NULL)
+        g->maps.beside = rc_store_take(&g->own, 2 * g->problem.px, sizeof(double));
+    status = rc_sums_new(&g->sums, rows->ranks, rows->n, RC_GAP_MOST, RC_GAP_SUMS - RC_GAP_MOST,
+                         whole->threads);
+    return rc_ranks_need(rows->ranks, status == RC_OK && !g->own.failed, err,
+                         "out of memory for the adhesion of %zu x %zu nodes", g->problem.nx,
+                         g->problem.ny);
 }
 
 void

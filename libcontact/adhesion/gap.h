@@ -108,11 +108,14 @@ struct rc_gap_near {
 struct rc_gap_problem {
     struct rc_whole *whole;
     struct rc_attraction law;
-    size_t nx, ny, px, py, n; /* columns and rows of the map and of the grid; nodes of the grid */
-    const double *h;          /* nx ny                                                 */
-    double hard;              /* bound of p + sigma; INFINITY: none                    */
-    double *hards;            /* nx ny bounds in place of `hard`; NULL: the same for all nodes */
-    bool yields;              /* some node has such a bound                            */
+    size_t nx, ny, px, py; /* columns and rows of the map and of the grid */
+    struct rc_rows rows;   /* rows of the grid held here; row 0 is the first of them */
+    size_t on_map;         /* the number of these that are rows of the map */
+    size_t n, all;         /* nodes of the grid held here; of all ranks */
+    const double *h;       /* nx on_map */
+    double hard;           /* bound of p + sigma; INFINITY: none */
+    double *hards;         /* nx on_map bounds in place of `hard`; NULL: the same for all nodes */
+    bool yields;           /* some node has such a bound                            */
 };
 
 /* The quantity that is given, from rc_gap_begin. */
@@ -125,13 +128,14 @@ struct rc_gap_set {
     bool pinned;      /* the preconditioner contains it */
 };
 
-/* Maps of the grid. */
+/* Maps of the rows of the grid held here. */
 struct rc_gap_maps {
     /* x, A u, residual, its correction K r, direction d, A d; memory for a step */
     double *x, *au, *r, *z, *d, *ad, *step;
     double *a_step;     /* A times a step, in the memory of r, which is computed again */
     unsigned char *off; /* 1: the node is held at 0 */
     float *start;       /* x of the last state */
+    double *beside;     /* two rows; NULL: one rank has all rows */
 };
 
 /* The residual of the free nodes, which are those not held. */
@@ -165,10 +169,10 @@ struct rc_gap {
     struct rc_store own;
 };
 
-/* RC_FAIL if memory is short; call rc_gap_free in either case. h, hards: nx ny numbers of the caller. rc_gap
- * takes over hards, but not h. */
+/* RC_FAIL if memory is short on a rank; call rc_gap_free in either case. The caller then sets h, and the
+ * hardness: `hards` is freed with the gap. */
 enum rc_status rc_gap_new(struct rc_gap *g, struct rc_whole *whole, const struct rc_attraction *law,
-                          const double *h, double hard, double *hards, struct rc_err *err);
+                          struct rc_err *err);
 void rc_gap_free(struct rc_gap *g);
 
 /* Undeformed bodies, `clearance` apart at the highest node. */
@@ -202,11 +206,11 @@ rc_gap_pressure_at(const struct rc_gap_set *set, const double *au, size_t k)
 
 /* ---- between gap.c and stability.c ---- */
 
-/* Nodes of row j that are on the map. */
+/* Nodes of row j, of those held here, that are on the map. */
 static inline size_t
 rc_gap_on_map(const struct rc_gap_problem *problem, size_t j)
 {
-    return j < problem->ny ? problem->nx : 0;
+    return j < problem->on_map ? problem->nx : 0;
 }
 /* Computes V, sigma and D at n <= RC_GAP_LINE gaps of row j from node i on, with the hardness. */
 void rc_gap_law(const struct rc_gap_problem *problem, const struct rc_gap_frozen *frozen, size_t j,
@@ -221,12 +225,12 @@ void rc_gap_aim(struct rc_gap *g, double rd);
 
 /* Finds A times `step` without a convolution: `a` d with `cut` nodes cut off at 0. For a given mean, sum x
  * over the grid after the step is `sum`, and the step is changed to keep the mean. False if this does not
- * pay. */
+ * pay, or memory is short on a rank. */
 bool rc_gap_near(struct rc_gap *g, double a, size_t cut, double sum);
 /* ---- refine.c ---- */
 
-/* Starts from the gap on a grid with every other node of this one. */
-void rc_gap_refine(struct rc_gap *g, const struct rc_gap *coarse);
+/* Starts from the gap on a grid with every other node of this one. False if memory is short on a rank. */
+bool rc_gap_refine(struct rc_gap *g, const struct rc_gap *coarse);
 
 /* ---- stability.c ---- */
 

@@ -14,7 +14,7 @@
 struct adhesion {
     struct rc_model base;
     struct rc_adhesion_problem problem;
-    size_t n;
+    size_t n;     /* nodes of this rank */
     double *h;    /* m: present heights                                               */
     double *dent; /* m: present minus undeformed heights; NULL: no dents */
     struct rc_adhesion_solver
@@ -154,8 +154,9 @@ keep(struct rc_model *m, struct rc_err *err)
     a->pulls = false;
     if (a->figures.state.plastic_nodes == 0)
         return RC_OK;
-    if (!rc_store_need(&a->base.own, a->n, &a->dent))
-        return rc_err_set(err, "out of memory for the shape after yield");
+    if (rc_ranks_need(a->base.rows.ranks, rc_store_need(&a->base.own, a->n, &a->dent), err,
+                      "out of memory for the shape after yield") != RC_OK)
+        return RC_FAIL;
     for (size_t k = 0; k < a->n; k++)
         a->dent[k] -= a->h[k];
     rc_adhesion_solver_keep_shape(a->path, a->h);
@@ -206,17 +207,17 @@ read_dent(struct adhesion *a, struct rc_state *s, bool some)
     bool differ = false;
     struct rc_err err;
 
-    if (!rc_store_need(&a->base.own, a->n, &a->dent)) {
+    if (!rc_store_need(&a->base.own, a->n, &a->dent))
         rc_state_refuse(s, "memory is short");
+    if (!rc_state_agree(s, a->base.rows.ranks))
         return;
-    }
     for (size_t k = 0; k < a->n; k++) {
         const double dent = now != NULL ? now[k] : 0, more = dent - a->dent[k];
         differ |= more != 0;
         a->h[k] += more;
         a->dent[k] = dent;
     }
-    if (rc_state_reads(s) && differ && pass_heights(a, &err) != RC_OK)
+    if (rc_ranks_most(a->base.rows.ranks, differ) > 0 && pass_heights(a, &err) != RC_OK)
         rc_state_refuse(s, "its shape is not finite");
 }
 
@@ -228,7 +229,7 @@ read_path(struct adhesion *a, struct rc_state *s, double approach,
     const double *p = rc_state_read_map(s, a->n);
     struct rc_err err;
 
-    if (p == NULL)
+    if (!rc_state_agree(s, a->base.rows.ranks))
         return;
     if (make_path(a, &err) != RC_OK ||
         rc_adhesion_solver_start(a->path, p, approach, &err) != RC_OK)
@@ -367,12 +368,14 @@ rc_adhesion_new(const struct rc_shape *shape, const double *h,
     struct adhesion *a;
 
     if (rc_adhesion_check(shape, problem, &scales, err) != RC_OK ||
-        (m = rc_model_make(&rc_model_adhesion, sizeof *a, shape, NULL, err)) == NULL)
+        (m = rc_model_make(&rc_model_adhesion, sizeof *a, shape, problem->contact.ranks, err)) ==
+            NULL)
         return NULL;
     a = (struct adhesion *)m;
     a->problem = *problem;
+    a->problem.contact.ranks = m->rows.ranks;
     m->boundary = problem->contact.boundary;
-    a->n = shape->nx * shape->ny;
+    a->n = rc_model_nodes(m);
     a->h = rc_store_copy(&m->own, a->n, sizeof *h, h);
     return rc_model_room(m, err) == RC_OK ? rc_give(&m) : NULL;
 }

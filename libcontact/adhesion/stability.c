@@ -108,7 +108,7 @@ apply_k(struct rc_gap *g, const float *from, float *to)
     g->run.convolutions += 0.5;
     add_mean(&p, g->set.control == RC_GAP_MEAN && sums[GIVEN_NODES] > 0
                      ? -sums[GIVEN_FREE] / sums[GIVEN_NODES]
-                     : g->set.lift * sums[GIVEN_FROM] / (double)g->problem.n);
+                     : g->set.lift * sums[GIVEN_FROM] / (double)g->problem.all);
 }
 
 /* Subtracts D x. */
@@ -117,7 +117,7 @@ soften(const struct rc_gap_problem *problem, const struct rc_gap_frozen *frozen,
        const struct rc_gap_maps *maps, int threads, const float *x, float *to)
 {
 #pragma omp parallel for num_threads(threads) schedule(static)
-    for (size_t j = 0; j < problem->ny; j++)
+    for (size_t j = 0; j < problem->on_map; j++)
         for (size_t i = 0; i < problem->nx; i += RC_GAP_LINE) {
             size_t n = problem->nx - i < RC_GAP_LINE ? problem->nx - i : RC_GAP_LINE,
                    at = j * problem->px + i;
@@ -139,7 +139,7 @@ apply_stiffness(struct rc_gap *g, const float *from, float *to)
     rc_whole_rows(g->problem.whole, RC_WHOLE_ROUGH_INVERSE, take_row, give_row, &p);
     rc_sums_total(&g->sums, sums);
     g->run.convolutions += 0.5;
-    add_mean(&p, g->set.control == RC_GAP_LOAD ? -sums[GIVEN_ALL] / (double)g->problem.n : 0);
+    add_mean(&p, g->set.control == RC_GAP_LOAD ? -sums[GIVEN_ALL] / (double)g->problem.all : 0);
     soften(&g->problem, &g->frozen, &g->maps, g->sums.threads, from, to);
 }
 
@@ -313,7 +313,8 @@ first_row(void *ctx, size_t j, double *sums)
     }
     /* with noise, x has a part of every wave: symmetry then hides no eigenvector */
     for (size_t i = 0; i < g->problem.px; i++) {
-        uint64_t hash = ((uint64_t)(j * g->problem.px + i) + 1) * 0x9e3779b97f4a7c15u;
+        const size_t at = (g->problem.rows.first + j) * g->problem.px + i;
+        uint64_t hash = ((uint64_t)at + 1) * 0x9e3779b97f4a7c15u;
         double noise = (double)(hash >> 40) / 0x1p24 - 0.5;
         if (!c->given && i >= m)
             w[i] = 0;
@@ -426,9 +427,8 @@ rc_gap_eigen_begin(struct rc_gap *g)
     g->mode.mu = 1;
     g->mode.error = g->mode.bare = 0;
     g->mode.steps = g->mode.slow = 0;
-    if (g->residual.free ==
-        (g->problem.px * g->problem.py) -
-            (g->problem.nx * g->problem.ny)) /* all nodes of the map are held: nothing softens */
+    /* all nodes of the map are held: nothing softens */
+    if (g->residual.free == g->problem.all - g->problem.nx * g->problem.ny)
         return;
     first.noise = first.given ? 0 : 0.05;
     if (again && first.given) {
@@ -482,7 +482,7 @@ rc_gap_track(struct rc_gap *g, double mean)
     rc_sums_rows(&g->sums, track_row, g, sums);
     take_off(g->maps.off, g->problem.n, g->sums.threads, g->mode.e[Y], mean);
     take_off(g->maps.off, g->problem.n, g->sums.threads, g->mode.e[Y + 2],
-             g->set.control == RC_GAP_LOAD ? sums[TRACK_AZ] / (double)g->problem.n : 0);
+             g->set.control == RC_GAP_LOAD ? sums[TRACK_AZ] / (double)g->problem.all : 0);
     soften(&g->problem, &g->frozen, &g->maps, g->sums.threads, g->mode.e[Y], g->mode.e[Y + 2]);
     improve(g);
 }

@@ -153,6 +153,7 @@ void rc_operator_chain_framed(struct rc_operator *op, size_t n,
  * fields are in units of their own: displacements of `length`, pressures of `modulus`. */
 struct rc_whole {
     struct rc_shape map, grid; /* in m                                                       */
+    struct rc_rows rows;       /* rows of the grid held here                                 */
     struct rc_boundary boundary;
     int threads;
     double length;   /* m: sqrt(dx dy)                                                    */
@@ -163,20 +164,20 @@ struct rc_whole {
 };
 
 /* NULL when a number of the bodies is invalid, no padding makes the inverse of a layered pair positive, or
- * memory is short. Ignores engine, tolerance and ranks of the options. */
+ * memory is short. Ignores engine and tolerance of the options. */
 struct rc_whole *rc_whole_new(const struct rc_shape *shape,
                               const struct rc_operator_options *options, struct rc_err *err);
 void rc_whole_free(struct rc_whole *whole); /* NULL is allowed */
 /* E* of the pair for waves as short as the roughness of this grid, Pa, and `diagonal`. */
 enum rc_status rc_whole_scales(const struct rc_shape *shape, const struct rc_pair *pair,
                                double *modulus, double *diagonal, struct rc_err *err);
-/* u = K p in double precision; p and u may be the same. */
+/* u = K p in double precision; p and u, rows of the grid held here, may be the same. */
 void rc_whole_apply(struct rc_whole *whole, const double *p, double *u);
 /* Adds a uniform stiffness to that of the rough K, which becomes 1/(A + stiffness); 0 restores K. The wave of
  * all nodes keeps its factor where that is 0. A does not change. */
 void rc_whole_pin(struct rc_whole *whole, double stiffness);
 /* p = A u in double precision with rows of doubles; u = K p and p = A u in single precision with rows of
- * floats. Rows are those of the whole grid. */
+ * floats. Rows are those of the grid held here, row 0 is the first of them. */
 enum rc_whole_factor {
     RC_WHOLE_INVERSE,
     RC_WHOLE_ROUGH,

@@ -19,6 +19,7 @@ static const size_t halves[SIDES] = {4, 6, 8, 12, 16};
 
 struct own {
     struct rc_whole whole;
+    const struct rc_ranks *ranks; /* share the grid */
     struct rc_solids bodies;
     struct rc_fft *fft, *rough; /* transforms in double and in single precision */
     struct rc_spectrum *kernel, *inverse, *rough_kernel, *rough_inverse;
@@ -40,7 +41,7 @@ grid_of(const struct rc_shape *s, struct rc_boundary boundary, size_t half)
 static void
 clear(struct own *w)
 {
-    struct own none = {.whole = w->whole, .bodies = w->bodies};
+    struct own none = {.whole = w->whole, .ranks = w->ranks, .bodies = w->bodies};
 
     rc_fft_free(w->rough); /* uses memory of the other */
     rc_fft_free(w->fft);
@@ -116,8 +117,9 @@ plan(struct own *w, size_t threads, struct extremes *seen, struct rc_err *err)
     const struct rc_shape unit = {g->nx, g->ny, g->dx / w->whole.length, g->dy / w->whole.length};
     struct extremes again = {INFINITY, 0};
 
-    if ((w->fft = rc_fft_new(NULL, NULL, &unit, RC_PERIODIC, RC_DOUBLE, threads, err)) == NULL ||
-        (w->rough = rc_fft_new(NULL, w->fft, &unit, RC_PERIODIC, RC_SINGLE, threads, err)) ==
+    if ((w->fft = rc_fft_new(w->ranks, NULL, &unit, RC_PERIODIC, RC_DOUBLE, threads, err)) ==
+            NULL ||
+        (w->rough = rc_fft_new(w->ranks, w->fft, &unit, RC_PERIODIC, RC_SINGLE, threads, err)) ==
             NULL ||
         (w->kernel = spectrum_of(w, w->fft, seen, err)) == NULL ||
         (w->inverse = rc_spectrum_new_reciprocal(w->fft, w->kernel, err)) == NULL ||
@@ -125,6 +127,8 @@ plan(struct own *w, size_t threads, struct extremes *seen, struct rc_err *err)
         (w->rough_inverse = rc_spectrum_new_reciprocal(w->rough, w->rough_kernel, err)) == NULL)
         return RC_FAIL;
     w->whole.mean = rc_spectrum_total(w->kernel);
+    seen->least = -rc_ranks_most(w->ranks, -seen->least); /* of the columns of all ranks */
+    seen->most = rc_ranks_most(w->ranks, seen->most);
     return RC_OK;
 }
 
@@ -192,11 +196,12 @@ rc_whole_new(const struct rc_shape *shape, const struct rc_operator_options *o, 
 
     if (rc_shape_check(shape, err) != RC_OK || rc_pair_check(o->pair, err) != RC_OK)
         return NULL;
-    if ((w = calloc(1, sizeof *w)) == NULL)
-        return rc_err_null(err, "out of memory for a plan");
-    whole = &w->whole;
-    if (rc_solids_new(&w->bodies, o->pair, NULL, NULL, err) != RC_OK)
+    w = calloc(1, sizeof *w);
+    whole = w != NULL ? &w->whole : NULL;
+    if (rc_ranks_need(o->ranks, w != NULL, err, "out of memory for a plan") != RC_OK ||
+        rc_ranks_agree(o->ranks, rc_solids_new(&w->bodies, o->pair, NULL, NULL, err), err) != RC_OK)
         return NULL;
+    w->ranks = o->ranks;
     w->whole = (struct rc_whole){.map = *shape,
                                  .boundary = rc_boundary_on(shape, o->boundary),
                                  .length = length,
@@ -205,6 +210,7 @@ rc_whole_new(const struct rc_shape *shape, const struct rc_operator_options *o, 
     for (size_t k = 0; k < SIDES; k++) {
         struct extremes seen = {INFINITY, 0};
         w->whole.grid = grid_of(shape, o->boundary, halves[k]);
+        w->whole.rows = rc_rows_of(o->ranks, &w->whole.grid);
         w->whole.threads = rc_useful_threads(&w->whole.grid, o->threads);
         if (plan(w, o->threads, &seen, err) != RC_OK || datum_suffices(&w->whole, err) != RC_OK)
             return NULL;

@@ -235,27 +235,45 @@ common(struct range a, struct range b)
     return c.first < c.end ? c : (struct range){0, 0};
 }
 
-/* The items of rank q and `more` after them or, where `of` is NULL, all of them. */
+/* Rank q holds items first[q] .. first[q + 1] - 1, and `more` after them; NULL: all. With n it holds the n[q]
+ * items from first[q] on, the first item after the last one: those before that, or those after it. */
+struct deal {
+    const size_t *first, *n;
+    size_t more;
+    bool round;
+};
+
 static struct range
-range_of(const size_t *of, size_t more, size_t all, size_t q)
+range_of(const struct deal *deal, size_t all, size_t q)
 {
-    return of == NULL ? (struct range){0, all} : (struct range){of[q], of[q + 1] + more};
+    const size_t first = deal->first == NULL ? 0 : deal->first[q];
+    size_t end;
+
+    if (deal->first == NULL)
+        return (struct range){0, all};
+    if (deal->n == NULL)
+        return (struct range){first, deal->first[q + 1] + deal->more};
+    end = first + deal->n[q];
+    if (deal->round)
+        return (struct range){0, end > all ? end - all : 0};
+    return (struct range){first, end < all ? end : all};
 }
 
 /* Moves the items in `part`, whose number fits an int. */
 static void
 move_part(const struct rc_ranks *r, struct range part, size_t bytes, const size_t *from,
-          const size_t *to, size_t more, const void *v, void *w)
+          const struct deal *to, const void *v, void *w)
 {
     int *out = r->number, *out_at = out + r->count, *in = out_at + r->count, *in_at = in + r->count;
     const size_t all = from[r->count];
-    struct range held = range_of(from, 0, all, r->own), wanted = range_of(to, more, all, r->own);
+    const struct deal by = {.first = from};
+    struct range held = range_of(&by, all, r->own), wanted = range_of(to, all, r->own);
     struct range out_part = common(held, part), in_part = common(wanted, part);
     MPI_Datatype type = type_of(bytes);
 
     for (size_t q = 0; q < r->count; q++) {
-        struct range goes = common(out_part, range_of(to, more, all, q));
-        struct range comes = common(in_part, range_of(from, 0, all, q));
+        struct range goes = common(out_part, range_of(to, all, q));
+        struct range comes = common(in_part, range_of(&by, all, q));
         out[q] = (int)(goes.end - goes.first);
         out_at[q] = out[q] > 0 ? (int)(goes.first - out_part.first) : 0;
         in[q] = (int)(comes.end - comes.first);
@@ -271,15 +289,34 @@ move_part(const struct rc_ranks *r, struct range part, size_t bytes, const size_
     MPI_Type_free(&type);
 }
 
-void
-rc_ranks_move(const struct rc_ranks *r, size_t bytes, const size_t *from, const size_t *to,
-              size_t more, const void *v, void *w)
+static void
+move(const struct rc_ranks *r, size_t bytes, const size_t *from, const struct deal *to,
+     const void *v, void *w)
 {
     size_t all = from[r->count];
 
     for (size_t at = 0; at < all; at += INT_MAX)
         move_part(r, (struct range){at, all - at < INT_MAX ? all : at + INT_MAX}, bytes, from, to,
-                  more, v, w);
+                  v, w);
+}
+
+void
+rc_ranks_move(const struct rc_ranks *r, size_t bytes, const size_t *from, const size_t *to,
+              size_t more, const void *v, void *w)
+{
+    move(r, bytes, from, &(struct deal){.first = to, .more = more}, v, w);
+}
+
+void
+rc_ranks_fetch(const struct rc_ranks *r, size_t bytes, const size_t *from, const size_t *first,
+               const size_t *n, const void *v, void *w)
+{
+    struct deal to = {.first = first, .n = n};
+    const struct range before = range_of(&to, from[r->count], r->own);
+
+    move(r, bytes, from, &to, v, w);
+    to.round = true;
+    move(r, bytes, from, &to, v, (char *)w + (before.end - before.first) * bytes);
 }
 
 /* The next rank with rows in this direction, or this rank when there is no other. */

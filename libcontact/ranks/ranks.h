@@ -31,7 +31,11 @@
  *                         all ranks as a whole, and from there on each does the same (pyramid.c)
  *   nested start          rows of the coarser grid are moved to the ranks that own them there; each rank
  *                         solves small grids alone, after a message that all have the memory (nested.c)
- *   patches of contact    labelled row by row, joined across the edges between ranks (surface/parameters/patches.c)
+ *   padded gap            with adhesion the rows of the map move to the ranks that have them as rows of the
+ *                         padded grid, and back (adhesion.c)
+ *   cut-off steps         with adhesion the parts within 16 rows of other ranks are fetched (near.c)
+ *   patches of contact    labelled row by row, joined across the edges between ranks
+ *                         (surface/parameters/patches.c)
  *   coarser grids of      each rank reduces and expands its rows, with those of other ranks within the
  *   stresses              reach of the interpolation (coarse_grid.c)
  *   failures              no rank continues alone: makers agree on their status before any of them returns
@@ -126,6 +130,10 @@ void rc_ranks_turn(const struct rc_turn *turn, bool back, const void *from, void
  * to[r] .. to[r + 1] - 1 + more, but none beyond the last row. NULL: all rows. */
 void rc_ranks_move(const struct rc_ranks *ranks, size_t bytes, const size_t *from, const size_t *to,
                    size_t more, const void *v, void *w);
+/* The same, but afterwards rank r holds the n[r] rows from first[r] on. The first row follows the last one,
+ * and the rows of several ranks may overlap. n[r] is at most the number of all rows. */
+void rc_ranks_fetch(const struct rc_ranks *ranks, size_t bytes, const size_t *from,
+                    const size_t *first, const size_t *n, const void *v, void *w);
 /* The row before the first one held here and the one after the last. False where there is none: at the ends
  * of the map, unless it is periodic (`round`). Ranks without rows take part. */
 void rc_ranks_beside(const struct rc_rows *rows, bool round, size_t bytes, const void *first,
@@ -185,7 +193,14 @@ rc_ranks_move(const struct rc_ranks *ranks, size_t bytes, const size_t *from, co
     __builtin_memcpy(w, v, (from[1] - from[0]) * bytes);
 }
 
-/* This line is not reached with one rank. */
+/* These two functions are not reached with one rank. */
+static inline void
+rc_ranks_fetch(const struct rc_ranks *ranks, size_t bytes, const size_t *from, const size_t *first,
+               const size_t *n, const void *v, void *w)
+{
+    (void)ranks, (void)bytes, (void)from, (void)first, (void)n, (void)v, (void)w;
+}
+
 static inline void *
 rc_ranks_room(const struct rc_ranks *ranks)
 {

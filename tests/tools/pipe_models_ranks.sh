@@ -63,6 +63,21 @@ claim "friction, several threads" same "RC_THREADS=2 $slip --tangential 30mN,30m
 # Spectra in double and in single precision have other columns on each process; on the ball only one has contact.
 claim "friction of a ball" same "$slip --nu 0.3 --tangential 20uN,10uN pressed-ball.rcg"
 
+# With adhesion a free map is solved on a padded grid, of which the second process has the padding only.
+rc-synth sphere --nx 51 --ny 45 --dx 3um --radius 200um -o small-ball.rcg
+rc-synth wave --nx 35 --ny 128 --dx 2um --amplitude 1fm --wavelength 256um -o tall.rcg
+rc-synth selfaffine --nx 262 --ny 253 --dx 1um --hurst 0.8 --rms-slope 0.05 --short-cut 8um --seed 5 -o large.rcg
+stick="rc-solve --quiet --adhesion 50mJ/m2"
+claim "adhesion, free, loads and a pull-off" same \
+    "$stick --estar 2MPa --load 0.1mN,0 --pull-off --output pressure,gap,displacement,adhesion small-ball.rcg"
+claim "  a history of approaches with a hardness" same \
+    "$stick --estar 2MPa --load 2mN,0.1mN,3mN --history --hardness 0.4MPa --output pressure,height,gap small-ball.rcg"
+# The cut-off parts of steps, which only a map of 65536 nodes and more computes from near nodes.
+claim "  periodic, under a load: near nodes of other processes" same "$stick --periodic --estar 1GPa --mean-pressure 2MPa large.rcg"
+claim "    they replace convolutions" grep -qE '"convolutions": [0-9]+\.[0-9]{3}' alone.json
+claim "  periodic, several threads: approaches" same "RC_THREADS=2 $stick --periodic --estar 1GPa --approach 0.2um,0.4um,0 large.rcg"
+claim "  a cylinder, across the rows of all processes" same "$stick,jkr --estar 2MPa --cylinder 1mm --periodic=x --approach 0 --pull-off tall.rcg"
+
 # ---- states ----
 
 # kept COMMAND [PARTS]: two processes write the checkpoint of one. Its first half, or each of these parts,
@@ -87,8 +102,11 @@ claim "  of yield, deep slabs on coarser grids" kept "${deep/--increments 2/--in
 claim "  of creep" kept "rc-solve --periodic --relaxation 1MPa,9MPa:1s --nu1 0.5 --E2 rigid --mean-pressure 20kPa --time 0,1s --increments 2 --quiet rough.rcg"
 claim "  of sliding on rubber" kept "$speed 10um/s --periodic --mean-pressure 20kPa rough.rcg"
 claim "  of wear" kept "$wear --distance 0.1m pressed.rcg"
+# The states of the first point have no maps.
+claim "  of adhesion with a hardness" kept "$stick --estar 2MPa --load 2mN,0.1mN --history --hardness 0.4MPa small-ball.rcg" "0 0.7"
 claim "  of friction" kept "rc-slip --nu 0.3 --mu 0.3 --quiet --tol 0.1 --increments 1 --tangential 20uN --output pressure,traction-x,dissipation pressed-ball.rcg"
 if before_release; then
+    claim "  of adhesion, pulled off" kept "$stick --estar 2MPa --load 2mN,0.1mN --pull-off small-ball.rcg"
     claim "  of friction, loads and forces" kept "$slip --path '0.3N,0,0;0.3N,50mN,0;0.2N,30mN,20mN' --increments 4 similar.rcg"
     claim "  of friction, dissimilar bodies" kept "$slip --tangential 30mN --increments 2 --tol 1e-1 dissimilar--periodic.rcg"
     claim "  of yield, no contact on one process" kept "$yield --tol 1e-2 --load 40mN,60mN --history ball.rcg"
@@ -116,6 +134,7 @@ refuses 1 'friction carries less than' "a force above the limit" "$run $slip --t
 claim "  the message is printed once" test "$(grep -c 'carries less' refuses.err)" = 1
 relax="rc-solve --periodic --relaxation 1MPa,9MPa:1s --nu1 0.5 --E2 rigid --mean-pressure 20kPa --time 0,1s --increments 2 --quiet"
 refuses 1 'NaN or infinite, the first in column 7 of row 44' "  creep" "$run $relax -o no.rcg nan.rcg"
+refuses 1 'NaN or infinite, the first in column 7 of row 44' "  adhesion" "$run $stick --estar 1GPa --load 1mN -o no.rcg nan.rcg"
 refuses 1 'NaN or infinite, the first in column 7 of row 44' "  travel: the counter surface" "$run $travel --travel=-1um,0,0.5um --counter nan.rcg -o no.rcg rough.rcg"
 perl -MCompress::Zlib -0777 -pe 's/(RCG1\nchannel=height\n.*?\n\n.{46160}).{8}(.{992})crc32 .{8}\n/
     my $to = "$1\0\0\0\0\0\0\xf8\x7f$2"; sprintf("%scrc32 %08x\n", $to, crc32($to))/se' pressed.rcg >nan-pressed.rcg
@@ -138,6 +157,7 @@ memory() {
 }
 export ASAN_OPTIONS="${ASAN_OPTIONS-}:verify_asan_link_order=0"
 claim "allocations of one process fail: yield" memory "$yield --tol 0.1 --load 40mN ball.rcg"
+claim "  adhesion" memory "$stick --estar 2MPa --load 0.1mN --tol 1e-3 small-ball.rcg"
 claim "  friction" memory "rc-slip --nu 0.3 --mu 0.3 --quiet --tol 0.1 --tangential 20uN pressed-ball.rcg"
 claim "  creep" memory "$relax --tol 0.1 rough.rcg"
 claim "  wear" memory "$wear --distance 0.1m --tol 0.1 pressed-ball.rcg"

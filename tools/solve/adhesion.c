@@ -302,7 +302,7 @@ full_contact(const struct run *run, const struct rc_problem *contact)
 {
     const double slope =
         rc_measure_contact_slope(ranks_of(&run->d.t), rc_shape_of(run->g), run->g->v, NULL);
-    const double nodes = (double)rc_grid_nodes(run->g);
+    const double nodes = (double)run->g->nx * (double)run->g->ny;
     const double filled =
         (own.scales.strength + contact->load / (nodes * run->g->dx * run->g->dy)) /
         (contact->pair.estar * slope / 2);
