@@ -981,9 +981,10 @@ struct rc_wear_figures {
     size_t steps, rejected, contacts;
     double convolutions;
     /* Estimated: L1 norm of the error of the worn depth over the worn volume; relative L1 error
-     * of the pressure. On worn surfaces the true errors are usually 10 to 30 times smaller. */
-    double wear_error, pressure_error;
-    /* both are at most tol */
+     * of the pressure; relative error of the largest pressure, NAN between two points of the history.
+     * On worn surfaces the true errors are usually 10 to 30 times smaller. */
+    double wear_error, pressure_error, max_pressure_error;
+    /* the first two are at most tol */
     bool converged;
 };
 /* A model (model.h) of bodies that wear at every node by k p per sliding distance. The inner model must

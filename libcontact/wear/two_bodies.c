@@ -75,7 +75,8 @@ struct sliding {
     double *worn[RUNS][2]; /* depth that each body has lost, m */
     double *p, *other;     /* pressures of the last contact, and of the coarse run at the point */
     size_t pair;  /* at the point: contacts of both runs that follow, each pair in an alignment */
-    double apart; /* relative: largest difference of the pressures of a pair */
+    double apart; /* relative: largest difference of the pressures of a pair, as a sum */
+    double peaks_apart;        /* and that of a node, over the largest pressure */
     size_t stage, taken[RUNS]; /* contacts of each run so far */
     double s, end, t;          /* m: distance slid, end of the leg, present step */
     double part;               /* a step over the distance slid */
@@ -215,6 +216,7 @@ arrive(struct sliding *v)
     v->again = false;
     f->pressure_spread = rc_wear_spread(v->base.rows.ranks, v->p, v->n);
     f->pressure_error = v->apart * (v->differ > 0 ? v->above / v->differ : 1) + v->of_p;
+    f->max_pressure_error = v->peaks_apart * (v->differ > 0 ? v->above / v->differ : 1);
     f->converged = v->good && f->wear_error <= v->law.tol;
     return f->converged ? RC_OK : RC_SHORT;
 }
@@ -247,7 +249,8 @@ set_out(struct sliding *v, struct rc_err *err)
     const double first = early * rc_wear_first_step(&v->law, &v->base.shape) / usual_tol;
     const double left = v->end - v->s, most = v->part * fmax(v->s, fmin(first, v->end));
 
-    v->of_p = v->apart = 0;
+    v->of_p = v->apart = v->peaks_apart = 0;
+    v->f.max_pressure_error = NAN; /* until the contacts at the point */
     if (!(left > 1e-12 * v->end)) {
         if (v->good && v->tries < MOST_TRIES && v->f.wear_error > v->law.tol &&
             v->spent < inherited * v->f.wear_error * lost(v))
@@ -274,6 +277,23 @@ lose(struct sliding *v, double of_p)
     v->taken[run_of(v->stage)]++;
     if (v->stage != WHOLE)
         v->of_contacts += t * of_p;
+}
+
+/* Compares the pressures of both runs in one alignment. */
+static void
+compare(struct sliding *v)
+{
+    const struct rc_ranks *ranks = v->base.rows.ranks;
+    double most = 0, apart = 0;
+
+    for (size_t k = 0; k < v->n; k++) {
+        most = fmax(most, v->p[k]);
+        apart = fmax(apart, fabs(v->p[k] - v->other[k]));
+    }
+    v->apart = fmax(v->apart, rc_ranks_distance(ranks, v->p, v->other, v->n) /
+                                  rc_ranks_sum_of(ranks, v->p, v->n));
+    apart = rc_ranks_most(ranks, apart);
+    v->peaks_apart = fmax(v->peaks_apart, apart / rc_ranks_most(ranks, most));
 }
 
 /* Starts the leg. */
@@ -336,8 +356,7 @@ step(struct rc_model *m, struct rc_err *err)
         memcpy(v->other, v->p, v->n * sizeof *v->p);
         return contact(v, PRESS_AGAIN, err);
     case PRESS_AGAIN:
-        v->apart = fmax(v->apart, rc_ranks_distance(m->rows.ranks, v->p, v->other, v->n) /
-                                      rc_ranks_sum_of(m->rows.ranks, v->p, v->n));
+        compare(v);
         if (v->pair > 0) {
             v->pair--;
             return contact(v, PRESS, err);
@@ -390,7 +409,7 @@ state(struct rc_model *m, struct rc_state *s)
     RC_STATE_COUNTS(s, &v->tries, &v->taken[0], &v->taken[1], &v->f.steps, &v->f.rejected,
                     &v->f.contacts);
     RC_STATE_NUMBERS(s, &v->s, &v->end, &v->t, &v->of_contacts, &v->of_p, &v->apart,
-                     &v->f.convolutions);
+                     &v->peaks_apart, &v->f.convolutions);
     RC_STATE_SIZES(s, &v->part, &v->above, &v->spent);
     for (int run = 0; run < RUNS; run++)
         for (int b = 0; b < 2; b++)

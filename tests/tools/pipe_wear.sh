@@ -55,6 +55,15 @@ claim "a picture of each distance, and the running-in curve with its units" bash
 
 rc-synth selfaffine --nx 32 --ny 32 --dx 1um --hurst 0.8 --rms-slope 0.1 --short-cut 8um --seed 3 -o rough.rcg
 rc-solve --quiet --periodic --load 1mN --estar 1GPa -o pressed.rcg rough.rcg
+for tol in 0.1 1e-3; do
+    rc-wear --quiet --coefficient 2e-6mm3/Nm --distance 0.5m,5m,50m --tol $tol --report peak-$tol.tsv --steps every-$tol.tsv \
+        -o peak.rcg pressed.rcg
+done
+for row in 1 2 3; do
+    between "$(awk "BEGIN { x = $(column max_pressure $row peak-0.1.tsv) / $(column max_pressure $row peak-1e-3.tsv) - 1; print x < 0 ? -x : x }")" \
+        "$(column max_pressure_error_estimate $row peak-0.1.tsv)" 0.2 "distance $row: the estimated error of the largest pressure is not below its error"
+done
+claim "  it is unknown between two distances" test "$(column max_pressure_error_estimate 1 every-0.1.tsv)" = ''
 volume() { "$@" --quiet --report volume.tsv -o volume.rcg pressed.rcg && column wear_volume 1 volume.tsv; }
 near "$(volume rc-wear --coefficient 2e-6mm3/Nm --distance 1m)" 2e-18 1e-12 "in mm3/Nm"
 near "$(volume rc-wear --coefficient 2e-15m2/N,0 --distance 1m)" 2e-18 1e-12 "in m2/N"
