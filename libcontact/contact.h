@@ -538,6 +538,8 @@ struct rc_yield_load {
     double slab_error;
     /* m^3: the integral of the equivalent strain over the volume */
     double strained;
+    /* m: the longest row of voxels along x that flow in the last increment */
+    double flow_length;
 };
 
 enum {

@@ -809,13 +809,14 @@ find_figures(struct rc_yield_solver *p)
         SUMS
     };
     struct rc_yield_load *f = &p->figures;
-    double cell = p->shape.dx * p->shape.dy, bottom = 0, sum[SUMS], most[2] = {0, 0};
+    double cell = p->shape.dx * p->shape.dy, bottom = 0, sum[SUMS], most[3] = {0, 0, 0};
     struct rc_total total[SUMS] = {{0}};
 
     for (size_t k = 0; k < p->voxels.slabs; k++) {
         bottom += p->maps.thickness[k];
         for (size_t j = 0; j < p->voxels.rows; j++) {
             const struct rc_voxel_row *row = rc_voxels_row(&p->voxels, k, j);
+            size_t flowing = 0;
             for (size_t i = 0; i < row->n; i++) {
                 double strain = row->v[i].strain, part = cell * weight_of(p, k);
                 if (!(strain > 0))
@@ -826,16 +827,19 @@ find_figures(struct rc_yield_solver *p)
                 rc_total_add(&total[WORK], part * rc_yield_law_work(&p->body.law, strain));
                 most[0] = bottom;
                 most[1] = fmax(most[1], strain);
+                flowing += row->v[i].grown > 0;
             }
+            most[2] = fmax(most[2], (double)(flowing << rc_slabs_level(p->slabs, k)));
         }
     }
-    rc_ranks_totals(p->rows.ranks, SUMS, total, sum, 2, most);
+    rc_ranks_totals(p->rows.ranks, SUMS, total, sum, 3, most);
     f->voxels = (size_t)sum[VOXELS];
     f->volume = sum[VOLUME];
     f->strained = sum[STRAINED];
     f->work = sum[WORK];
     f->depth = most[0];
     f->max_strain = most[1];
+    f->flow_length = most[2] * p->shape.dx;
     f->max_pressure_mean4 = largest_mean(p);
 }
 
