@@ -36,39 +36,48 @@ enum {
      * errors up to twice as large (26 runs of bench/constants.py). */
     GROWTH = 4,
     MOST_TRIES = 3, /* more of a leg that is not accurate enough */
-    EULER = 3,      /* smoothing steps of backward Euler, after which the pressure has no ripples */
-    STATE = 7       /* maps beside the heights */
+    /* Smoothing steps of backward Euler, after which the pressure has no ripples. With one the largest pressure
+     * has up to 20 times the error; with 6 it takes 5 % more convolutions. */
+    EULER = 3,
+    STATE = 7 /* maps beside the heights */
 };
 static const double g = 0.58578643762690495, d = 0.29289321881345248, w = 0.35355339059327376;
 /* Factor of the local error, t^3 k p'': |3 g^2 - 4 g + 2|/(12 (2 - g)) of Bank et al. 1985. */
 static const double third_order = 0.0404;
 /* Wear coefficients are rarely known to 10 %. */
 static const double usual_tol = 0.1;
-/* The smoothing steps before a point take this part of the distance, and at least `fewest` steps. */
+/* The smoothing steps before a point take this part of the distance, and at least `fewest` steps. Half of the part
+ * takes 1.4 times the convolutions, because legs are tried again, double 5 % more, with up to 5 and 6 times the
+ * errors. Half of the steps takes 4 % fewer, with 1.2 times the errors, double 24 % more, with 0.8 times. */
 static const double last_part = 0.1, fewest = 4;
 /* In dx/(k E*): a last short step before a point, over which the shortest wave decays by exp(-5), where
  * the smoothing steps are `unsettled` times as long. A node that comes into contact in a step of BDF2
  * takes up to 1.5 times its pressure, because it had none in the step before: the largest pressure was
  * up to 34 % too high. With the short step, which is nearly backward Euler, it is up to 5 % off, with a
- * third of it 14 %. */
+ * third of it 14 %. Half and double of either change the convolutions by 0.1 %, and the error of the largest
+ * pressure up to 3 times. */
 static const double settle = 3, unsettled = 4;
 /* Part of the tolerance for the errors of these steps: of the heights, and of the pressure after the
  * last one. After the steps before it the pressure may be `loose` times less accurate, because BDF2
- * divides the error of a pressure by 3 in each step. */
+ * divides the error of a pressure by 3 in each step. Half of the three takes 2, 0.5 and 0.2 % more convolutions,
+ * double 1 % fewer, 7 % more and as many; double of the first has up to 1.4 times the errors. */
 static const double of_last = 0.1, of_smooth = 0.3, loose = 10;
 /* The tolerance of their contacts, over the tolerance of the others. Where the last valleys close, a few
  * nodes can carry several times the mean pressure within the usual tolerance. The next contact starts there
  * and keeps it. The largest pressure was wrong by 165 %, and with a tenth of the tolerance by 1.0 %. The
  * tolerance bounds a sum over the map, so that one node of a larger map may be wrong by more: by 85 % of 1024
- * x 1024. The part therefore decreases with the number of nodes. */
+ * x 1024. The part therefore decreases with the number of nodes. Half of the
+ * tolerance takes 1 % more convolutions, double 1 % fewer, with up to 8 times the error of a pressure. */
 static const double accurate = 0.1, nodes_in_part = 750;
-/* The least part of the tolerance of a contact where most of the load is on nodes that do not wear. */
+/* The least part of the tolerance of a contact where most of the load is on nodes that do not wear. Half and
+ * double change no bit. */
 static const double least_share = 1e-3;
 /* Part of the tolerance for the steps; the rest is for the contacts. Double takes 5 % fewer convolutions at a
  * tolerance of 0.1, and 16 to 20 % more at 0.01 and 0.001, where more steps are rejected (50 runs of
  * law_wear_estimates). */
 static const double of_tol = 0.8;
-/* Part of the tolerance that the wear of a coefficient map may use until it ends. */
+/* Part of the tolerance that the wear of a coefficient map may use until it ends. Half takes 2 % more convolutions,
+ * double 2 % fewer, with up to 2.2 times the errors. */
 static const double in_volume = 0.9;
 /* Over the distance: the longest step to an early end by area or spread, which rise and fall as nodes come
  * into contact, and the last step. */
@@ -76,10 +85,10 @@ static const double seen = 0.1, step_to_end = 0.02;
 /* Tolerance below which the steps of a leg begin with less than their part. Without it most legs are tried
  * again at 1e-4, with 1.3 times the convolutions (19 maps of 10 x 10 nodes). */
 static const double kinks = 1e-3;
-/* Aim of a leg that is tried again, over the tolerance. */
+/* Aim of a leg that is tried again, over the tolerance. Half takes 2 % more convolutions, double 7 % more. */
 static const double aim = 0.6;
 /* Times the errors of the steps. With half, 15 of 219 estimates of the wear were below the error
- * (law_wear_estimates). */
+ * (law_wear_estimates). Double takes 8 % more convolutions. */
 static const double caution = 2;
 /* Times these errors after a step in which nodes come into contact or leave it. The pressure then bends at a part
  * x of the step. With a unit change of the slope the step errs by (1 - w - d) x - x^2/2 for x < g, and the
@@ -91,7 +100,8 @@ static const double bends = 1.28; /* 2.56 over caution */
  * bench/constants.py). */
 static const double first_step = 0.1;
 /* Times the errors of the pressure by BDF2, and by the heights, whose estimate misses nodes as that of a step
- * does. Without them 6 of 500 estimates were 0.8 to 0.98 of the error. */
+ * does. Without them 6 of 500 estimates were 0.8 to 0.98 of the error. Half takes 1 and 4 % fewer
+ * convolutions, double 1 and 18 % more. */
 static const double of_change = 2, of_heights = 1.5;
 /* At one node: times the pressure that closes the gap which the contact has left open, and times the relative L1
  * error of the contacts before. With 1 for the latter one of 97 estimates of the largest pressure was below its

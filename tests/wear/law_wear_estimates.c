@@ -362,7 +362,7 @@ compare(enum kind kind, uint64_t number, struct tally *tally)
         told[q][0] = f->wear_error;
         told[q][1] = f->pressure_error;
         told[q][OF_PEAK] = f->max_pressure_error;
-        tally->high += !(f->max_pressure_error <= r.tol);
+        tally->high += f->max_pressure_error <= r.tol ? 0 : 1;
         tally->short_of += !f->converged;
         if (!f->converged)
             print_message("%s %u, output %d, tol %g: wear %.3g, pressure %.3g of the tolerance\n",
