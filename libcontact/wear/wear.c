@@ -202,8 +202,8 @@ const struct rc_figure rc_figures_wear[] = {
     {AS("pressure_error_estimate", pressure_error), NULL, "Error of the pressure",
      .says = "estimated relative L1 error", .role = RC_FIGURE_ERROR, .by = "tol", .of = "pressure"},
     {AS("max_pressure_error_estimate", max_pressure_error), NULL, "Error of the largest pressure",
-     .says = "estimated relative error of the value of one node", .role = RC_FIGURE_ERROR,
-     .by = "tol", .of = "max_pressure"},
+     .says = "relative, by steps and contacts", .role = RC_FIGURE_ERROR, .by = "tol",
+     .of = "max_pressure"},
     {FIGURE(converged), NULL, "Converged", .says = "the error estimates are within the tolerance"},
     {0},
 };
