@@ -90,10 +90,10 @@ static const double aim = 0.6;
 /* Times the errors of the steps. With half, 15 of 219 estimates of the wear were below the error
  * (law_wear_estimates). Double takes 8 % more convolutions. */
 static const double caution = 2;
-/* Times these errors after a step in which nodes come into contact or leave it. The pressure then bends at a part
- * x of the step. With a unit change of the slope the step errs by (1 - w - d) x - x^2/2 for x < g, and the
- * estimate is 2 third_order x/g: the error is up to (1 - w - d) g/(2 third_order) = 2.56 times the estimate. For
- * x > g it is up to 1.5 times. */
+/* Times these errors in the estimate: a node that comes into contact or leaves it bends the pressure at a part x of
+ * a step. With a unit change of the slope the step errs by (1 - w - d) x - x^2/2 for x < g, and its estimate is
+ * 2 third_order x/g: the error is up to (1 - w - d) g/(2 third_order) = 2.56 times the estimate. For x > g it is up
+ * to 1.5 times. The steps do not depend on this factor. */
 static const double bends = 1.28; /* 2.56 over caution */
 /* In dx/(k E*): within it the shortest wave, q = pi/dx, decays by a seventh. Half takes 9 % more
  * convolutions, double 11 % fewer, with errors up to 2.3 times as large in both (21 runs of
@@ -458,7 +458,9 @@ find_figures(struct wear *v)
         f->wear_volume += f->wear_volume_2 = deep(v) * v->base.shape.dy * v->law.track;
     f->mean_wear_depth = lost(v) / v->all;
     f->pressure_spread = rc_wear_spread(ranks, v->maps.p0, v->n);
-    f->wear_error = f->wear_volume > 0 ? off(v) / lost(v) : 0;
+    f->wear_error = f->wear_volume > 0
+                        ? (bends * caution * v->error[OF_HEIGHTS] + v->error[OF_CONTACTS]) / lost(v)
+                        : 0;
     f->pressure_error = v->error[OF_STEPS] + v->error[OF_P0];
     f->max_pressure_error = v->way.stage == REST ? v->error[OF_PEAK] : NAN;
     f->converged = v->good && f->wear_error <= v->law.tol && f->pressure_error <= v->law.tol;
@@ -779,17 +781,6 @@ age(struct wear *v)
     }
 }
 
-/* Whether p1 and p0 have different nodes in contact. */
-static bool
-has_joined(const struct wear *v)
-{
-    bool joined = false;
-
-    for (size_t k = 0; k < v->n && !joined; k++)
-        joined = rc_in_contact(v->maps.p0[k]) != rc_in_contact(v->maps.p1[k]);
-    return rc_ranks_most(v->base.rows.ranks, joined) > 0;
-}
-
 /* Accepts the step of TR-BDF2, or tries a shorter one. Its local error e is third_order t^3 W p'', with p''
  * from the three pressures. */
 static enum rc_status
@@ -798,7 +789,7 @@ judge(struct wear *v, double of_p1, struct rc_err *err)
     const double step = most_lost(&v->rates, &v->base.shape) * v->way.tried,
                  sum = size(v, v->maps.p1), *error = v->error;
     const double most = allowed(v);
-    double e, z = 0, contacts, factor, by;
+    double e, z = 0, contacts, factor;
 
     memset(v->maps.e, 0, v->n * sizeof *v->maps.e);
     for (size_t k = 0; k < v->n; k++)
@@ -822,9 +813,6 @@ judge(struct wear *v, double of_p1, struct rc_err *err)
         factor < 1) /* a step shortened to end at the point does not limit the next one */
         v->way.t = fmax(factor, 1.0 / GROWTH) * v->way.tried;
     v->error[OF_ALL] = v->error[OF_ALL] * v->way.s / (v->way.s + v->way.tried) + z / sum;
-    by = has_joined(v) ? bends : 1;
-    for (size_t k = 0; k < v->n; k++)
-        v->maps.e[k] *= by;
     age(v);
     if (take(v, w, d, contacts, v->maps.change, of_p1, v->error[OF_ALL], err) != RC_OK)
         return RC_FAIL;

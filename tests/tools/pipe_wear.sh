@@ -61,9 +61,9 @@ for tol in 0.1 1e-3; do
 done
 for row in 1 2 3; do
     between "$(awk "BEGIN { x = $(column max_pressure $row peak-0.1.tsv) / $(column max_pressure $row peak-1e-3.tsv) - 1; print x < 0 ? -x : x }")" \
-        "$(column max_pressure_error_estimate $row peak-0.1.tsv)" 0.2 "distance $row: the estimated error of the largest pressure is not below its error"
+        "$(column max_pressure_error_estimate $row peak-0.1.tsv)" 1 "distance $row: the estimated error of the largest pressure is not below its error"
 done
-claim "  it is unknown between two distances" test "$(column max_pressure_error_estimate 1 every-0.1.tsv)" = ''
+claim "  it is unknown between two distances" test "$(column max_pressure_error_estimate 1 every-0.1.tsv)" = NaN
 volume() { "$@" --quiet --report volume.tsv -o volume.rcg pressed.rcg && column wear_volume 1 volume.tsv; }
 near "$(volume rc-wear --coefficient 2e-6mm3/Nm --distance 1m)" 2e-18 1e-12 "in mm3/Nm"
 near "$(volume rc-wear --coefficient 2e-15m2/N,0 --distance 1m)" 2e-18 1e-12 "in m2/N"
