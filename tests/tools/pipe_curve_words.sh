@@ -202,3 +202,13 @@ $draw --curve speed:friction speeds.tsv
 claim "cases with speeds have no loading and unloading" bash -c '! grep -q loading out.svg && grep -q "<path" out.svg'
 $draw --curve load:friction <(sed '1s/speed/other/' speeds.tsv)
 claim "  rows of a history have" shows out.svg 'unloading'
+
+# ---- cases whose x begins anew ----
+
+printf 'case\tdepth/m\tmises/Pa\n' >depths.tsv
+for case in 1 2 3; do for depth in 0 1e-6 2e-6 3e-6; do printf '%s\t%s\t%s\n' $case $depth $((case * 1000)); done; done >>depths.tsv
+claim "values by depth of three cases are three curves" eval 'rc-render --curve depth:mises -o depths.svg depths.tsv 2>depths.err && [ ! -s depths.err ] &&
+    [ $(points depths.svg | grep -c solid) = 3 ]'
+claim "  with the names of the cases" eval 'shows depths.svg ">case 1<" && shows depths.svg ">case 3<"'
+awk 'NR > 1 { $2 = NR * 1e-6 } { print }' OFS='\t' depths.tsv >along.tsv
+claim "  where x goes on, cases are one curve" eval 'rc-render --curve depth:mises -o along.svg along.tsv && [ $(points along.svg | grep -c solid) = 1 ]'

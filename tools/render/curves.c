@@ -354,6 +354,39 @@ has_sources(size_t asked, const struct table *table)
     return true;
 }
 
+/* Each case is a curve if x goes one way in every case and begins anew in the next one, as depths do. */
+static void
+split_cases(struct curves *c, struct table *table)
+{
+    const double *x = table->column[0].v, *number = helper(c, table, CASE);
+    size_t *piece, pieces = 1, k = 1;
+    double way = 0;
+
+    if (table->pieces > 1 || table->rows < 4)
+        return;
+    piece = tool_room(c->tool, table->rows, sizeof *piece, "a table");
+    piece[0] = 0;
+    for (; k < table->rows && isfinite(number[k]); k++) {
+        const double step = x[k] - x[k - 1];
+        if (number[k] == number[k - 1]) {
+            way = way == 0 ? step : way;
+            if (!(step * way > 0))
+                break;
+        } else {
+            if (k - piece[pieces - 1] < 2 || !(step * way < 0))
+                break;
+            piece[pieces++] = k;
+        }
+    }
+    if (k < table->rows || pieces == 1 || table->rows - piece[pieces - 1] < 2) {
+        free(piece);
+        return;
+    }
+    free(table->piece);
+    table->piece = piece;
+    table->pieces = pieces;
+}
+
 static void
 group_rows(struct curves *c, struct table *table)
 {
@@ -364,6 +397,8 @@ group_rows(struct curves *c, struct table *table)
         groups_sort(table, c->tool, by, c->choice.bys, !c->style->spread);
     else if (has_sources(c->choice.asked, table))
         groups_sort(table, c->tool, &source, 1, true);
+    else
+        split_cases(c, table);
 }
 
 /* True if the first rows of all pieces have words in that column, and these are not all equal. */
