@@ -215,6 +215,8 @@ refuses 2 'needs a law that shifts its rows' "raw data without a law" "$solve --
 refuses 2 'at .* it has no value: C2' "a temperature below the range of WLF" "$solve $solid --shift wlf,17.44,51.6,20degC --temperature -40degC --time 0 $more"
 printf 'tau E\n1 9\n' >bare.txt
 refuses 2 'bare.txt: line 2: E: give its unit' "a table of moduli without a unit" "$solve --relaxation bare.txt --time 0 $more"
+printf "f/Hz,G'/MPa,G''/MPa\n1,1,1\n2,2,1\n" >shear.txt
+refuses 2 "shear.txt: line 1: column 'G'': it is a shear modulus: multiply it by 2 .1 \+ nu." "shear moduli" "$solve --relaxation shear.txt --time 0 $more"
 printf 'frequency storage\n1 9MPa\n' >two.txt
 refuses 2 'heading must be' "a table without losses" "$solve --relaxation two.txt --time 0 $more"
 printf 'f,storage/MPa,loss/MPa\n1,1,1\n2,0,1\n' >zero.txt

@@ -75,6 +75,7 @@ enum kind {
     LOSS,
     TAN_DELTA,
     TEMPERATURE,
+    SHEAR,
     KINDS
 };
 static const struct wanted_column wanted[KINDS] = {
@@ -99,6 +100,12 @@ static const struct wanted_column wanted[KINDS] = {
                      .unit = UNIT_K,
                      .optional = true,
                      .needs_unit = true},
+    [SHEAR] = {.names = "g g(t) g' g'' g\" gstor gstorage gloss shearmodulus",
+               .unit = UNIT_PA,
+               .optional = true,
+               .refused =
+                   "it is a shear modulus: multiply it by 2 (1 + nu), which is 3 for rubber, and "
+                   "name it E, E' or E''"},
 };
 
 /* True if the table has these columns and no others, except temperatures. */

@@ -190,6 +190,8 @@ unknown(const struct reading *r, const char *name, struct rc_err *err)
     char known[CELL];
 
     for (size_t k = 0; k < r->kinds; k++) {
+        if (r->wanted[k].refused != NULL)
+            continue;
         copy(first_name(&r->wanted[k]), known);
         name_list_add(&list, known);
     }
@@ -205,7 +207,7 @@ wanted_text(const struct reading *r, char text[], size_t size)
 
     text[0] = '\0';
     for (size_t k = 0; k < r->kinds && used < size; k++)
-        if (!r->wanted[k].ignored)
+        if (!r->wanted[k].ignored && r->wanted[k].refused == NULL)
             used += (size_t)snprintf(text + used, size - used, "%s%s%.*s%s",
                                      r->wanted[k].optional ? "[" : "", used > 0 ? ", " : "",
                                      SHOWN(first_name(&r->wanted[k])),
@@ -299,6 +301,8 @@ read_heading(struct reading *r, size_t n, const struct cell cell[], struct rc_er
         copy(name, text);
         if (r->kind[c] == r->kinds)
             return unknown(r, text, err);
+        if (r->wanted[r->kind[c]].refused != NULL)
+            return rc_err_set(err, "column '%s': %s", text, r->wanted[r->kind[c]].refused);
         if (of[r->kind[c]]++ > 0)
             return rc_err_set(err, "there are two columns %.*s",
                               SHOWN(first_name(&r->wanted[r->kind[c]])));
@@ -320,7 +324,7 @@ take_order(struct reading *r, size_t n, struct rc_err *err)
     char text[512];
 
     for (size_t k = 0; k < r->kinds; k++)
-        if (!r->wanted[k].ignored) {
+        if (!r->wanted[k].ignored && r->wanted[k].refused == NULL) {
             least += !r->wanted[k].optional;
             r->kind[most++] = k;
         }

@@ -27,6 +27,8 @@ struct wanted_column {
     bool needs_unit; /* for each number but 0, its own or that of the heading */
     bool infinite;   /* "inf" is a number                                     */
     bool ignored;    /* may be there, and is not read                         */
+    /* why a table must not have it, and what to do; such a column is in no list of columns */
+    const char *refused;
 };
 
 struct columns {
