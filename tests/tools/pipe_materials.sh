@@ -49,6 +49,8 @@ claim "--estar wins over both" says '"max_pressure"' bash -c 'rc-solve --load 0.
 rc-heat --mu 0.1 --speed 1m/s --body1 steel --body2 brass --quiet --report heat.json -o /dev/null typed.rcg
 rc-heat --mu 0.1 --speed 1m/s --conductivity 60.5W/mK,110W/mK --diffusivity 17.7mm2/s,33.9mm2/s --quiet --report heated.json -o /dev/null typed.rcg
 claim "rc-heat: conductivities and diffusivities" test "$(field max_temperature heat.json)" = "$(field max_temperature heated.json)"
+refuses 2 'the table has no conductivity of cast-iron: give --conductivity K1,K2' "  of a material without one" \
+    "rc-heat --mu 0.1 --speed 1m/s --body1 cast-iron --body2 steel typed.rcg"
 refuses 2 'give --conductivity' "  of one body they are not enough" "rc-heat --mu 0.1 --speed 1m/s --body1 steel typed.rcg"
 rc-solve --load 0.5N --estar 114GPa --quiet -o estar.rcg ball.rcg
 rc-stress --body1 gold --depths 5um --quiet --report stress.json -o /dev/null estar.rcg

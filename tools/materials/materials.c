@@ -380,6 +380,13 @@ fill(struct tool *t, const struct fill *f, const struct material *const m[BODIES
     const bool unknown =
         f->of == SOFTER && ((m[0] != NULL && one == NULL) || (m[1] != NULL && two == NULL));
 
+    if (f->of == BOTH && f->property == MATERIAL_CONDUCTIVITY && text == NULL && m[0] != NULL &&
+        m[1] != NULL && !tool_given(t, f->option))
+        tool_usage(
+            t,
+            "the table has no %s of %s: give --%s K1,K2 with the values of both bodies, as in "
+            "--%s 45W/mK,16W/mK",
+            properties[f->property].name, asked.body[one == NULL ? 0 : 1], f->option, f->option);
     if (unknown || text == NULL || is_replaced(t, f))
         return;
     if (tool_given(t, f->option)) {
