@@ -216,12 +216,12 @@ read_until(struct run *run)
         while (k < 3 && (strlen(name[k]) != n || strncmp(word, name[k], n) != 0))
             k++;
         if (k == 3 || word[n] == '\0' ||
-            unit_number(word + n + 1, k == 1 ? UNIT_M : UNIT_NONE, to[k], &err) != RC_OK ||
+            unit_number(word + n + 1, k == 1 ? UNIT_M : UNIT_CREEP, to[k], &err) != RC_OK ||
             !(*to[k] > 0) || (k == 0 && *to[k] > 1))
             tool_usage(
                 &run->d.t,
                 "--until %s: it must be area=FRACTION, depth=LENGTH or uniform=SPREAD, above "
-                "0, as in area=0.9,depth=1um",
+                "0, as in area=90%%,depth=1um",
                 args.until);
     }
 }
