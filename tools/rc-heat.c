@@ -472,17 +472,17 @@ judge(struct run *run, const struct rc_grid *g, const struct rc_heat_figures *f)
                   "conductivity and hardness change far below it, and are constant here",
                   where, f->max_temperature);
     if (!f->converged && f->mismatch <= args.tol) {
-        tool_warn(
-            t,
-            "%s: the time steps have an error of %.2g of the largest rise, asked was %g: the best "
-            "solution is written: accept it with a larger --tol",
-            where, f->time_error, args.tol);
+        tool_warn(t,
+                  "%s: the time steps have an error of %.2g %% of the largest rise, asked was %g "
+                  "%%: the best "
+                  "solution is written: accept it with a larger --tol",
+                  where, 100 * f->time_error, 100 * args.tol);
         tool_fails_with(t, EXIT_SHORT);
     } else if (!f->converged) {
         tool_warn(t,
-                  "%s: the temperatures of the bodies differ by %.2g of the largest rise, asked "
-                  "was %g: the best solution is written",
-                  where, f->mismatch, args.tol);
+                  "%s: the temperatures of the bodies differ by %.2g %% of the largest rise, asked "
+                  "was %g %%: the best solution is written",
+                  where, 100 * f->mismatch, 100 * args.tol);
         tool_fails_with(t, EXIT_SHORT);
     }
 }

@@ -398,10 +398,10 @@ say_extremes(struct tool *t, const struct rc_notes *notes)
 {
     if (fmax(notes->above, notes->below) > 1e-6) /* the usual number of digits of heights */
         tool_warn(t,
-                  "%s: between the nodes the file has a point %.2g of its span of heights above "
+                  "%s: between the nodes the file has a point %.2g %% of its span of heights above "
                   "the highest "
-                  "node and one %.2g below the lowest: a finer --even STEP comes nearer",
-                  t->input.source, notes->above, notes->below);
+                  "node and one %.2g %% below the lowest: a finer --even STEP comes nearer",
+                  t->input.source, 100 * notes->above, 100 * notes->below);
 }
 
 /* Resamples a profile to the step of --even, and prints which nodes are unknown and which extremes are

@@ -102,7 +102,7 @@ claim "a straight profile stays the same line" test $? = 0
 # a peak and a pit between the nodes: 10 at 1.5 and -4 at 4.5, among heights from 0 to 2; the span is 14
 printf 'x [um] z [nm]\n0 0\n1 0\n1.5 10\n1.9 2\n2 2\n3 1\n4 1\n4.5 -4\n4.8 0\n5 0\n6 0\n' >peak.txt
 claim "a message counts the extremes lost between nodes" \
-    warns 'peak.txt: between the nodes the file has a point 0.57 of its span of heights above the highest node and one 0.29 below the lowest: a finer --even STEP' \
+    warns 'peak.txt: between the nodes the file has a point 57 % of its span of heights above the highest node and one 29 % below the lowest: a finer --even STEP' \
     rc-import --even=1um peak.txt
 printf 'x [um] z [nm]\n0 1\n1 1\n1.5 10\n1.8 1\n2 1\n3 1\n4 1\n' >spike.txt
 claim "also if all nodes are equal" warns 'above the highest' rc-import --even=1um spike.txt

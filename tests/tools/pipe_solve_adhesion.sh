@@ -42,6 +42,7 @@ $soft --adhesion 0.05,jkr --radius 1mm --approach 2000nm --report b.json flat.rc
 claim "50 mJ/m2, 50 mN/m and 0.05 are equal" cmp <(rc-pick --channel pressure a.rcg | rc-export --format csv) <(rc-pick --channel pressure b.rcg | rc-export --format csv)
 near "$(field adhesion_work a.json)" 0.05 "$same" "  and the report says it"
 near "$(field tabor a.json)" "$(awk -v r="$(field adhesion_range a.json)" 'BEGIN { printf "%.12g", (1e-3 * (0.05 / 2e6) ^ 2) ^ (1 / 3) / r }')" 1e-9 "  and Tabor's number is that of the ball"
+claim "  and the pull-off of the theories for this ball, 3/2 and 2 pi w R" grep -q '"adhesion": "on: jkr.* pulls off at 235.6[0-9]* uN by JKR and 314.1[0-9]* uN by DMT' a.json
 claim "without --adhesion its figures are null, with the reason" bash -c '
     rc-solve --quiet --estar 2MPa --load 1mN --report none.json ball.rcg -o none.rcg
     grep -q "\"adhesion\": \"left out: no --adhesion\"" none.json && grep -q "\"adhesion_work\": null" none.json'

@@ -121,10 +121,10 @@ measure_noise(struct scan *s)
         s->length = 0;
     rc_measure(&shape, a->v, &is);
     if (s->sigma > 0.5 * is.rms)
-        tool_warn(
-            t,
-            "--repeat %s: the scans differ by %.2g of the rms height: do they show the same place?",
-            name, sqrt(2) * s->sigma / is.rms);
+        tool_warn(t,
+                  "--repeat %s: the scans differ by %.2g %% of the rms height: do they show the "
+                  "same place?",
+                  name, 100 * sqrt(2) * s->sigma / is.rms);
     free(difference);
     rc_grid_free(b);
 }

@@ -56,13 +56,14 @@ scene_notes(struct tool *t, const struct rc_grid *g, const struct scene_args *a,
                             sqrt(n->contact->contact_area / acos(-1)) / 2;
         if (part > n->within)
             tool_warn(t,
-                      "%s: thermal expansion may change the contact: it is %.2g of the elastic "
+                      "%s: thermal expansion may change the contact: it is %.2g %% of the elastic "
                       "displacement (Barber 1969), and no tool computes it",
-                      where, part);
+                      where, 100 * part);
     }
     if (a->noise > n->within * n->contact->approach)
-        tool_warn(t,
-                  "%s: the noise of the scan is %.2g of the approach: 'rc-cost --noise' computes "
-                  "its effect",
-                  where, a->noise / n->contact->approach);
+        tool_warn(
+            t,
+            "%s: the noise of the scan is %.2g %% of the approach: 'rc-cost --noise' computes "
+            "its effect",
+            where, 100 * a->noise / n->contact->approach);
 }

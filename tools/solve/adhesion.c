@@ -223,9 +223,9 @@ warn_of_state(struct run *run, const char *where, const struct rc_adhesion_state
     if (f->edge_traction > faint)
         course_warn(
             &run->d.course, "a traction at the edge of the map",
-            "%s: the traction at the edge of the map is %.2g of the largest: the bodies attract "
+            "%s: the traction at the edge of the map is %.2g %% of the largest: the bodies attract "
             "each other beyond the map too, where their heights are unknown: take a larger map",
-            where, f->edge_traction);
+            where, 100 * f->edge_traction);
     if (own.scales.strength > too_strong * estar)
         course_warn(&run->d.course, "a traction at which a solid is not linear elastic",
                     "%s: the largest traction, %s, is %.2g of E*: beyond %g a solid is not linear "
@@ -365,13 +365,25 @@ loads_cost(const struct run *run)
 static const char *
 state(const struct run *run)
 {
-    static char text[256];
+    static char text[512];
+    const double radius = run->physics->radius, force = acos(-1) * own.law.problem.work * radius;
+    char jkr[SHOWN_NUMBER];
+    size_t n;
 
-    snprintf(text, sizeof text, "on: %s, %s over %s: at most %s, cohesive length %.2g nodes%s",
-             own.scales.law, shown_in_unit(own.law.problem.work, "J/m2"),
-             shown_in_unit(own.scales.range, "m"), shown_in_unit(own.scales.strength, "Pa"),
-             own.scales.cohesive_nodes,
-             isnan(tabor(run)) ? "; Tabor's number needs --radius or --cylinder" : "");
+    n = (size_t)snprintf(text, sizeof text,
+                         "on: %s, %s over %s: at most %s, cohesive length %.2g nodes%s",
+                         own.scales.law, shown_in_unit(own.law.problem.work, "J/m2"),
+                         shown_in_unit(own.scales.range, "m"),
+                         shown_in_unit(own.scales.strength, "Pa"), own.scales.cohesive_nodes,
+                         isnan(tabor(run)) ? "; Tabor's number needs --radius or --cylinder" : "");
+    /* Johnson, Kendall and Roberts 1971; Derjaguin, Muller and Toporov 1975 */
+    if (!isnan(radius))
+        snprintf(text + n, sizeof text - n,
+                 "; a smooth ball of this radius pulls off at %s by JKR and %s by DMT; Tabor's "
+                 "number is "
+                 "%.2g (JKR above 5, DMT below 0.1)",
+                 shown_in_unit_to(jkr, 1.5 * force, "N"), shown_in_unit(2 * force, "N"),
+                 tabor(run));
     return text;
 }
 

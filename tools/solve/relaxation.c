@@ -454,9 +454,9 @@ end(struct run *run, const char *where, const struct solution *s)
         return false;
     course_warn(
         &run->d.course, "stopped short",
-        "%s: the error of the steps in time is %.2g of the pressure: take more --increments "
+        "%s: the error of the steps in time is %.2g %% of the pressure: take more --increments "
         "than %zu",
-        where, own.found->increment_error, own.increments > 0 ? own.increments : 320);
+        where, 100 * own.found->increment_error, own.increments > 0 ? own.increments : 320);
     return true;
 }
 
