@@ -191,7 +191,7 @@ printf 'creep_x\ttangential_x/N\tkalker_tangential_x/N\n0\t0\t0\n1e-3\t10\t12\n'
 $draw --curve creep_x:tangential_x,kalker_tangential_x theory.tsv
 claim "columns whose titles begin alike share the title of the axis" shows out.svg '>Force along x \(N\)<'
 claim "  and of the figure" shows out.svg '>Force along x against creepage along x<'
-claim "  and the legend has both" eval "shows out.svg '>Force along x<' && shows out.svg '>Force along x in linear theory<'"
+claim "  and the legend has both" eval "shows out.svg '>Force along x<' && shows out.svg '>Force along x in linear theory \(Kalker\)<'"
 $draw --curve creep_x:tangential_x,tangential_y <(sed '1s/kalker_tangential_x/tangential_y/' theory.tsv)
 claim "  others are all named" shows out.svg '>Force along x, force along y \(N\)<'
 
