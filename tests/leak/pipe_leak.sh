@@ -147,6 +147,9 @@ claim "the legend of other maps has not changed" says 'no contact' legend contac
 # one gap, one node wide
 made boundary=free 9 9 1e-6 1e-6 gap '$i != 4 ? 1e-6 : $j == 3 ? 9e-7 : 0' pressure '$i == 4 && $j != 3 ? 1e6 : 0' >slit.rcg
 claim "a constriction of one node causes a warning" warns 'the critical constriction, at x = 0 m, y = -1e-06 m, is 1 node wide, .*finer grid' rc-leak slit.rcg -o x.rcg
+claim "  of three cases the first warns" bash -c 'cat slit.rcg slit.rcg slit.rcg | rc-leak -o x.rcg 2>x.err
+    [ "$(grep -c "the critical constriction, at" x.err)" = 1 ]'
+claim "    the others are counted" grep -q 'rc-leak: 2 other cases too: a narrow critical constriction' x.err
 claim "  a constriction of three nodes causes no warning" bash -c "rc-leak channel.rcg -o x.rcg 2>x.err && ! grep constriction x.err"
 made boundary=free 4 4 1e-6 1e-6 gap '($i < 2) == ($j < 2) ? 1e-6 : 0' pressure '($i < 2) == ($j < 2) ? 0 : 1e6' >corners.rcg
 claim "a path through corners alone causes a warning" warns 'the only remaining path runs through cell corners; this grid cannot decide' rc-leak corners.rcg -o x.rcg
