@@ -107,10 +107,10 @@ claim "a message counts the extremes lost between nodes" \
 printf 'x [um] z [nm]\n0 1\n1 1\n1.5 10\n1.8 1\n2 1\n3 1\n4 1\n' >spike.txt
 claim "also if all nodes are equal" warns 'above the highest' rc-import --even=1um spike.txt
 claim "there is none if every extreme is a node" bash -c '! rc-import --even=0.1um peak.txt 2>&1 >out.rcg | grep between'
-claim "the same holds for a list of points" warns 'row.xyz: between the nodes the file has a point 0.57 ' \
+claim "the same holds for a list of points" warns 'row.xyz: between the nodes the file has a point 57 % ' \
     bash -c "awk '{ print NR == 1 ? \"x[um] y[um] z[nm]\" : \$1 \" 2 \" \$2 }' peak.txt >row.xyz; rc-import --even=1um row.xyz"
 printf 'aISO-1.0\nNumPoints = 7\nNumProfiles = 1\nXscale = 1e-6\nYscale = 1e-6\nZscale = 1e-9\nDataType = 7\n*\n0 1 0 9 1 0 -1\n*\n' >p.sdf
-claim "the same holds for other formats" warns 'p.sdf: between the nodes the file has a point 0.8 of .* one 0 below' rc-import --even=2um p.sdf
+claim "the same holds for other formats" warns 'p.sdf: between the nodes the file has a point 80 % of .* one 0 % below' rc-import --even=2um p.sdf
 
 # falling positions
 (head -n 1 uneven.txt; tail -n +2 uneven.txt | tac) >falling.txt
