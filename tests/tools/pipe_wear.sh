@@ -150,7 +150,7 @@ refuses 2 'it must be same, sliding or track:LENGTH' "another motion" "$wear --m
 $wear --distance 1km,10km,100km --until area=0.5 --report half.tsv -o half.rcg pressed.rcg
 between 0.5 "$(column contact_fraction 1 half.tsv)" 0.52 "--until area"
 $wear --distance 1km,10km,100km --until area=50% -o percent.rcg pressed.rcg
-claim "  a percentage is the same" cmp half.rcg percent.rcg
+claim "  a percentage is the same" cmp <(rc-pick --channel wear half.rcg | rc-export --format csv) <(rc-pick --channel wear percent.rcg | rc-export --format csv)
 claim "  later distances are omitted" test "$(wc -l <half.tsv)" = 2
 $wear --distance 100km --until depth=30nm,uniform=1e-9 --report deep.tsv -o deep.rcg pressed.rcg
 between 30e-9 "$(column max_wear_depth 1 deep.tsv)" 30.6e-9 "--until depth"
