@@ -26,6 +26,7 @@ static struct {
     const struct rc_adhesion_state *figures; /* figures of the current point; NULL: none */
     bool pulling;                            /* this case is the pull-off */
     double part;       /* expected work of a state over that of a map in partial contact */
+    double filled;     /* pressure with the attraction over that which closes the gap */
     double retraction; /* expected work of the retraction over that of the first state */
 } own;
 
@@ -309,19 +310,21 @@ full_contact(const struct run *run, const struct rc_problem *contact)
     const double nearly = 3, full = 4.5;
     const bool edges = rc_has_mean(contact->boundary);
 
+    own.filled = filled;
     if (own.scales.cohesive_nodes > 1.5 || !(filled > (edges ? full : nearly)))
         return 1;
     return filled > full ? (edges ? 1.0 / 2 : 1.0 / 3) : fmin(sqrt(nodes / 16384) / 2, 1);
 }
 
 /* The retraction over the first state. It takes more states, the more the load exceeds the pull-off load,
- * for which the attraction of rigid bodies at first touch stands: on 137 rough maps of 24 x 24 nodes this is
- * within a factor of 2 of the work for 120, too low for 12 in nearly full contact, and too high for 5. */
+ * for which the attraction of rigid bodies at first touch stands. A gap that the attraction closes opens in
+ * many steps. Of 60 rough maps of 32 x 32 to 96 x 96 nodes 46 are within a factor of 2, all within 4. */
 static double
 retraction_cost(const struct run *run, const struct rc_problem *contact)
 {
     const struct rc_grid *g = run->g;
     const double steepness = own.scales.strength / own.law.problem.work, usual = 0.02, most = 600;
+    const double closed = 1.2, opens = own.scales.cohesive_nodes < 1 ? 180 : 55;
     double highest = -INFINITY, sum = 0, over;
     size_t first, rows;
 
@@ -333,7 +336,7 @@ retraction_cost(const struct run *run, const struct rc_problem *contact)
         sum += exp((g->v[k] - highest) * steepness);
     sum = ranks_sum(&run->d.t, sum) * g->dx * g->dy * own.scales.strength;
     over = contact->load > 0 ? sum / contact->load : usual; /* the load of an approach is unknown */
-    return fmin(9 + 4.6 * pow(over, -0.45), most) * (own.part < 1 ? 3 : 1);
+    return own.filled > closed ? opens / own.part : fmin(9 + 4.6 * pow(over, -0.45), most);
 }
 
 /* Finds the cost of a state and the scales of the law on this grid. */
