@@ -258,11 +258,19 @@ first_increments(const struct rc_yield_problem *problem, double most, double sha
                                    : (size_t)ceil(fmin(fmax(wanted, FIRST), MOST_AUTO));
 }
 
+/* True if no load of the plan needs more than RC_YIELD_SEVERE increments for an error of `deserved`. */
+static bool
+is_mild(const struct yield *y)
+{
+    return y->depths.most > 0 && of_stress * y->depths.most <= RC_YIELD_SEVERE;
+}
+
 /* Sets the load with the number of increments of the next try. */
 static enum rc_status
 try_load(struct yield *y, struct rc_err *err)
 {
     y->plastic->asked.thorough = y->tries.number > 0 && !y->problem.companion;
+    y->plastic->asked.mild = is_mild(y) && y->tries.number == 0;
     rc_yield_solver_set_increments(y->plastic, y->tries.increments);
     return rc_yield_solver_set_load(y->plastic, y->plan.load, err);
 }
@@ -303,7 +311,9 @@ begin(struct yield *y, struct rc_err *err)
     y->tries.increments = first_increments(
         &y->problem, y->depths.most,
         fabs(y->plan.load - from) / fmax(fmax(y->plan.load, from), DBL_MIN), y->plan.left > 0);
-    y->tries.twice = y->problem.increments == 0 && y->tries.increments > RC_YIELD_SEVERE;
+    /* separated bodies have no pressure to compare */
+    y->tries.twice = y->problem.increments == 0 && !is_mild(y) && y->plan.load > 0 &&
+                     y->tries.increments > RC_YIELD_SEVERE;
     if (y->tries.twice)
         y->tries.increments /= 2;
     y->tries.number = 0;
@@ -329,7 +339,7 @@ deserves_more(struct tries *tries, const struct rc_yield_load *f, double wanted,
     const double room = fmax(sqrt(fmax(left * left - slab * slab, 0)) * (later ? for_later : 1) -
                                  f->inherited_error,
                              own_least * wanted);
-    const bool half = tries->twice && tries->number == 0;
+    const bool half = tries->twice && tries->number == 0 && f->increments > 1;
     const size_t most = !tries->twice && tries->increments < RC_YIELD_SEVERE ? RC_YIELD_SEVERE
                         : wanted < deserved                                  ? RC_YIELD_INCREMENTS
                                                                              : MOST_AUTO;
@@ -537,7 +547,8 @@ plan(const struct rc_model *m, const struct rc_point *most, struct rc_expected *
                               : 0;
     const size_t first = first_increments(&y->problem, y->depths.most, 1, y->plan.left > 0);
     const double increments =
-        (y->problem.increments == 0 && first > RC_YIELD_SEVERE ? 1.5 : 1) * (double)first;
+        (y->problem.increments == 0 && !is_mild(y) && first > RC_YIELD_SEVERE ? 1.5 : 1) *
+        (double)first;
     static const double sums[] = RC_YIELD_SUMS, look[] = RC_YIELD_LOOK;
     const double looked = rc_by_padding(y->problem.contact.boundary, look[0], look[1]);
     const double threads = (double)(y->problem.contact.threads > 0 ? y->problem.contact.threads
@@ -905,8 +916,10 @@ exchange_volume(struct yield *y, struct rc_state *s, size_t slabs)
         rc_state_refuse(s, "memory is short");
     else if (y->tries.than > 0)
         rc_state_map(s, y->n, y->tries.other);
-    if (y->plastic != NULL)
+    if (y->plastic != NULL) {
+        y->plastic->asked.mild = is_mild(y) && y->tries.number == 0;
         rc_yield_solver_exchange(y->plastic, s);
+    }
 }
 
 static void

@@ -18,7 +18,8 @@
  * 1.7, 1.8 and 2.3 times less memory and time. */
 #define RC_YIELD_COARSER 0.4
 
-/* Loads that need more increments are severe: the terms of second order then tell less of the error. */
+/* Loads that need more increments for an error of 1e-2 are severe: the terms of second order then tell less
+ * of the error. */
 enum {
     RC_YIELD_SEVERE = 28
 };
@@ -55,6 +56,7 @@ struct rc_yield_asked {
     bool travels;      /* such loads may come */
     bool yields;       /* the first load is far above the first yield: it needs no elastic trials */
     bool chosen;       /* the caller did not give the slabs */
+    bool mild;         /* no load of the plan is severe, and this load is not repeated */
     size_t increments; /* of a load with flow */
     double tol;        /* of the contacts */
     double lag;        /* allowed */
