@@ -288,7 +288,7 @@ test_rows(void **state)
         rc_reader_free(r);
         fclose(file);
     }
-    { /* skipped values that end too early */
+    {                           /* skipped values that end too early */
         FILE *file = tmpfile(); /* fmemopen does not seek beyond the end */
         struct rc_reader *r = rc_reader_new(file, 0, 0, NULL);
         struct rc_err err;
