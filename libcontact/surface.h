@@ -123,10 +123,10 @@ struct rc_row_source {
     void *ctx;
     /* the next row to read is the first one; called before each of several passes */
     enum rc_status (*again)(void *ctx, struct rc_err *err);
-    /* reads the next n rows to v */
-    enum rc_status (*read)(void *ctx, size_t n, double *v, struct rc_err *err);
-    /* gets the next n rows of the result, during the last pass */
-    enum rc_status (*write)(void *ctx, size_t n, const double *v, struct rc_err *err);
+    /* get(ctx, n, v, err) reads the next n rows to v */
+    enum rc_status (*get)(void *, size_t, double *, struct rc_err *);
+    /* put(ctx, n, v, err) takes the next n rows of the result, during the last pass */
+    enum rc_status (*put)(void *, size_t, const double *, struct rc_err *);
 };
 /* rc_detrend_form with the same results for a polynomial that is not robust, in the memory of some rows.
  * RC_FAIL also when the source fails, with its sentence. */

@@ -243,7 +243,7 @@ rc_friction_solver_start(struct rc_friction_solver *s, const double *const q[2])
     s->tried = true;
 }
 
-/* Touched nodes are 1 in a map of zeros. */
+/* Touched nodes are 1 in a map of zeros. A map that was read has them where a number is above 0. */
 static void
 exchange_touched(struct rc_friction_solver *s, struct rc_state *state)
 {
@@ -257,10 +257,7 @@ exchange_touched(struct rc_friction_solver *s, struct rc_state *state)
     for (size_t k = 0; k < s->n && to != NULL; k++)
         to[k] = s->past.touched[k];
     for (size_t k = 0; k < s->n && from != NULL; k++)
-        if (from[k] == 0 || from[k] == 1)
-            s->past.touched[k] = from[k] > 0;
-        else
-            rc_state_refuse(state, "a flag is out of range");
+        s->past.touched[k] = from[k] > 0;
 }
 
 void

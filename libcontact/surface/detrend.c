@@ -149,7 +149,7 @@ fetch(struct fit *f, size_t j, size_t n)
     if (from == NULL || f->failed)
         return;
     f->failed = (j == 0 && from->again(from->ctx, &f->problem) != RC_OK) ||
-                from->read(from->ctx, n, f->window, &f->problem) != RC_OK;
+                from->get(from->ctx, n, f->window, &f->problem) != RC_OK;
     f->first = j;
 }
 
@@ -643,7 +643,7 @@ subtract_rows(struct fit *f, struct rc_err *err)
         for (size_t k = 0; k < n; k++)
             residual_row(f, j + k, f->window + k * f->shape->nx, lines_of(f));
         if (!f->failed)
-            status = f->from->write(f->from->ctx, n, f->window, err);
+            status = f->from->put(f->from->ctx, n, f->window, err);
     }
     return status;
 }

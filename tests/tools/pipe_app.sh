@@ -73,8 +73,8 @@ claim "all four boundaries can be chosen" check boundaries
 # ---- runs ----
 
 claim "files of one name stay different files" check same_names
-claim "a scan is read, cropped, levelled, pressed, and the stresses computed" check pipeline
 claim "each step runs as the page adds it" check added_steps
+claim "a scan is read, cropped, levelled, pressed, and the stresses computed" check pipeline
 mkdir pasted
 cp rough-steel.x3p pasted
 claim "  the commands run in a shell" bash -c 'cd pasted && bash -e -u -o pipefail ../commands'
