@@ -215,7 +215,7 @@ struct errors {
     struct rc_alignment found;
 };
 
-/* Aligns the scans; the volume counts the nodes that are measured in both. */
+/* Aligns the scans; the volume counts the nodes that are measured in both. A refusal has infinite errors. */
 static inline struct errors
 align_scans(const struct surface *s, const struct scans *c)
 {
@@ -225,8 +225,13 @@ align_scans(const struct surface *s, const struct scans *c)
     struct rc_err err;
 
     scan_both(s, c, a, b);
-    if (rc_align(&c->a, a, &c->b, b, 1, out, &found, &err) != RC_OK)
-        fail_msg("%s", err.text);
+    if (rc_align(&c->a, a, &c->b, b, 1, out, &found, &err) != RC_OK) {
+        printf("refused: %s\n", err.text);
+        free(a);
+        free(b);
+        free(out);
+        return (struct errors){.shift = INFINITY, .turn = INFINITY, .volume = INFINITY};
+    }
     for (size_t k = 0; k < c->a.nx * c->a.ny; k++)
         if (!isnan(out[k]))
             e.worn -= worn_depth(s, c, place(k % c->a.nx, c->a.nx, c->a.dx),
