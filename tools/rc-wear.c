@@ -618,11 +618,6 @@ set_keys(struct drive *d, struct rc_model *m, struct rc_grid *g)
             "alignment, and the worn depths that all alignments share are more accurate: take a "
             "smaller --tol",
             f->pressure_error);
-    else if (f->max_pressure_error > 1) /* smaller ones are usual, and have their column */
-        course_warn(&d->course, "the largest pressure is less accurate than the wear",
-                    "the estimated error of the largest pressure, %.2g, is above 1: it is the "
-                    "pressure of one node: take a smaller --tol if it matters",
-                    f->max_pressure_error);
 }
 
 /* A row of --steps after each step; none for a way that is taken again. */
