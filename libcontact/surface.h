@@ -287,12 +287,12 @@ struct rc_alignment {
 };
 /* A - B on the grid of A (m), NaN where either is missing, with B moved, turned and tilted so that the part
  * that has not changed is 0. Shift, rotation, tilt and offset are fitted with Tukey's biweights, from the
- * peak of a correlation on; patches of 7 x 7 nodes whose mean has changed do not count, or of 3 x 3 nodes where
- * changes are all over the map. At least half of the overlap must be unchanged. B is a cubic spline between its
- * nodes. A and B have the same spacings, and may have different sizes; a quarter of the smaller
+ * peak of a correlation on; patches of 7 x 7 nodes whose mean has changed do not count, or of 3 x 3 nodes
+ * where changes are all over the map. At least half of the overlap must be unchanged. B is a cubic spline
+ * between its nodes. A and B have the same spacings, and may have different sizes; a quarter of the smaller
  * side must overlap. Rotations up to 12 degrees are found. Profiles are not turned. The uncertainties contain
- * the noise, with its correlation between neighbours, and the errors of the fit; that of the volume also the pull
- * of changes that are smaller than the noise. out is not ha. RC_FAIL as
+ * the noise, with its correlation between neighbours, and the errors of the fit; that of the volume also the
+ * pull of changes that are smaller than the noise. out is not ha. RC_FAIL as
  * rc_add_shape; also when a side has fewer than 16 nodes, a height is infinite, three quarters are missing,
  * the maps do not fit on each other, or memory is short. Switches off GSL's error handler, which belongs to
  * the process, during the call. */

@@ -67,8 +67,8 @@ void rc_reader_by_rows(struct rc_reader *reader);
 size_t rc_reader_left(const struct rc_reader *reader);
 /* Reads the next n rows to v; with the last one it also checks the checksum. */
 enum rc_status rc_reader_rows(struct rc_reader *reader, size_t n, double *v, struct rc_err *err);
-/* Continues after the values of the last head, which are neither read nor checked. RC_FAIL if the frame is not
- * complete, or the input is a pipe. */
+/* Continues after the values of the last head, which are neither read nor checked. RC_FAIL if the frame is
+ * not complete, or the input is a pipe. */
 enum rc_status rc_reader_skip(struct rc_reader *reader, struct rc_err *err);
 /* The next row is the first one of the last head again. RC_FAIL if the input is a pipe. */
 enum rc_status rc_reader_again(struct rc_reader *reader, struct rc_err *err);

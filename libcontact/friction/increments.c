@@ -174,10 +174,10 @@ rc_leg_part(const struct rc_leg *leg, size_t k, size_t n)
 
 /* ---- the error ---- */
 
-/* With four to seven increments. An error that falls as 1/n is d over `part`, where half of the increments are
- * 2 or 3. In 1,118 states of random paths this estimate was 1.05 times the error and more, 3 to 5 times in the
- * median. With two or three increments no factor below 40 covers all errors, and the median is then 10 and
- * more. */
+/* With four to seven increments. An error that falls as 1/n is d over `part`, where half of the increments
+ * are 2 or 3. In 1,118 states of random paths this estimate was 1.05 times the error and more, 3 to 5 times
+ * in the median. With two or three increments no factor below 40 covers all errors, and the median is then 10
+ * and more. */
 static double
 error_of_few(const struct rc_leg *leg, double before, double d, double d2)
 {

@@ -52,8 +52,8 @@ bool rc_state_reads(const struct rc_state *s);
 bool rc_state_refused(const struct rc_state *s);
 /* True for a copy in memory at a kept point, which holds only what the history is made of. */
 bool rc_state_is_copy(const struct rc_state *s);
-/* True if no rank has refused the state; else all ranks refuse it. All call it before a collective call that a
- * rank which has refused the state would leave out. */
+/* True if no rank has refused the state; else all ranks refuse it. All call it before a collective call that
+ * a rank which has refused the state would leave out. */
 bool rc_state_agree(struct rc_state *s, const struct rc_ranks *ranks);
 /* Exchanges a further model that the row drives in addition to its inner one. */
 void rc_state_model(struct rc_state *s, struct rc_model *m);

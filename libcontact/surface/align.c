@@ -6,10 +6,10 @@
  * 1975), which suits rough surfaces, and by their heights, which suits smooth ones. From the best start a
  * shift, a rotation, two tilts and an offset are fitted on finer and finer maps. The weights of the residuals
  * are Tukey's biweights, and are renewed until they agree with the residuals. Wear lies on one side: the fit
- * starts at the most frequent residual, and its spread is that of the side with the smaller residuals. Between
- * its nodes B is the cubic spline through them. On the finest maps, nodes of patches whose mean has changed are
- * left out, so that the rims of a groove do not pull the offset. The pull of the others is found by a second
- * reach.
+ * starts at the most frequent residual, and its spread is that of the side with the smaller residuals.
+ * Between its nodes B is the cubic spline through them. On the finest maps, nodes of patches whose mean has
+ * changed are left out, so that the rims of a groove do not pull the offset. The pull of the others is found
+ * by a second reach.
  */
 #include "libcontact/common.h"
 
@@ -259,7 +259,8 @@ derivatives(const gsl_vector *x, void *data, gsl_matrix *to)
 }
 
 /* Standard deviation of the values about 0 that have not changed: 1.4826 times the median magnitude of the
- * positive or of the negative ones, whichever is less. A side with few values is the tail of the other one. */
+ * positive or of the negative ones, whichever is less. A side with few values is the tail of the other
+ * one. */
 static double
 smaller_side(const double *v, size_t n, double *room)
 {
@@ -677,7 +678,8 @@ mark_patch(const struct rc_shape *s, size_t k, size_t margin, unsigned char *ski
             skip[b * s->nx + a] = 1;
 }
 
-/* Marks the patches whose mean is far from 0; false, and no mark, if less than a quarter of the map is left. */
+/* Marks the patches whose mean is far from 0; false, and no mark, if less than a quarter of the map is
+ * left. */
 static bool
 mark_changes(const struct fit *f, const struct patch *patch, const double *change, double *mean,
              double *room, unsigned char *skip)
@@ -739,9 +741,9 @@ level_within(const struct fit *f, double within)
     return level;
 }
 
-/* Nodes that have changed by less than the reach cannot be told from noise. If all changes within it are equally
- * frequent, they pull the offset by the square of the reach. The pull follows from two reaches; it is taken away,
- * and returned, m. */
+/* Nodes that have changed by less than the reach cannot be told from noise. If all changes within it are
+ * equally frequent, they pull the offset by the square of the reach. The pull follows from two reaches; it is
+ * taken away, and returned, m. */
 static double
 take_pull(struct fit *f)
 {
@@ -787,8 +789,8 @@ static enum rc_status
 find_errors(const struct fit *f, const double *change, double level, struct rc_alignment *found,
             struct rc_err *err)
 {
-    /* standard deviations: 95 %; of the volume more, by the pairs of scans of tests/long/law_align.c: the rims of
-     * a change are not known, and the more has changed, the less the rest stands for the whole map */
+    /* standard deviations: 95 %; of the volume more, by the pairs of scans of tests/long/law_align.c: the
+     * rims of a change are not known, and the more has changed, the less the rest stands for the whole map */
     const double bar = 2, bar_of_volume = 2.5;
     const double far_off = 3; /* deviations of a node that has changed: 0.3 % are by chance */
     const size_t n = f->shape.nx * f->shape.ny, p = f->numbers;
@@ -860,8 +862,8 @@ find_errors(const struct fit *f, const double *change, double level, struct rc_a
     return RC_OK;
 }
 
-/* The spread of A - B over that of the levelled heights of A, both as median absolute deviations: of unrelated
- * surfaces too, whose differences have no side. */
+/* The spread of A - B over that of the levelled heights of A, both as median absolute deviations: of
+ * unrelated surfaces too, whose differences have no side. */
 static enum rc_status
 find_likeness(const struct fit *f, const double *change, double *room, double *ratio,
               struct rc_err *err)

@@ -36,8 +36,8 @@ enum {
      * errors up to twice as large (26 runs of bench/constants.py). */
     GROWTH = 4,
     MOST_TRIES = 3, /* more of a leg that is not accurate enough */
-    /* Smoothing steps of backward Euler, after which the pressure has no ripples. With one the largest pressure
-     * has up to 20 times the error; with 6 it takes 5 % more convolutions. */
+    /* Smoothing steps of backward Euler, after which the pressure has no ripples. With one the largest
+     * pressure has up to 20 times the error; with 6 it takes 5 % more convolutions. */
     EULER = 3,
     STATE = 7 /* maps beside the heights */
 };
@@ -46,9 +46,10 @@ static const double g = 0.58578643762690495, d = 0.29289321881345248, w = 0.3535
 static const double third_order = 0.0404;
 /* Wear coefficients are rarely known to 10 %. */
 static const double usual_tol = 0.1;
-/* The smoothing steps before a point take this part of the distance, and at least `fewest` steps. Half of the part
- * takes 1.4 times the convolutions, because legs are tried again, double 5 % more, with up to 5 and 6 times the
- * errors. Half of the steps takes 4 % fewer, with 1.2 times the errors, double 24 % more, with 0.8 times. */
+/* The smoothing steps before a point take this part of the distance, and at least `fewest` steps. Half of the
+ * part takes 1.4 times the convolutions, because legs are tried again, double 5 % more, with up to 5 and 6
+ * times the errors. Half of the steps takes 4 % fewer, with 1.2 times the errors, double 24 % more, with 0.8
+ * times. */
 static const double last_part = 0.1, fewest = 4;
 /* In dx/(k E*): a last short step before a point, over which the shortest wave decays by exp(-5), where
  * the smoothing steps are `unsettled` times as long. A node that comes into contact in a step of BDF2
@@ -59,8 +60,9 @@ static const double last_part = 0.1, fewest = 4;
 static const double settle = 3, unsettled = 4;
 /* Part of the tolerance for the errors of these steps: of the heights, and of the pressure after the
  * last one. After the steps before it the pressure may be `loose` times less accurate, because BDF2
- * divides the error of a pressure by 3 in each step. Half of the three takes 2, 0.5 and 0.2 % more convolutions,
- * double 1 % fewer, 7 % more and as many; double of the first has up to 1.4 times the errors. */
+ * divides the error of a pressure by 3 in each step. Half of the three takes 2, 0.5 and 0.2 % more
+ * convolutions, double 1 % fewer, 7 % more and as many; double of the first has up to 1.4 times the
+ * errors. */
 static const double of_last = 0.1, of_smooth = 0.3, loose = 10;
 /* The tolerance of their contacts, over the tolerance of the others. Where the last valleys close, a few
  * nodes can carry several times the mean pressure within the usual tolerance. The next contact starts there
@@ -76,8 +78,8 @@ static const double least_share = 1e-3;
  * tolerance of 0.1, and 16 to 20 % more at 0.01 and 0.001, where more steps are rejected (50 runs of
  * law_wear_estimates). */
 static const double of_tol = 0.8;
-/* Part of the tolerance that the wear of a coefficient map may use until it ends. Half takes 2 % more convolutions,
- * double 2 % fewer, with up to 2.2 times the errors. */
+/* Part of the tolerance that the wear of a coefficient map may use until it ends. Half takes 2 % more
+ * convolutions, double 2 % fewer, with up to 2.2 times the errors. */
 static const double in_volume = 0.9;
 /* Over the distance: the longest step to an early end by area or spread, which rise and fall as nodes come
  * into contact, and the last step. */
@@ -90,10 +92,10 @@ static const double aim = 0.6;
 /* Times the errors of the steps. With half, 15 of 219 estimates of the wear were below the error
  * (law_wear_estimates). Double takes 8 % more convolutions. */
 static const double caution = 2;
-/* Times these errors in the estimate: a node that comes into contact or leaves it bends the pressure at a part x of
- * a step. With a unit change of the slope the step errs by (1 - w - d) x - x^2/2 for x < g, and its estimate is
- * 2 third_order x/g: the error is up to (1 - w - d) g/(2 third_order) = 2.56 times the estimate. For x > g it is up
- * to 1.5 times. The steps do not depend on this factor. */
+/* Times these errors in the estimate: a node that comes into contact or leaves it bends the pressure at a
+ * part x of a step. With a unit change of the slope the step errs by (1 - w - d) x - x^2/2 for x < g, and its
+ * estimate is 2 third_order x/g: the error is up to (1 - w - d) g/(2 third_order) = 2.56 times the estimate.
+ * For x > g it is up to 1.5 times. The steps do not depend on this factor. */
 static const double bends = 1.28; /* 2.56 over caution */
 /* In dx/(k E*): within it the shortest wave, q = pi/dx, decays by a seventh. Half takes 9 % more
  * convolutions, double 11 % fewer, with errors up to 2.3 times as large in both (21 runs of
@@ -103,8 +105,8 @@ static const double first_step = 0.1;
  * does. Without them 6 of 500 estimates were 0.8 to 0.98 of the error. Half takes 1 and 4 % fewer
  * convolutions, double 1 and 18 % more. */
 static const double of_change = 2, of_heights = 1.5;
-/* At one node: times the pressure that closes the gap which the contact has left open, and times the relative L1
- * error of the contacts before. With 1 one of 103 estimates of the largest pressure was 0.94 of its error
+/* At one node: times the pressure that closes the gap which the contact has left open, and times the relative
+ * L1 error of the contacts before. With 1 one of 103 estimates of the largest pressure was 0.94 of its error
  * (law_wear_estimates). */
 static const double at_node = 1.5;
 /* Times the side of the map over E*: above this compliance the error of the contact changes the heights
@@ -652,9 +654,9 @@ respond(struct wear *v, double *sum, struct rc_err *err)
     return RC_OK;
 }
 
-/* The error of the largest pressure: how far it can move while each node moves by its error. p0 holds the errors
- * of the nodes by the steps, Pa. To these comes the error of the contact, from the gap that it has left open. `gap`
- * is overwritten. */
+/* The error of the largest pressure: how far it can move while each node moves by its error. p0 holds the
+ * errors of the nodes by the steps, Pa. To these comes the error of the contact, from the gap that it has
+ * left open. `gap` is overwritten. */
 static enum rc_status
 find_peak_error(struct wear *v, double *gap, struct rc_err *err)
 {

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The preconditioner of a first adhesive state is 1/(A + stiffness) on the whole grid: it inverts A + stiffness,
- * is symmetric and positive definite, and lies below K. Without a stiffness it is K again, to the bit. */
+/* The preconditioner of a first adhesive state is 1/(A + stiffness) on the whole grid: it inverts A +
+ * stiffness, is symmetric and positive definite, and lies below K. Without a stiffness it is K again, to the
+ * bit. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>

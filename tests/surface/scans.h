@@ -56,8 +56,8 @@ make_surface(struct surface *s, double lay)
     memset(s->depth, 0, sizeof s->depth);
 }
 
-/* Roughness with Sq = `size` and waves from 5 um to `longest`, and the grooves of two directions in it, up to 3
- * `size` deep. */
+/* Roughness with Sq = `size` and waves from 5 um to `longest`, and the grooves of two directions in it, up to
+ * 3 `size` deep. */
 static inline void
 make_honed(struct surface *s, double size, double longest)
 {

@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Random maps and balls that wear, with the tolerances 0.1, 0.01 and 0.001 in turn: one body, both, on a
  * track that wears, with a coefficient of each node, on maps that repeat along one axis, and pairs that slide
- * over each other. The estimated errors of the worn depth, of the pressure and of the largest pressure are not
- * below the differences to a tight run. Half of the first two are at most five times (at the tolerance 0.1:
- * eight times) as large. At most one of fifty is above its tolerance. A second run, twice as tight, differs from
- * the tight one by at most a tenth of the error. Runs to 1e-4 end within it.
+ * over each other. The estimated errors of the worn depth, of the pressure and of the largest pressure are
+ * not below the differences to a tight run. Half of the first two are at most five times (at the tolerance
+ * 0.1: eight times) as large. At most one of fifty is above its tolerance. A second run, twice as tight,
+ * differs from the tight one by at most a tenth of the error. Runs to 1e-4 end within it.
  *
  *     law_wear_estimates [KIND FIRST LAST]        runs of a kind, 0 to 5 (default: some of all) */
 #include <setjmp.h>

@@ -1129,10 +1129,11 @@ chooses(void **state)
     takes(0);
 }
 
-/* Of a list of a load, no load, and the load again, the first load takes one run although it aims at a smaller
- * error than a single load, for those that follow. What unloads with little flow takes one increment, and
- * so does reloading. No estimate of the increments is below their error. Of a body whose Mises stress is far
- * above the yield stress a load takes two runs, and unloading one, because it leaves no pressure to compare. */
+/* Of a list of a load, no load, and the load again, the first load takes one run although it aims at a
+ * smaller error than a single load, for those that follow. What unloads with little flow takes one increment,
+ * and so does reloading. No estimate of the increments is below their error. Of a body whose Mises stress is
+ * far above the yield stress a load takes two runs, and unloading one, because it leaves no pressure to
+ * compare. */
 static void
 returns_at_once(void **state)
 {

@@ -296,10 +296,10 @@ longest(const struct run *run)
     return ranks_most(&run->d.t, (double)(most < g->nx ? most : g->nx)) * g->dx;
 }
 
-/* After steps above 0.4 of the half width of the contact, and where less than five voxels in a row flow, 96 of 366
- * estimated errors of the steps were below the error, down to 0.32 times it; none of 210 others
- * (tests/long/estimates.py). Each voxel that begins to flow changes the pressure at once. Voxels that flowed in
- * an earlier pass hardly flow. */
+/* After steps above 0.4 of the half width of the contact, and where less than five voxels in a row flow, 96
+ * of 366 estimated errors of the steps were below the error, down to 0.32 times it; none of 210 others
+ * (tests/long/estimates.py). Each voxel that begins to flow changes the pressure at once. Voxels that flowed
+ * in an earlier pass hardly flow. */
 static void
 judge(struct run *run, const char *where, const struct solution *s)
 {
