@@ -190,7 +190,7 @@ judge() {
         ;;
     1)
         if [ -n "$out" ] && [ "$(tr -d '\0' <"$out")" != old ]; then
-            echo "$where: the old file is not as it was"
+            echo "$where: the old file is not as it was, and: $(head -c 900 run.err | tr -d '\0')"
         elif ! grep -aq "^$tool: " run.err; then
             echo "$where: no message, only: $(head -c 300 run.err | tr -d '\0')"
         else
