@@ -103,3 +103,31 @@ for half in first second; do
     # p_max = 2 sqrt(p p*)
     near "$(field max_pressure r.json)" 3.1415926535897932e6 1e-3 "  the largest pressure is Westergaard's"
 done
+
+# ---- the radius of a round contact ----
+
+# a node map from awk: f is an expression of x and y in nodes
+nodes() { # SIZE EXPRESSION
+    awk -v n="$1" "BEGIN { t = 8 * atan2(1, 1) / n; for (y = 0; y < n; y++) { for (x = 0; x < n; x++) printf \"%.12g \", $2; print \"\" } }" |
+        rc-import --quiet --format ascii --dx 1um --z-unit um -
+}
+radius_of() { rc-solve --quiet --estar 100GPa --report radius.json "$@" -o radius.rcg && field contact_radius radius.json; }
+for n in 64 65 128 200; do
+    for load in 0.03 0.1 0.5; do
+        found=$(rc-synth sphere --nx $n --dx "$(awk "BEGIN { print 200 / $n }")um" --radius 10mm | radius_of --load $load)
+        hertz=$(awk "BEGIN { printf \"%.9g\", (0.75 * $load * 10e-3 / 100e9) ^ (1 / 3) }")
+        near "$found" "$hertz" "$(awk "BEGIN { print 0.15 * 200e-6 / $n / $hertz }")" "$n nodes, $load N: the contact radius is Hertz's to 0.15 spacings"
+    done
+done
+unround() { radius_of "${@:2}" >/dev/null; claim "$1" grep -q '"contact_radius": null' radius.json; }
+near "$(rc-synth paraboloid --nx 128 --dx 1.5um --radius 10mm,12mm | radius_of --load 0.1)" \
+    "$(awk 'BEGIN { printf "%.9g", (0.75 * 0.1 * sqrt(120e-6) / 100e9) ^ (1 / 3) }')" 0.01 "a slightly long contact has the radius of its area"
+unround "an ellipse has no radius" --load 0.1 <(rc-synth paraboloid --nx 128 --dx 1.5um --radius 10mm,20mm)
+unround "  turned by 45 degrees too" --load 0.1 <(rc-synth paraboloid --nx 128 --dx 1.5um --radius 10mm,20mm --direction 45)
+unround "a line has none" --periodic=y --load 0.1 <(rc-synth cylinder --nx 128 --dx 1.5um --radius 10mm)
+unround "a profile has none" --load 0.001 <(rc-synth sphere --nx 128 --ny 1 --dx 1.5um --radius 10mm)
+unround "a ring has none" --load 0.1 <(nodes 64 '-0.001 * (sqrt((x - 32) ^ 2 + (y - 32) ^ 2) - 15) ^ 2')
+unround "two patches have none" --periodic --mean-pressure 200MPa <(nodes 64 '-cos(2 * t * x) + cos(t * y)')
+middle=$(radius_of --periodic --mean-pressure 200MPa <(nodes 64 'cos(t * (x - 32)) + cos(t * (y - 32))'))
+claim "one crest of a periodic map has one" test "${middle:-null}" != null
+near "$(radius_of --periodic --mean-pressure 200MPa <(nodes 64 'cos(t * x) + cos(t * (y - 3))'))" "$middle" 1e-9 "  across the seams it has the same"

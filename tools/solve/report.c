@@ -61,6 +61,7 @@ const struct rc_figure solve_figures[] = {
     {FIGURE("nodes_per_patch", nodes_per_patch), NULL, "Nodes per patch", .role = RC_FIGURE_CHECK},
     {FIGURE("contact_area_corrected", patches.contact_area_corrected), "m2",
      "Contact area, corrected"},
+    {FIGURE("contact_radius", contact_radius), "m", "Contact radius"},
     {FIGURE("stiffness", stiffness), "N/m", "Stiffness"},
     {FIGURE("indentation", indentation), "m", "Indentation"},
     {FIGURE("residual_indentation", residual_indentation), "m", "Residual indentation"},
@@ -217,6 +218,7 @@ solve_report(struct drive *d, const struct rc_model *m)
     for (size_t k = 0; solve_effects[k] != NULL; k++)
         if (solve_effects[k]->report_last != NULL && is_active(run, solve_effects[k]))
             solve_effects[k]->report_last(r, run);
+    report_number(r, "contact_radius", s->contact_radius, "m");
 }
 
 /* ---- cost ---- */

@@ -56,6 +56,7 @@ struct solution {
     double increments;                 /* of a load, or steps to a time; NAN: none */
     double slope;                      /* RMS slope where the bodies touch; NAN: not computed */
     double stiffness;                  /* N/m; NAN: unknown                                       */
+    double contact_radius;             /* m, of a contact that is one round patch; NAN: it is not */
     double nodes_per_patch;            /* nodes per patch, for the report */
     struct rc_conductance conductance; /* NAN: unknown */
     /* m, in a history: approach from the first touch of the first shape, for this solution and for the first
