@@ -62,6 +62,14 @@ changed_along(struct tool *t, const struct rc_grid *g, const double *before)
     return changes;
 }
 
+/* An added sphere or cylinder is removed with the form of the surface. */
+static void
+forget_form(struct tool *t, struct rc_grid *g, const struct rc_form *removed)
+{
+    if (removed->kind != RC_POLYNOMIAL || removed->degree >= 2)
+        tool_set(t, g, "form", NULL);
+}
+
 static enum rc_status
 remove_form(struct tool *t, struct rc_grid *g, const struct step *step, struct rc_err *err)
 {
@@ -79,6 +87,7 @@ remove_form(struct tool *t, struct rc_grid *g, const struct step *step, struct r
     form.threads = t->threads;
     if (rc_detrend_form(rc_shape_of(g), &form, g->v, &radius, err) != RC_OK)
         return RC_FAIL;
+    forget_form(t, g, &form);
     if (form.kind != RC_POLYNOMIAL) {
         tool_note(t, "%s: a %s of radius %sm", where, radius > 0 ? "bump" : "hollow",
                   shown_number(fabs(radius), 6, "m"));
@@ -113,6 +122,8 @@ filter(struct tool *t, struct rc_grid *g, const struct step *step, struct rc_err
                                    .boundary = map_repeats(g),
                                    .threads = t->threads};
 
+    if (what.high)
+        tool_set(t, g, "form", NULL);
     return rc_filter(rc_shape_of(g), &what, g->v, err);
 }
 
@@ -398,6 +409,7 @@ detrend_rows(struct tool *t, struct rc_grid *g)
 
     form.degree += (size_t)step->value;
     form.threads = t->threads;
+    forget_form(t, g, &form);
     if (rc_detrend_source(rc_shape_of(g), &form, &source, &t->err) != RC_OK) {
         tool_demand_measured(t, g);
         failed(t, g, step, &t->err);

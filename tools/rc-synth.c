@@ -219,7 +219,7 @@ wanted_shape(struct tool *t)
 static void
 add_keys(struct tool *t, const struct synth_shape *row, struct rc_grid *g, bool periodic)
 {
-    char step[1024], source[64];
+    char step[1024], source[64], form[RC_NUMBER_SIZE + 10];
 
     if (listed(row->takes, "seed"))
         snprintf(source, sizeof source, "%s-seed-%zu", row->name, args.seed);
@@ -229,6 +229,10 @@ add_keys(struct tool *t, const struct synth_shape *row, struct rc_grid *g, bool 
     tool_set(t, g, "source", source);
     if (periodic)
         tool_set(t, g, "periodic", "yes");
+    if (strcmp(row->name, "sphere") == 0 && !tool_given(t, "place")) {
+        snprintf(form, sizeof form, "sphere %s", rc_number(args.radius.v[0]));
+        tool_set(t, g, "form", form);
+    }
     tool_must(t, NULL, rc_grid_history(g, step, &t->err));
 }
 

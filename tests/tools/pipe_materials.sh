@@ -67,7 +67,7 @@ claim "rc-scene: the softer body's hardness, and heat of both" bash -c \
 # ---- a table of the user ----
 
 claim "  no hardness if the softer body may be the one without" bash -c \
-    'rc-scene --load 2N --radius 3mm --body1 steel --body2 100Cr6 ball.rcg --report - -o x.txt | grep -q "\"missing\": \"hardness\""'
+    'rc-pick --set form= ball.rcg | rc-scene --load 2N --radius 3mm --body1 steel --body2 100Cr6 --report - -o x.txt | grep -q "\"missing\": \"hardness\""'
 printf '# hip joint\nname\tE\tnu\thardness\tsource\nCoCr | F75\t230GPa\t0.3\t-\tnorm\nsteel\t200GPa\t0.3\t250HV\tmine\n\n' >mine.tsv
 alone table --materials mine.tsv --body1 F75 --body2 steel
 claim "a table of the user has precedence" grep -q '"E1 230GPa (F75); nu1 0.3 (F75); E2 200GPa (steel); nu2 0.3 (steel)"' table.json

@@ -22,6 +22,8 @@ draw='rc-render --quiet -o out.svg'
 # ---- maps and cuts ----
 
 claim "--hertz draws the circle of a ball of rc-synth" eval 'rc-render --hertz --radius 7.5mm --channel pressure -o c.svg p.rcg && says "Hertz, radius 143.6 µm" cat c.svg'
+claim "  with the radius of its key form too" eval 'rc-render --hertz --channel pressure -o c.svg p.rcg 2>said && says "Hertz, radius 143.6 µm" cat c.svg && test ! -s said'
+claim "  a map cut beside the middle causes a warning" warns 'the circle of Hertz is about the middle of the map, but the centre of the pressure is 200 µm away from it' eval 'rc-pick --quiet --crop 40,0,89,129 ball.rcg | rc-solve --quiet --load 60N --estar 114GPa --output pressure | rc-render --hertz -o c.svg'
 claim "with the modulus of the stream, or another one" eval 'rc-render --hertz --radius 7.5mm --estar 14.25GPa --channel pressure -o c.svg p.rcg && says "Hertz, radius 287.2 µm" cat c.svg'
 claim "a cut has Hertz's pressure too" rc-render --cut y=0 --hertz --radius 7.5mm --channel pressure --y-unit GPa --x-unit um -o cut.svg p.rcg
 near "$(value_at cut.svg dashed 0)" "$(hertz 0)" 1e-3 "  in the middle"
@@ -48,7 +50,7 @@ near "$(value_at law.svg dashed 1)" "$(perl -e '$x = sqrt(2) * 1e9 / (100e9 * sh
 
 # ---- refusals ----
 
-refuses 1 '--hertz needs the keys load, estar and form=sphere RADIUS: give what is missing with --estar and --radius' "a ball of which nothing is known" "$draw --hertz p.rcg"
+refuses 1 '--hertz needs the keys load, estar and form=sphere RADIUS: give what is missing with --estar and --radius' "a ball of unknown radius" "$draw --hertz <(rc-synth sphere --place 1um,0 --nx 129 --dx 10um --radius 7.5mm | rc-solve --quiet --load 60N --estar 114GPa --output pressure)"
 refuses 2 '--hertz with --cut needs a single pressure' "a gap" "$draw --cut y=0 --hertz --radius 7.5mm --channel gap p.rcg"
 refuses 2 '--hertz does not work with --histogram' "a histogram" "$draw --histogram --hertz --radius 7.5mm p.rcg"
 refuses 2 '--radius has no effect without --curve, --histogram or --hertz' "a radius of nothing" "$draw --radius 7.5mm p.rcg"

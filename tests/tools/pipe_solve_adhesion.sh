@@ -43,6 +43,36 @@ claim "50 mJ/m2, 50 mN/m and 0.05 are equal" cmp <(rc-pick --channel pressure a.
 near "$(field adhesion_work a.json)" 0.05 "$same" "  and the report says it"
 near "$(field tabor a.json)" "$(awk -v r="$(field adhesion_range a.json)" 'BEGIN { printf "%.12g", (1e-3 * (0.05 / 2e6) ^ 2) ^ (1 / 3) / r }')" 1e-9 "  and Tabor's number is that of the ball"
 claim "  and the pull-off of the theories for this ball, 3/2 and 2 pi w R" grep -q '"adhesion": "on: jkr.* pulls off at 235.6[0-9]* uN by JKR and 314.1[0-9]* uN by DMT' a.json
+
+# ---- the ball of rc-synth ----
+
+exponential="rc-solve --quiet --estar 60GPa --adhesion 50mJ/m2,exponential,1nm --load 1nN"
+rc-synth sphere --nx 64 --dx 0.5nm --radius 20nm -o tip.rcg
+$exponential --report tip.json -o tip-on.rcg tip.rcg
+near "$(field tabor tip.json)" "$(awk 'BEGIN { printf "%.12g", (20e-9 * (0.05 / 60e9) ^ 2) ^ (1 / 3) / 1e-9 }')" 1e-9 "Tabor's number of the ball of rc-synth needs no --radius"
+claim "  the line of adhesion has its radius and both pull-off loads" grep -q 'a smooth ball of 20 nm radius pulls off at 4.71239 nN by JKR and 6.28319 nN by DMT' tip.json
+line_of() { rc-solve --estar 60GPa --adhesion 50mJ/m2,exponential,1nm --load 1nN --dry-run "$1" | grep '  adhesion'; }
+claim "  --dry-run has them too" says 'of 20 nm radius pulls off at 4.71239 nN by JKR' line_of tip.rcg
+rc-synth selfaffine --hurst 0.8 --rms-height 0.05nm --rolloff 8nm --nx 64 --dx 0.5nm -o bumps.rcg
+rc-add --quiet tip.rcg bumps.rcg -o bumpy.rcg
+claim "  a rough tip has those of its ball, and its distance from it" says 'of 20 nm radius \(these heights differ from it by up to [12][0-9.]* pm\) pulls off at 4.71239 nN' line_of bumpy.rcg
+rc-detrend --sphere bumpy.rcg -o none.rcg
+claim "  without its sphere it has no radius" says "Tabor's number needs --radius or --cylinder" line_of none.rcg
+for step in "--poly 2" "--cylinder" "--highpass 8nm"; do
+    claim "  rc-detrend $step removes the key" bash -c "! rc-detrend $step bumpy.rcg | strings | grep -q '^form=' && rc-detrend --plane bumpy.rcg | strings | grep -q '^form=sphere 2e-08$'"
+done
+for form in "sphere 18nm" "sphere 1um" "sphere -20nm" "sphere" "cylinder 2e-08" "sphere 2e-08 + sphere 2e-08"; do
+    rc-pick --set "form=$form" tip.rcg -o wrong.rcg
+    $exponential --report wrong.json -o wrong-on.rcg wrong.rcg
+    claim "a wrong key, form=$form, gives no Tabor's number" grep -q '"tabor": null' wrong.json
+done
+rc-pick --set form="sphere 17nm" tip.rcg -o wrong.rcg
+claim "  the line has the radii of the heights" says "no Tabor's number: by the key form=sphere 17nm the heights are a ball, but their radii of curvature are 20 nm along x and 20 nm along y" line_of wrong.rcg
+rc-synth paraboloid --nx 64 --dx 0.5nm --radius 20nm,25nm | rc-pick --set form="sphere 20nm" -o wrong.rcg
+claim "  also where they differ along one axis" says "but their radii of curvature are 20 nm along x and 25 nm along y" line_of wrong.rcg
+refuses 1 'a sphere was already added to these heights \(form=sphere 2e-08\): remove --radius' "a second sphere is not added to it" "$exponential --radius 20nm tip.rcg -o x.rcg"
+claim "  except to one that is flat beside it, whose key it replaces" bash -c "rc-synth sphere --nx 64 --dx 0.5nm --radius 1m | $exponential --radius 20nm --output height | strings | grep -q '^form=sphere 2e-08$'"
+claim "  and of a body that travels, which has a form of its own" bash -c "rc-solve --quiet --estar 60GPa --load 1uN --radius 40nm --travel 0 --output height tip.rcg | strings | grep -q '^form=sphere 2e-08 + sphere 4e-08$'"
 claim "without --adhesion its figures are null, with the reason" bash -c '
     rc-solve --quiet --estar 2MPa --load 1mN --report none.json ball.rcg -o none.rcg
     grep -q "\"adhesion\": \"left out: no --adhesion\"" none.json && grep -q "\"adhesion_work\": null" none.json'
@@ -116,7 +146,7 @@ claim "a grid that does not resolve the range causes a warning" warns "the grid 
 claim "a range too long for JKR theory causes a warning" warns "Tabor's number is 2.2, below 3: .*take a spacing of 1.6" rc-solve --estar 2MPa --adhesion 50mJ/m2,jkr --radius 1mm --approach 1um flat.rcg -o w.rcg
 rc-synth wave --nx 128 --dx 1.5um --amplitude 1fm --wavelength 192um -o fine.rcg
 claim "  a finer grid causes none" bash -c "rc-solve --estar 2MPa --adhesion 50mJ/m2,jkr --radius 1mm --approach 1um fine.rcg -o w.rcg 2>said; ! grep -q Tabor said"
-claim "without --radius the report says why Tabor's number is missing" grep -q "Tabor's number needs --radius" <(rc-solve --quiet --estar 2MPa --adhesion 50mJ/m2,jkr --approach 1um ball.rcg --report -)
+claim "without a radius the report says why Tabor's number is missing" grep -q "Tabor's number needs --radius" <(rc-solve --quiet --estar 2MPa --adhesion 50mJ/m2,jkr --approach=-1nm flat.rcg --report -)
 $soft --adhesion 50mJ/m2,jkr --approach 1um,2um --history --output gap ball.rcg -o h1.rcg
 $soft --adhesion 50mJ/m2,jkr --approach 1um,2um --output gap ball.rcg -o h2.rcg
 claim "--history does not change a path" cmp <(rc-pick --channel gap --case 2 h1.rcg | rc-export --format csv -o h1.csv && cat h1.csv) <(rc-pick --channel gap --case 2 h2.rcg | rc-export --format csv -o h2.csv && cat h2.csv)

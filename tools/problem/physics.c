@@ -252,7 +252,20 @@ add_parabolas(struct tool *t, double radius_x, double radius_y, struct rc_grid *
     free(row);
 }
 
-/* An added form is named in the header, so that it is not added twice. */
+/* True if the sphere of the key is as good as flat beside a sphere or cylinder of this radius. */
+static bool
+is_flat(const char *form, double radius)
+{
+    const double flat = 1e3; /* times this radius: their sum has its curvature to 0.1 % */
+    double is;
+    struct rc_err err;
+
+    return strncmp(form, "sphere ", 7) == 0 && unit_number(form + 7, UNIT_M, &is, &err) == RC_OK &&
+           is >= flat * radius;
+}
+
+/* An added form is named in the header, so that it is not added twice. The form of a body that travels is not in
+ * the heights of body 1, which may have their own. */
 static void
 add_form(struct tool *t, const struct physics *a, struct rc_grid *g)
 {
@@ -260,15 +273,107 @@ add_form(struct tool *t, const struct physics *a, struct rc_grid *g)
     const bool sphere = !isnan(a->radius);
     const bool turned = !sphere && physics_cylinder_axis(a, g) == RC_X;
     const double radius = sphere ? a->radius : a->cylinder;
-    char name[RC_NUMBER_SIZE + 10];
+    const char *word = sphere ? "sphere" : "cylinder";
+    char name[2 * RC_NUMBER_SIZE + 32];
 
-    if (form != NULL)
+    if (form != NULL && !a->travels && !is_flat(form, radius))
         tool_refuse(t, g, "a %.*s was already added to these heights (form=%s): remove --%s",
                     (int)strcspn(form, " "), form, form, sphere ? "radius" : "cylinder");
     if (!a->travels)
         add_parabolas(t, turned ? INFINITY : radius, sphere || turned ? radius : INFINITY, g);
-    snprintf(name, sizeof name, "%s %s", sphere ? "sphere" : "cylinder", rc_number(radius));
+    if (form != NULL && a->travels)
+        snprintf(name, sizeof name, "%.*s + %s %s", RC_NUMBER_SIZE + 10, form, word,
+                 rc_number(radius));
+    else
+        snprintf(name, sizeof name, "%s %s", word, rc_number(radius));
     tool_set(t, g, "form", name);
+}
+
+/* Least squares of h = c + a_x x + a_y y - x^2/(2 R_x) - y^2/(2 R_y) on the whole map: on a regular grid about
+ * its middle the terms are orthogonal, when their means are subtracted. */
+struct paraboloid {
+    double mean, slope[2], curvature[2]; /* of rows along x, and of columns along y */
+};
+
+/* The position of node k of n, from the middle; and its square less the mean square. */
+static double
+from_middle(size_t k, size_t n, double d)
+{
+    return ((double)k - 0.5 * (double)(n - 1)) * d;
+}
+
+static double
+bow(size_t k, size_t n, double d)
+{
+    const double x = from_middle(k, n, d);
+
+    return x * x - ((double)n * (double)n - 1) / 12 * d * d;
+}
+
+static struct paraboloid
+fit_paraboloid(struct tool *t, const struct rc_grid *g)
+{
+    const size_t first = tool_first_row(t, g), rows = g->ny - g->elsewhere;
+    struct paraboloid fit = {0};
+    double squares[2][2] = {{0}}, sum[5] = {0};
+
+    for (size_t i = 0; i < g->nx; i++) {
+        squares[0][0] += (double)g->ny * pow(from_middle(i, g->nx, g->dx), 2);
+        squares[0][1] += (double)g->ny * pow(bow(i, g->nx, g->dx), 2);
+    }
+    for (size_t j = 0; j < g->ny; j++) {
+        squares[1][0] += (double)g->nx * pow(from_middle(j, g->ny, g->dy), 2);
+        squares[1][1] += (double)g->nx * pow(bow(j, g->ny, g->dy), 2);
+    }
+    for (size_t j = 0; j < rows; j++)
+        for (size_t i = 0; i < g->nx; i++) {
+            const double h = g->v[j * g->nx + i];
+            sum[0] += h;
+            sum[1] += h * from_middle(i, g->nx, g->dx);
+            sum[2] += h * from_middle(first + j, g->ny, g->dy);
+            sum[3] += h * bow(i, g->nx, g->dx);
+            sum[4] += h * bow(first + j, g->ny, g->dy);
+        }
+    for (size_t k = 0; k < 5; k++)
+        sum[k] = ranks_sum(t, sum[k]);
+    fit.mean = sum[0] / ((double)g->nx * (double)g->ny);
+    for (size_t side = 0; side < 2; side++) {
+        fit.slope[side] = sum[1 + side] / squares[side][0];
+        fit.curvature[side] = -2 * sum[3 + side] / squares[side][1];
+    }
+    return fit;
+}
+
+struct ball
+physics_ball(struct tool *t, const struct physics *a, const struct rc_grid *g)
+{
+    const double near = 0.1; /* of the curvature; the theories' pull-off is as uncertain */
+    const char *form = rc_grid_get(g, "form");
+    const size_t first = tool_first_row(t, g);
+    struct ball b = {.radius = a->radius, .along = {NAN, NAN}};
+    struct paraboloid is;
+    struct rc_err err;
+    double radius;
+
+    if (!isnan(a->radius) || form == NULL || strncmp(form, "sphere ", 7) != 0 || g->nx < 3 ||
+        g->ny < 3 || unit_number(form + 7, UNIT_M, &radius, &err) != RC_OK)
+        return b;
+    is = fit_paraboloid(t, g);
+    for (size_t side = 0; side < 2; side++)
+        b.along[side] = 1 / is.curvature[side];
+    if (!(fabs(is.curvature[0] * radius - 1) <= near && fabs(is.curvature[1] * radius - 1) <= near))
+        return b;
+    for (size_t j = 0; j < g->ny - g->elsewhere; j++)
+        for (size_t i = 0; i < g->nx; i++) {
+            const double x = from_middle(i, g->nx, g->dx);
+            const double y = from_middle(first + j, g->ny, g->dy);
+            const double bows = bow(i, g->nx, g->dx) + bow(first + j, g->ny, g->dy);
+            const double ball = is.mean + is.slope[0] * x + is.slope[1] * y - bows / (2 * radius);
+            b.off = fmax(b.off, fabs(g->v[j * g->nx + i] - ball));
+        }
+    b.off = ranks_most(t, b.off);
+    b.radius = radius;
+    return b;
 }
 
 /* Warns of a periodic map whose opposite edges do not meet: the step there would carry much of the load. */

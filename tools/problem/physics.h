@@ -51,6 +51,17 @@ const struct numbers *physics_steps(const struct physics *physics);
 /* Ends the tool when a frame does not hold heights suitable for contact. Otherwise adds the sphere or the
  * cylinder, which the key `form` then names, and warns when the map does not suit the boundary. */
 void physics_heights(struct tool *tool, const struct physics *physics, struct rc_grid *heights);
+/* The ball that heights are. */
+struct ball {
+    double radius; /* m, of --radius, otherwise of the key form=sphere R; NAN if it is unknown */
+    double along
+        [2]; /* m: the mean radii of curvature of the heights along x and y, if the key was read */
+    double off; /* m: the largest distance of the heights from the ball of the key */
+};
+/* The radius is NAN if the curvature of the heights along x or y differs from that of the key by more than
+ * 10 %. */
+struct ball physics_ball(struct tool *tool, const struct physics *physics,
+                         const struct rc_grid *heights);
 /* The axis of --cylinder on this map. */
 enum rc_map_axis physics_cylinder_axis(const struct physics *physics,
                                        const struct rc_grid *heights);

@@ -198,6 +198,29 @@ words_largest(struct words *w, const struct rc_grid *g, double value, const char
     return w->largest;
 }
 
+/* Warns if the pressure of a map is not about its middle, where the circle is: the map may be a part of the
+ * solved one. */
+static void
+warn_of_centre(struct tool *t, const struct rc_grid *g, double radius)
+{
+    const double near = 0.25; /* of the radius */
+    double sum = 0, x = 0, y = 0;
+
+    if (strcmp(g->channel, "pressure") != 0)
+        return;
+    for (size_t k = 0; k < rc_grid_nodes(g); k++)
+        if (isfinite(g->v[k])) {
+            sum += g->v[k];
+            x += g->v[k] * ((double)(k % g->nx) - 0.5 * (double)(g->nx - 1)) * g->dx;
+            y += g->v[k] * ((double)(k / g->nx) - 0.5 * (double)(g->ny - 1)) * g->dy;
+        }
+    if (sum > 0 && hypot(x, y) > near * radius * sum)
+        tool_warn(t,
+                  "%s: the circle of Hertz is about the middle of the map, but the centre of the "
+                  "pressure is %s away from it",
+                  tool_where(t, g), scale_value(hypot(x, y) / sum, "m"));
+}
+
 /* Hertz (1882): a sphere of radius R touches a disc, a^3 = 3 F R / (4 E*). */
 const char *
 words_hertz(struct tool *t, struct words *w, const struct rc_grid *g, const struct law_given *given,
@@ -219,6 +242,7 @@ words_hertz(struct tool *t, struct words *w, const struct rc_grid *g, const stru
                     "--hertz needs the keys load, estar and form=sphere RADIUS: give what is "
                     "missing with --estar and --radius, or leave out --hertz");
     *radius = cbrt(0.75 * load * r / estar);
+    warn_of_centre(t, g, *radius);
     snprintf(w->circle, sizeof w->circle, "Hertz, radius %s", scale_value(*radius, "m"));
     return w->circle;
 }

@@ -11,8 +11,9 @@
 static const double resolved = 1.5;   /* nodes in the cohesive length: with fewer the grid pins
                                          the edge of the contact */
 static const double enough_nodes = 2; /* nodes that the warning recommends */
-static const double of_lines = 2; /* times as many where whole lines of nodes separate at once */
-static const double faint = 0.01; /* fraction of the largest traction */
+static const double of_lines = 2;  /* times as many where whole lines of nodes separate at once */
+static const double within = 0.01; /* of the range: closer heights are those of the ball */
+static const double faint = 0.01;  /* fraction of the largest traction */
 static const double too_strong = 0.1; /* fraction of E*: above it a solid is not linear elastic */
 
 static struct {
@@ -25,6 +26,7 @@ static struct {
     struct rc_adhesion_scales scales;        /* scales of the law on this grid */
     const struct rc_adhesion_state *figures; /* figures of the current point; NULL: none */
     bool pulling;                            /* this case is the pull-off */
+    struct ball ball;
     double part;       /* expected work of a state over that of a map in partial contact */
     double filled;     /* pressure with the attraction over that which closes the gap */
     double retraction; /* expected work of the retraction over that of the first state */
@@ -87,6 +89,7 @@ make(struct run *run, const struct rc_problem *contact)
     const struct rc_adhesion_problem problem = problem_of(contact);
     struct rc_model *m = NULL;
 
+    own.ball = physics_ball(&run->d.t, run->physics, g);
     if (rc_adhesion_check(&shape, &problem, &own.scales, &run->d.t.err) == RC_OK)
         m = rc_adhesion_new(&shape, g->v, &problem, &run->d.t.err);
     if (m == NULL)
@@ -171,14 +174,15 @@ warn_of_grid(struct run *run, const char *where)
               shown_in_unit_to(range, s->range * sqrt(enough / s->cohesive_nodes), "m"));
 }
 
-/* Tabor's number for the sphere of --radius or the cylinder of --cylinder on these bodies. */
+/* Tabor's number for the ball, or for the cylinder of --cylinder, on these bodies. */
 static double
 tabor(const struct run *run)
 {
     const struct physics *p = run->physics;
     double w = own.law.problem.work / p->surface_estar;
 
-    return cbrt((isnan(p->radius) ? p->cylinder : p->radius) * w * w) / own.scales.range;
+    return cbrt((isnan(own.ball.radius) ? p->cylinder : own.ball.radius) * w * w) /
+           own.scales.range;
 }
 
 /* Warns if Tabor's number is below 3. The law jkr takes the shortest range that the grid resolves, and JKR
@@ -348,6 +352,7 @@ plan_cost(struct run *run, const struct rc_problem *contact, struct rc_expected 
 
     tool_must(&run->d.t, run->g, rc_adhesion_check(&shape, &problem, &own.scales, &run->d.t.err));
     tool_must(&run->d.t, run->g, rc_adhesion_expect(&shape, &problem, expected, &run->d.t.err));
+    own.ball = physics_ball(&run->d.t, run->physics, run->g);
     own.part = full_contact(run, contact);
     expected->convolutions *= own.part;
     expected->seconds *= own.part;
@@ -365,28 +370,45 @@ loads_cost(const struct run *run)
            (args.pull_off ? own.retraction : 0);
 }
 
+/* Johnson, Kendall and Roberts 1971; Derjaguin, Muller and Toporov 1975. */
+static void
+describe_ball(char *text, size_t size, const struct run *run)
+{
+    const double force = acos(-1) * own.law.problem.work * own.ball.radius;
+    char radius[SHOWN_NUMBER], jkr[SHOWN_NUMBER], difference[SHOWN_NUMBER + 64] = "";
+
+    if (own.ball.off > within * own.scales.range)
+        snprintf(difference, sizeof difference, " (these heights differ from it by up to %s)",
+                 shown_in_unit(own.ball.off, "m"));
+    snprintf(text, size,
+             "; a smooth ball of %s radius%s pulls off at %s by JKR and %s by DMT; Tabor's number "
+             "is %.2g (JKR above 5, DMT below 0.1)",
+             shown_in_unit_to(radius, own.ball.radius, "m"), difference,
+             shown_in_unit_to(jkr, 1.5 * force, "N"), shown_in_unit(2 * force, "N"), tabor(run));
+}
+
 static const char *
 state(const struct run *run)
 {
-    static char text[512];
-    const double radius = run->physics->radius, force = acos(-1) * own.law.problem.work * radius;
-    char jkr[SHOWN_NUMBER];
+    static char text[768];
+    char along_x[SHOWN_NUMBER];
     size_t n;
 
     n = (size_t)snprintf(text, sizeof text,
-                         "on: %s, %s over %s: at most %s, cohesive length %.2g nodes%s",
+                         "on: %s, %s over %s: at most %s, cohesive length %.2g nodes",
                          own.scales.law, shown_in_unit(own.law.problem.work, "J/m2"),
                          shown_in_unit(own.scales.range, "m"),
-                         shown_in_unit(own.scales.strength, "Pa"), own.scales.cohesive_nodes,
-                         isnan(tabor(run)) ? "; Tabor's number needs --radius or --cylinder" : "");
-    /* Johnson, Kendall and Roberts 1971; Derjaguin, Muller and Toporov 1975 */
-    if (!isnan(radius))
+                         shown_in_unit(own.scales.strength, "Pa"), own.scales.cohesive_nodes);
+    if (!isnan(own.ball.radius))
+        describe_ball(text + n, sizeof text - n, run);
+    else if (!isnan(own.ball.along[0]))
         snprintf(text + n, sizeof text - n,
-                 "; a smooth ball of this radius pulls off at %s by JKR and %s by DMT; Tabor's "
-                 "number is "
-                 "%.2g (JKR above 5, DMT below 0.1)",
-                 shown_in_unit_to(jkr, 1.5 * force, "N"), shown_in_unit(2 * force, "N"),
-                 tabor(run));
+                 "; no Tabor's number: by the key form=%s the heights are a ball, but their radii "
+                 "of curvature are %s along x and %s along y",
+                 rc_grid_get(run->g, "form"), shown_in_unit_to(along_x, own.ball.along[0], "m"),
+                 shown_in_unit(own.ball.along[1], "m"));
+    else if (isnan(tabor(run)))
+        snprintf(text + n, sizeof text - n, "; Tabor's number needs --radius or --cylinder");
     return text;
 }
 
