@@ -118,6 +118,8 @@ tools/stress        | tools/frames/frames.h                    | tools/frames
 tools/fatigue       | %public tools/cli/cli.h                  | %physics %cli formats/rcg
 tools/leak          | %public tools/cli/cli.h                  | %physics %cli
 tools/scene         | %public tools/cli/cli.h                  | %physics %cli
+tools/report        | %public tools/cli/cli.h tools/scene/scene.h | %physics %cli tools/scene
+tools/report        | tools/problem/problem.h formats/core/core.h | tools/problem formats/core formats/rcg
 tools/pick          | %public tools/cli/cli.h                  | %physics %cli
 tools/pick          | tools/frames/frames.h                    | tools/frames
 tools/synth         | %public tools/cli/cli.h                  | %physics %cli
@@ -138,6 +140,7 @@ tools               | tools/problem/problem.h tools/model/model.h | tools/proble
 tools               | tools/materials/materials.h              | tools/materials
 tools               | tools/import/import.h                    | tools/import
 tools               | tools/pick/pick.h tools/synth/synth.h    | tools/pick tools/synth
+tools               | tools/report/page.h                      | tools/report
 tools               | formats/core/core.h formats/rcg/rcg.h    | formats/core formats/rcg
 tools               | formats/format.h formats/export.h        | formats
 tools               | formats/containers/containers.h          | formats/containers formats/containers/packing

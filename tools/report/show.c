@@ -1,0 +1,442 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* What the parts show: pictures, texts and tables as HTML. */
+#include <stdlib.h>
+#include <string.h>
+
+#include "formats/core/core.h"
+#include "page.h"
+
+/* Writes text of files and users: no character of it acts as markup, and none is a control character. */
+void
+page_text(FILE *out, const char *text)
+{
+    bool utf8 = rc_utf8_valid(text);
+
+    for (size_t size; *text != '\0'; text += size) {
+        size = rc_control_size(text);
+        if (*text != '\n' && (size > 0 || (!utf8 && (unsigned char)*text >= 0x80)))
+            putc('?', out);
+        else if (strchr("&<>\"'", *text) != NULL)
+            fprintf(out, "&#%d;", *text);
+        else
+            putc(*text, out);
+        size = size == 0 ? 1 : size;
+    }
+}
+
+void
+page_show_picture(struct page *run, FILE *in, const char *caption, const char *unused)
+{
+    FILE *out = run->page.file;
+    unsigned char bytes[3];
+    char four[5];
+    const int first = getc(in);
+
+    (void)unused;
+    if (first == EOF) /* of an effect that was not computed */
+        return;
+    (void)ungetc(first, in);
+    fprintf(out, "<figure><img alt=\"%s\" src=\"data:image/png;base64,", caption);
+    for (size_t n; (n = fread(bytes, 1, sizeof bytes, in)) > 0;)
+        fputs(rc_base64(four, bytes, n), out);
+    fprintf(out, "\"/><figcaption>%s</figcaption></figure>\n", caption);
+}
+
+static bool
+begins(const char *line, const char *word)
+{
+    return word != NULL && strncmp(line, "  ", 2) == 0 &&
+           strncmp(line + 2, word, strlen(word)) == 0;
+}
+
+/* Shows some lines of a text of rc-info. The first is the line with this first word (NULL: the second line),
+ * the last is the one before the line with the other word. */
+void
+page_show_lines(struct page *run, FILE *in, const char *from, const char *to)
+{
+    RC_OWNED char *line = NULL;
+    size_t room = 0;
+    bool shown = false;
+
+    fputs("<pre>", run->page.file);
+    for (size_t k = 0; getline(&line, &room, in) > 0; k++) {
+        shown = (shown || (from == NULL ? k == 1 : begins(line, from))) && !begins(line, to);
+        if (shown)
+            page_text(run->page.file, line);
+    }
+    fputs("</pre>\n", run->page.file);
+}
+
+/* ---- tables of reports ---- */
+
+/* A value of a report with its unit, in four digits; what is no number, as it is. A length below 1 fm is only
+ * rounding. */
+void
+page_value(FILE *out, const char *text, const char *unit)
+{
+    char *end;
+    const double value = strtod(text, &end);
+    const double whole = value == 0 || strcmp(unit, "m") != 0 || fabs(value) >= 1e-15 ? value : 0;
+
+    if (strcmp(text, "NaN") == 0 || *text == '\0')
+        putc('-', out);
+    else if (strcmp(text, "true") == 0 || strcmp(text, "false") == 0)
+        fputs(*text == 't' ? "yes" : "no", out);
+    else if (end == text || *end != '\0')
+        page_text(out, text);
+    else if (strcmp(unit, "m2") == 0)
+        fputs(shown_area(value), out);
+    else
+        fprintf(out, "%s%s", shown_number(whole, 4, unit), unit);
+}
+
+/* A cell of a line, which the next one follows: ends it and returns the rest. */
+char *
+page_end_cell(char *cell)
+{
+    char *rest = cell + strcspn(cell, "\t\n");
+
+    if (*rest != '\0')
+        *rest++ = '\0';
+    return rest;
+}
+
+/* Writes the cell of a column in the last row of a report to `text`, and its unit to `unit`. False: the
+ * report is empty or has no such column. */
+bool
+page_last_cell(struct page *run, const char *file, const char *column, char text[PAGE_CELL],
+               char unit[PAGE_CELL])
+{
+    FILE *in = page_open(run, file);
+    RC_OWNED char *line = NULL;
+    size_t room = 0, at = SIZE_MAX;
+    const size_t name = strlen(column);
+
+    *text = '\0';
+    for (size_t row = 0; getline(&line, &room, in) > 0; row++) {
+        char *cell = line, *rest;
+
+        for (size_t k = 0; *cell != '\0'; k++, cell = rest) {
+            rest = page_end_cell(cell);
+            if (row == 0 && strncmp(cell, column, name) == 0 &&
+                (cell[name] == '/' || cell[name] == '\0')) {
+                at = k;
+                snprintf(unit, PAGE_CELL, "%s", cell[name] == '/' ? cell + name + 1 : "");
+            }
+            if (row > 0 && k == at)
+                snprintf(text, PAGE_CELL, "%s", cell);
+        }
+    }
+    fclose(in);
+    return at != SIZE_MAX && *text != '\0';
+}
+
+double
+page_last_number(struct page *run, const char *file, const char *column)
+{
+    char text[PAGE_CELL], unit[PAGE_CELL];
+
+    return page_last_cell(run, file, column, text, unit) ? strtod(text, NULL) : NAN;
+}
+
+void
+page_last(struct page *run, const char *file, const char *column)
+{
+    char text[PAGE_CELL], unit[PAGE_CELL];
+
+    if (page_last_cell(run, file, column, text, unit))
+        page_value(run->page.file, text, unit);
+    else
+        fputs("unknown", run->page.file);
+}
+
+static void
+put_title(FILE *out, const char *column)
+{
+    const struct rc_figure *f = report_figure(column);
+
+    if (f != NULL && f->title != NULL)
+        page_text(out, f->title);
+    else
+        for (const char *c = column; *c != '\0'; c++)
+            putc(*c == '_' ? ' ' : *c, out);
+}
+
+/* Shows these figures of the last row of a report, one below the other. */
+void
+page_show_figures(struct page *run, FILE *in, const char *columns, const char *unused)
+{
+    FILE *out = run->page.file;
+    char word[PAGE_CELL], text[PAGE_CELL], unit[PAGE_CELL];
+
+    (void)unused;
+    if (getc(in) == EOF) {
+        fputs("<p>This was not computed: see the messages under Accuracy.</p>\n", out);
+        return;
+    }
+    fputs("<table>\n", out);
+    for (const char *at = columns; *at != '\0'; at += strspn(at, " ")) {
+        const size_t n = strcspn(at, " ");
+
+        snprintf(word, sizeof word, "%.*s", (int)n, at);
+        at += n;
+        if (!page_last_cell(run, run->shown, word, text, unit) || strcmp(text, "NaN") == 0)
+            continue;
+        fputs("<tr><th>", out);
+        put_title(out, word);
+        fputs("</th><td>", out);
+        page_value(out, text, unit);
+        fputs("</td></tr>\n", out);
+    }
+    fputs("</table>\n", out);
+}
+
+/* Shows these columns of a report, if its last row has a value. */
+void
+page_show_table(struct page *run, FILE *in, const char *columns, const char *unused)
+{
+    FILE *out = run->page.file;
+    char unit[PAGE_WORDS][PAGE_CELL], text[PAGE_CELL], other[PAGE_CELL];
+    bool wanted[PAGE_WORDS] = {false};
+    char *line = NULL, *rest;
+    size_t room = 0;
+
+    (void)unused;
+    fputs("<table>\n", out);
+    for (size_t row = 0; getline(&line, &room, in) > 0; row++) {
+        char *cell = line;
+
+        fputs("<tr>", out);
+        for (size_t k = 0; k < PAGE_WORDS && *cell != '\0'; k++, cell = rest) {
+            rest = page_end_cell(cell);
+            if (row == 0) {
+                const size_t n = strcspn(cell, "/");
+                char name[PAGE_CELL];
+
+                snprintf(name, sizeof name, " %.*s ", (int)n, cell);
+                snprintf(unit[k], PAGE_CELL, "%s", cell[n] == '/' ? cell + n + 1 : "");
+                cell[n] = '\0';
+                wanted[k] = strstr(columns, name) != NULL &&
+                            page_last_cell(run, run->shown, cell, text, other) &&
+                            strcmp(text, "NaN") != 0;
+            }
+            if (!wanted[k])
+                continue;
+            fputs(row == 0 ? "<th>" : "<td>", out);
+            if (row > 0)
+                page_value(out, cell, unit[k]);
+            else
+                put_title(out, cell);
+            fputs(row == 0 ? "</th>" : "</td>", out);
+        }
+        fputs("</tr>\n", out);
+    }
+    fputs("</table>\n", out);
+    free(line);
+}
+
+/* Shows the figures of the last case that have a bar, or a note why they have none. */
+void
+page_show_bars(struct page *run, FILE *in, const char *a, const char *b)
+{
+    enum {
+        WHAT,
+        CASE,
+        NAME,
+        UNIT,
+        VALUE,
+        SHARE,
+        DOMINANT,
+        WHY,
+        CELLS
+    };
+    static const char *const names[CELLS] = {"what",  "case",         "name",     "unit",
+                                             "value", "bar_relative", "dominant", "why"};
+    FILE *out = run->page.file;
+    char *line = NULL;
+    size_t room = 0, at[CELLS] = {0};
+
+    (void)a, (void)b;
+    fprintf(out,
+            "<p>Noise of %s in the heights, and the grid, change the figures of the last load. In "
+            "90 %% of "
+            "the cases the value of the true surface is within this bar:</p>\n<table>\n"
+            "<tr><th>figure</th><th>value</th><th>bar</th><th>mostly by</th><th></th></tr>\n",
+            shown_in_unit(page_args.noise.v[0], "m"));
+    for (size_t row = 0; getline(&line, &room, in) > 0; row++) {
+        char *cell[PAGE_WORDS] = {NULL}, *rest = line;
+        const char *own[CELLS];
+
+        for (size_t k = 0; k < PAGE_WORDS && *rest != '\0'; k++) {
+            cell[k] = rest;
+            rest += strcspn(rest, "\t\n");
+            if (*rest != '\0')
+                *rest++ = '\0';
+            for (size_t i = 0; row == 0 && i < CELLS; i++)
+                at[i] = strcmp(cell[k], names[i]) == 0 ? k : at[i];
+        }
+        for (size_t i = 0; i < CELLS; i++)
+            own[i] = cell[at[i]] == NULL || strcmp(cell[at[i]], "NaN") == 0 ? "" : cell[at[i]];
+        if (row == 0 || strcmp(own[WHAT], "figure") != 0 || strcmp(own[CASE], run->last) != 0 ||
+            strcmp(own[SHARE], "0") == 0 || (*own[SHARE] == '\0' && *own[WHY] == '\0'))
+            continue;
+        for (char *c = cell[at[NAME]]; (c = strchr(c, '_')) != NULL;)
+            *c = ' ';
+        fputs("<tr><td>", out);
+        page_text(out, own[NAME]);
+        fprintf(out, "</td><td>%.4g ", strtod(own[VALUE], NULL));
+        page_text(out, own[UNIT]);
+        if (*own[SHARE] == '\0')
+            fputs("</td><td>-</td><td>", out);
+        else
+            fprintf(out, "</td><td>%.2g %%</td><td>", 100 * strtod(own[SHARE], NULL));
+        page_text(out, own[DOMINANT]);
+        fputs("</td><td>", out);
+        page_text(out, own[WHY]);
+        fputs("</td></tr>\n", out);
+    }
+    fputs("</table>\n", out);
+    free(line);
+}
+
+void
+page_show_bodies(struct page *run, FILE *in, const char *a, const char *b)
+{
+    const struct physics *p = &page_args.physics;
+    FILE *out = run->page.file;
+
+    (void)in, (void)a, (void)b;
+    fprintf(out, "<p>The surface is pressed against a flat body. E* is %s",
+            shown_in_unit(p->surface_estar, "Pa"));
+    if (p->pair.one.layers > 0)
+        fprintf(out, " at the surface of %zu layer%s", p->pair.one.layers,
+                p->pair.one.layers == 1 ? "" : "s");
+    if (!isnan(p->radius))
+        fprintf(out, ", a sphere of radius %s is added", shown_in_unit(p->radius, "m"));
+    if (!isnan(p->cylinder))
+        fprintf(out, ", a cylinder of radius %s is added", shown_in_unit(p->cylinder, "m"));
+    if (isfinite(p->hardness))
+        fprintf(out, ", the hardness is %s", shown_in_unit(p->hardness, "Pa"));
+    else
+        fputs(", the bodies are elastic", out);
+    fprintf(out, ", and the map %s.%s</p>\n",
+            rc_repeats(p->boundary) == 2 ? "repeats without end"
+            : p->boundary.x              ? "repeats along x"
+            : p->boundary.y              ? "repeats along y"
+                                         : "ends at its edges",
+            run->assumed ? " No elasticity was given: these are values of steel on steel." : "");
+}
+
+/* The limits of all tools, as README has them. */
+void
+page_show_limits(struct page *run, FILE *in, const char *a, const char *b)
+{
+    (void)in, (void)a, (void)b;
+    fputs("<ul>\n"
+          "<li>Bodies are half-spaces with small slopes and small strains: thin bodies do not "
+          "bend, and bodies "
+          "have no side edges.</li>\n"
+          "<li>No fluid film carries load. Temperatures do not change the contact, and metals do "
+          "not creep. "
+          "Wear depends on the sliding distance alone.</li>\n"
+          "<li>You choose the filters, the form and the threshold of spikes. A scan too coarse for "
+          "its contact "
+          "gets a warning; nothing is corrected behind your back.</li>\n</ul>\n",
+          run->page.file);
+}
+
+void
+page_show_messages(struct page *run, FILE *in, const char *a, const char *b)
+{
+    FILE *out = run->page.file;
+
+    (void)in, (void)a, (void)b;
+    if (run->said.size == 0) {
+        fputs("<p>The tools gave no warnings.</p>\n", out);
+        return;
+    }
+    fputs("<p>Warnings of the tools:</p>\n<pre>", out);
+    page_text(out, run->said.text);
+    fputs("</pre>\n", out);
+}
+
+void
+page_show_commands(struct page *run, FILE *in, const char *a, const char *b)
+{
+    FILE *out = run->page.file;
+
+    (void)in, (void)a, (void)b;
+    fprintf(out,
+            "<p>These commands of libcontact %s make the files of this page again.</p>\n"
+            "<pre id=\"commands\">",
+            rc_version());
+    page_text(out, run->commands.text);
+    fputs("</pre>\n", out);
+}
+
+/* Writes a command of another tool, with its files as they were given. */
+static void
+put_command(const struct page *run, const char *line)
+{
+    FILE *out = run->page.file;
+
+    for (size_t k = 0; k < sizeof run->named / sizeof *run->named; k++) {
+        const char *path = run->named[k].path, *at = path == NULL ? NULL : strstr(line, path);
+        if (at == NULL)
+            continue;
+        RC_OWNED char *before = strndup(line, (size_t)(at - line));
+        page_text(out, before == NULL ? "" : before);
+        page_text(out, run->named[k].given);
+        line = at + strlen(path);
+    }
+    page_text(out, line);
+}
+
+/* Shows the verdicts of rc-scene: the lines of effects, indented by two blanks, with their commands, indented
+ * further, and what is missing. Expected times depend on the machine and are left out. */
+void
+page_show_effects(struct page *run, FILE *in, const char *a, const char *b)
+{
+    enum {
+        TITLE = 33 /* the verdict begins here */
+    };
+    FILE *out = run->page.file;
+    RC_OWNED char *line = NULL;
+    RC_OWNED char *missing = NULL;
+    size_t room = 0, lines = 0;
+    char *end;
+
+    (void)a, (void)b;
+    fprintf(out, "<p>By how much each effect would change the elastic contact under %s.</p>\n",
+            run->loads > 1 ? "the last load" : "this load");
+    fputs("<table id=\"effects\">\n", out);
+    for (ssize_t n; (n = getline(&line, &room, in)) > 0; lines++) {
+        line[n - 1] = '\0';
+        if ((end = strstr(line, "   (about ")) != NULL)
+            *end = '\0';
+        if (strncmp(line, "  data missing: ", 16) == 0) {
+            missing = strdup(line + 16);
+        } else if (strncmp(line, "      ", 6) == 0) {
+            fputs("<tr><td></td><td><pre>", out);
+            put_command(run, line + 6);
+            fputs("</pre></td></tr>\n", out);
+        } else if (lines > 0 && n > TITLE) {
+            line[TITLE - 1] = '\0';
+            for (char *c = line + TITLE - 2; c > line && *c == ' '; c--)
+                *c = '\0';
+            fputs("<tr><th>", out);
+            page_text(out, line + 2);
+            fputs("</th><td>", out);
+            page_text(out, line + TITLE);
+            fputs("</td></tr>\n", out);
+        }
+    }
+    fputs("</table>\n", out);
+    if (lines == 0)
+        fputs("<p>rc-scene has no verdicts on this contact: see its message.</p>\n", out);
+    if (missing != NULL) {
+        fputs("<p>Data are missing for: ", out);
+        page_text(out, missing);
+        fputs(".</p>\n", out);
+    }
+}
