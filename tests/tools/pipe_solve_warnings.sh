@@ -21,6 +21,10 @@ between 3e8 "$(field max_pressure hard.json)" 3e9 "a heavy one is above"
 near "$(total pressure p.rcg 1)" 1 "$summed" "  its pressures carry it"
 claim "a warning gives the fraction of E*" \
     warns 'case 1, load 1 N: the largest pressure, [0-9.]+ [MG]Pa, is 0\.[0-9]+ of E\*' solve 3GPa 1
+claim "  and what helps a hard solid" warns 'is not linear elastic: give its --hardness, or a smaller load' solve 3GPa 1
+claim "  a rubber, which has no hardness, gets other advice" warns 'is 0\.[0-9]+ of E\*: beyond 0.1 .* a hardness does not help\. .*rc-detrend --lowpass' solve 13.3MPa 5mN
+claim "    not the first one" bash -c '! solve 13.3MPa 5mN 2>&1 | grep -q "give its --hardness"'
+claim "    with a hardness above the pressure the message is about its unit" warns 'hardness, 1 GPa, is above that: is its unit right' solve 13.3MPa 5mN --hardness 1GPa
 claim "E* without its unit causes a warning that names it" warns 'above E\*, which is 3 Pa: was its unit forgotten' solve 3 1mN
 claim "a load without its unit causes a warning with its mean over the map" \
     warns 'above E\* = 3 GPa; on a map of 96 um by 80 um the mean is 65[0-9.]+ GPa: are the load, 500 N, and E\* in their right units' solve 3GPa 500
