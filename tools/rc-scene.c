@@ -391,20 +391,22 @@ static const char *const plain_names[RC_SCENE_FIGURES] = {
     "temperature",   "coefficient of friction", "fatigue index", "leak",
     "pull-off force"};
 
-/* "12 %", "8.8 K". */
+/* "12 %", "8.8 K", "15 times". Both ends of an interval have the unit of its upper end, `high`. */
 static const char *
-amount(enum rc_scene_figure figure, double v, char text[SHOWN_NUMBER])
+amount(enum rc_scene_figure figure, double v, double high, char text[SHOWN_NUMBER])
 {
+    const double much = 10; /* above it per cent are hard to read */
+
     if (figure == RC_SCENE_TEMPERATURE)
         snprintf(text, SHOWN_NUMBER, "%.3g K", v);
     else if (figure == RC_SCENE_FRICTION || figure == RC_SCENE_FATIGUE)
         snprintf(text, SHOWN_NUMBER, "%.2g", v);
+    else if (high >= much)
+        snprintf(text, SHOWN_NUMBER, "%.3g times", v);
     else if (v < 0.1)
         snprintf(text, SHOWN_NUMBER, "%.2g %%", 100 * v);
-    else if (v < 10)
-        snprintf(text, SHOWN_NUMBER, "%.0f %%", 100 * v);
     else
-        snprintf(text, SHOWN_NUMBER, "%.3g times", v);
+        snprintf(text, SHOWN_NUMBER, "%.0f %%", 100 * v);
     return text;
 }
 
@@ -418,8 +420,8 @@ print_force(const struct line *l, FILE *out)
     fprintf(out, ": the %s is ",
             l->figure == RC_SCENE_PULL_OFF ? plain_names[l->figure] : "tangential force");
     if (c->high - c->low > 0.02 * c->high)
-        fprintf(out, "%s to ", amount(RC_SCENE_FRICTION, c->low, low));
-    fprintf(out, "%s times the load", amount(RC_SCENE_FRICTION, c->high, high));
+        fprintf(out, "%s to ", amount(RC_SCENE_FRICTION, c->low, c->high, low));
+    fprintf(out, "%s times the load", amount(RC_SCENE_FRICTION, c->high, c->high, high));
 }
 
 static void
@@ -453,20 +455,22 @@ print_change(const struct line *l, FILE *out)
         print_force(l, out);
     else if (l->figure == RC_SCENE_FATIGUE)
         fprintf(out, ": the index is %s to %s, and 1 at the endurance limit",
-                amount(l->figure, c->low, low), amount(l->figure, c->high, high));
+                amount(l->figure, c->low, c->high, low), amount(l->figure, c->high, c->high, high));
     else if (isinf(c->high))
         fputs(": the largest pressure is at the edge of the map, where it is no property of the "
               "surface",
               out);
     else if (l->verdict == RC_SCENE_NEGLIGIBLE)
-        fprintf(out, ": changes the %s by at most %s", what, amount(l->figure, c->high, high));
+        fprintf(out, ": changes the %s by at most %s", what,
+                amount(l->figure, c->high, c->high, high));
     else if (c->high - c->low < 0.02 * c->high)
-        fprintf(out, ": changes the %s by %s", what, amount(l->figure, c->high, high));
+        fprintf(out, ": changes the %s by %s", what, amount(l->figure, c->high, c->high, high));
     else if (c->low == 0)
-        fprintf(out, ": changes the %s by up to %s", what, amount(l->figure, c->high, high));
+        fprintf(out, ": changes the %s by up to %s", what,
+                amount(l->figure, c->high, c->high, high));
     else
-        fprintf(out, ": changes the %s by %s to %s", what, amount(l->figure, c->low, low),
-                amount(l->figure, c->high, high));
+        fprintf(out, ": changes the %s by %s to %s", what, amount(l->figure, c->low, c->high, low),
+                amount(l->figure, c->high, c->high, high));
     if (l->decided)
         fputs(" (computed)", out);
     fputc('\n', out);

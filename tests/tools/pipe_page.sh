@@ -122,7 +122,8 @@ claim "  and what limits the trust" says 'What limits .*: the edge of the map ca
 claim "  or that the checks found nothing" says 'found nothing that limits these figures; --noise adds bars' said effects-of.html
 sed -n '/^Limits:/,/^## /s/^\(- \|  \)//p' "$RC_SOURCE/README.md" | tr -s ' \n' ' ' >readme.txt
 claim "the page has the limits of README" test "$(cat readme.txt)" = "$(sed -n '/<h2>Limits/,/<\/ul>/s/<li>\(.*\)<\/li>/\1/p' effects-of.html | tr '\n' ' ')"
-rc-report --quiet --load 20N --relaxation 2GPa,100GPa:1s --nu1 0.3 --E2 rigid --time 100s --travel=-10um,0,10um --radius 3mm -o soft.html steel.rcg
+rc-pick --set form= steel.rcg -o bump.rcg # a second sphere is added
+rc-report --quiet --load 20N --relaxation 2GPa,100GPa:1s --nu1 0.3 --E2 rigid --time 100s --travel=-10um,0,10um --radius 3mm -o soft.html bump.rcg
 claim "travel and creep have sections" test "$(grep -c -E '<h2>(Travel|Creep)<' soft.html)" = 2
 rc-synth sphere --radius 3mm --nx 64 --dx 8um -o wide.rcg
 rc-report --quiet --load 20N --relaxation 20GPa,180GPa:1s --nu1 0.3 --E2 rigid --time 100s -o creep.html wide.rcg
@@ -137,7 +138,8 @@ claim "a table of a relaxation modulus is found from the folder of the page" tes
 claim "  its name stands as it was given" bash -c 'grep -q -e "--relaxation table.csv" of-table.html && ! grep -q "$PWD/table.csv" of-table.html'
 claim "  other effects are those before creep" says 'of other effects are those of the contact before creep' said of-table.html
 claim "the first paragraph comes first" test "$(grep -n -m 1 'id="verdict"' creep.html | cut -d : -f 1)" -lt "$(grep -n -m 1 '<h2>' creep.html | cut -d : -f 1)"
-rc-report --quiet --load 400N --radius 3mm --E1 210GPa --nu1 0.3 --E2 rigid --yield 0.5GPa --travel=-20um,20um --passes 1 -o short.html wide.rcg
+rc-pick --set form= wide.rcg -o bump.rcg
+rc-report --quiet --load 400N --radius 3mm --E1 210GPa --nu1 0.3 --E2 rigid --yield 0.5GPa --travel=-20um,20um --passes 1 -o short.html bump.rcg
 claim "an effect short of its accuracy is named" says 'the requested accuracy was not reached under Travel' said short.html
 rc-synth selfaffine --nx 64 --dx 5um --hurst 0.8 --rms-height 20nm --rolloff 100um --short-cut 30um --seed 5 -o fine.rcg
 rc-report --quiet --load 20N --radius 10mm --E1 210GPa --nu1 0.3 --E2 210GPa --nu2 0.3 --mu 0.05 --speed 2m/s --viscosity 0.1Pas --pressure-viscosity 20/GPa -o film.html fine.rcg

@@ -120,6 +120,13 @@ claim "thermal expansion: a warning" warns "thermal expansion may change the con
 claim "a periodic map has no edge" bash -c "! rc-scene --periodic --mean-pressure 0.5GPa $steel rough.rcg -o x.txt 2>&1 | grep -q edge"
 claim "noise: a warning" warns "the noise of the scan is 1[.0-9]* % of the approach" rc-scene --load 240N $steel --noise 0.1um ball.rcg -o x.txt
 
+# ---- an interval has one unit ----
+
+rc-synth sphere --nx 64 --dx 10um --radius 10mm -o worn.rcg
+wears() { rc-scene --quiet --load 1N --E1 210GPa --nu1 0.3 --E2 rigid --coefficient 1e-6mm3/Nm --distance "$1" worn.rcg; }
+claim "an interval that ends below 10 is in per cent" says 'changes the contact area by 2[0-9]* % to 4[0-9]* %' wears 30mm
+claim "  one that begins below 10 and ends above it is in times" says 'changes the contact area by 7\.6[0-9]* times to 16\.[0-9]* times' wears 10m
+
 # ---- relaxation: the contact grows under a constant load as an elastic one with J(t) ----
 
 material="--relaxation 1MPa,9MPa:1ms,2MPa:0.1s --nu1 0.5 --E2 rigid"
