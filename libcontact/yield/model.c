@@ -392,7 +392,7 @@ forget_volume(struct yield *y)
     y->depths.slabs = 0;
 }
 
-/* True if a first load deserves thinner slabs, which are then set. */
+/* RC_MORE if a first load deserves thinner slabs, which are then set. A last load within the goal does not. */
 static enum rc_status
 take_thinner(struct yield *y, struct rc_err *err)
 {
@@ -403,7 +403,8 @@ take_thinner(struct yield *y, struct rc_err *err)
     double *thickness;
 
     if (!y->plastic->asked.chosen || y->tries.thinned || y->plan.load == 0 ||
-        y->plastic->run.taken != f->increments || !(f->slab_error > wanted))
+        y->plastic->run.taken != f->increments || !(f->slab_error > wanted) ||
+        (y->plan.left == 0 && f->error <= goal(&y->problem)))
         return RC_OK;
     thickness = malloc(n * sizeof *thickness);
     if (rc_ranks_need(y->base.rows.ranks, thickness != NULL, err, "out of memory for the slabs") !=
