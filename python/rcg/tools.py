@@ -371,7 +371,7 @@ def frames_from(surface, dx=None):
     if dx is None:
         raise TypeError('%s has no spacing: give dx= in metres, or (dx, dy)'
                         % ('the array' if hasattr(surface, '__array__') else 'a ' + type(surface).__name__))
-    return [stream.frame('height', surface, *_steps(dx))]
+    return [stream.frame('height', surface, *stream.steps(dx))]
 
 
 def _ready(surface):
@@ -387,29 +387,6 @@ def _ready(surface):
         if hasattr(surface, '__next__') or not found or any(isinstance(one, (Frame, Result)) for one in found):
             return stream._frames(found)
     return None
-
-
-LENGTHS = {'m': '1', 'cm': '1e-2', 'mm': '1e-3', 'um': '1e-6', '\u00b5m': '1e-6', '\u03bcm': '1e-6', 'nm': '1e-9', 'pm': '1e-12'}
-
-
-def _length(text):
-    """A length with its unit, '1.1um', in metres; None for another text."""
-    import decimal
-    number = text.rstrip(''.join(LENGTHS) + ' ')
-    try:
-        return float(decimal.Decimal(number) * decimal.Decimal(LENGTHS[text[len(number):].strip() or 'm']))
-    except (KeyError, decimal.InvalidOperation):
-        return None
-
-
-def _steps(dx):
-    """dx and dy of the argument dx=, which is a number of metres, a text or (number, unit), or two of them."""
-    two = isinstance(dx, (tuple, list)) and len(dx) == 2 and not (isinstance(dx[1], str) and dx[1] in LENGTHS)
-    one = [''.join(map(str, v)) if isinstance(v, (tuple, list)) else v for v in (dx if two else (dx, dx))]
-    steps = tuple(_length(v) if isinstance(v, str) else v for v in one)
-    if None in steps or (isinstance(dx, (tuple, list)) and len(dx) != 2):
-        raise TypeError("dx=%r: give dx in metres or as '1.1um', or (dx, dy)" % (dx,))
-    return steps
 
 
 METRES = ('m', 'metre', 'metres', 'meter', 'meters')
@@ -430,7 +407,7 @@ def _from_xarray(surface, dx):
         raise TypeError('dx= is the spacing of an array without coordinates: this one has the coordinates %s' % ', '.join(map(str, steps)))
     if not steps and dx is None:
         raise TypeError('the array has no coordinates: give dx= in metres, or (dx, dy)')
-    along = _steps(dx) if not steps else [steps.get(d, next(iter(steps.values()))) for d in reversed(surface.dims)]
+    along = stream.steps(dx) if not steps else [steps.get(d, next(iter(steps.values()))) for d in reversed(surface.dims)]
     return stream.frame(channel, surface.values, along[0], along[-1], unit=known)
 
 

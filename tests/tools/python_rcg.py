@@ -180,6 +180,10 @@ def arrays():
     assert rcg.frame('mises', a, 1e-6).unit == 'Pa'
     assert rcg.frame('hardness', a, 1e-6).unit == 'Pa'
     assert rcg.frame('dirt', a, 1, unit='kg').unit == 'kg'
+    for arguments in (('1.1um', '1.29um'), (1.1e-6, '1.29um'), ('1100nm', 1.29e-6), (('1.1um', '1.29um'),), ((1.1, 'um'), (1.29, 'um'))):
+        one = rcg.frame('height', a, *arguments)
+        assert (one.dx, one.dy) == (1.1e-6, 1.29e-6) and one.keys['dx'] == '1.1e-06', arguments
+    assert rcg.frame('height', a, '5 \u00b5m').dy == 5e-6
     f.values, f.channel = f.values[:, :2].astype('f4'), 'gap'  # the header follows
     f = rcg.loads(rcg.dumps(f))[0]
     assert [f.keys[k] for k in ('channel', 'nx', 'ny', 'type')] == ['gap', '2', '3', 'f32']
@@ -193,7 +197,9 @@ def no_frames():
     for wrong, arguments, keys in (
             (ValueError, ('dirt', a, 1), {}), (ValueError, ('height', a, 0), {}),
             (ValueError, ('height', a, -1e-6), {}), (ValueError, ('height', a, math.nan), {}),
-            (ValueError, ('height', a, math.inf), {}), (ValueError, ('height', a, '1.1um'), {}),
+            (ValueError, ('height', a, math.inf), {}), (TypeError, ('height', a, '1.1furlong'), {}),
+            (TypeError, ('height', a, ('1um', '2um', '3um')), {}), (TypeError, ('height', a, ('1um', '2um'), '3um'), {}),
+            (ValueError, ('height', a, '1um'), {'dunit': 'rad/m'}), (ValueError, ('height', a, '-1um'), {}),
             (ValueError, ('height', a[None], 1), {}), (ValueError, ('height', a[:0], 1), {}),
             (TypeError, ('height', a * 1j, 1), {}), (TypeError, ('height', [['a']], 1), {}),
             (TypeError, ('height', a, None), {}), (ValueError, ('height', a, 1), {'nx': 2}),
@@ -632,9 +638,9 @@ def data_sets(name):
     assert cube.swap_dims(case='load').pressure.sel(load=1, method='nearest').shape == ball.height.shape
     assert 'load' not in one.coords
     for dx in ('1.1um', (1.1, 'um'), 1.1e-6, ('1.1um', '0.0011mm'), '1.1e-6'):
-        assert rcg.tools._steps(dx) == (1.1e-6, 1.1e-6), dx
+        assert rcg.stream.steps(dx) == (1.1e-6, 1.1e-6), dx
     for dx in ('1.1', (1.1, 'um', 3), '1.1ium', 'um', ''):
-        assert dx == '1.1' or 'metres' in str(raised(TypeError, rcg.tools._steps, dx)), dx
+        assert dx == '1.1' or 'metres' in str(raised(TypeError, rcg.stream.steps, dx)), dx
     table = solved.to_pandas()
     assert not table.isna().all().any() and table.attrs['units']['max_pressure'] == 'Pa' and 'converged' not in table.attrs['units']
     assert list(table.load) == list(solved.load) and len(table) == 2 and table.converged.all()
