@@ -28,6 +28,11 @@ near "$(sed -n 2p later.json >l.json && field approach l.json)" "$(field approac
     "a load acts from 0 on, also if the first time is later"
 claim "  and the cases count from 1" bash -c '[ $(wc -l <later.json) = 2 ] && grep -q "\"case\": 1" later.json'
 
+soon="rc-solve --threads 1 --nu1 0.5 --E2 rigid --output pressure $solid -o soon.rcg ball.rcg --load"
+claim "a result before the shortest relaxation time has passed causes a warning" warns 'time: 0.0005 s passes before the first result, and the shortest relaxation time is 0.001 s' $soon 0.2mN --time 0,0.5ms,50ms
+claim "  later results may be closer together under one load" bash -c "$soon 0.2mN --time 0,1ms,1.5ms 2>said && ! grep -q 'shortest relaxation' said"
+claim "  but not where the load changes" warns 'time: 0.0005 s passes between two times, and the shortest' $soon 0.2mN,0.3mN,0.2mN --time 0,1ms,1.5ms
+
 # ---- materials ----
 
 printf 'tau E\ninf 1MPa\n1ms 9MPa\n' >terms.txt
@@ -182,7 +187,8 @@ refuses 1 '--memory allows' "too little memory, before the first frame" \
 # ---- refusals ----
 
 more="--load 0.2mN -o x.rcg ball.rcg"
-refuses 2 'give its unit' "a modulus without a unit" "$solve --relaxation 1,9MPa:1ms --time 0 $more"
+refuses 2 'modulus 1: give its unit, as in 1MPa' "a modulus without a unit" "$solve --relaxation 1,9MPa:1ms --time 0 $more"
+refuses 2 'modulus 2e6: give its unit, as in 2e6Pa' "  one of millions" "$solve --relaxation 2e6,9MPa:1ms --time 0 $more"
 refuses 2 'a term must be' "a term without a time" "$solve --relaxation 1MPa,9MPa --time 0 $more"
 refuses 2 'only once' "two equal times" "$solve --relaxation 1MPa,9MPa:1s,2MPa:1s --time 0 $more"
 refuses 2 'at least 0' "a negative modulus" "$solve --relaxation 1MPa,-9MPa:1s --time 0 $more"

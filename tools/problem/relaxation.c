@@ -14,11 +14,14 @@ static const double hertz = 6.283185307179586; /* rad/s */
 static enum rc_status
 read_modulus(const char *text, double *value, struct rc_err *err)
 {
+    const double as_pascals =
+        1e5; /* such a number is meant in Pa: polymers have less than 10 GPa */
     char *end;
     const double bare = strtod(text, &end);
 
     if (end != text && *end == '\0' && bare != 0)
-        return rc_err_set(err, "modulus %s: give its unit, as in %sMPa", text, text);
+        return rc_err_set(err, "modulus %s: give its unit, as in %s%s", text, text,
+                          fabs(bare) < as_pascals ? "MPa" : "Pa");
     return unit_number(text, UNIT_PA, value, err);
 }
 

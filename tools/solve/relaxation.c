@@ -22,6 +22,7 @@ static struct {
 static struct relaxation_law law;
 static struct relaxation_shift shift;
 static double shortest; /* s, between two times; 0: there are no times */
+static double soonest;  /* s, from a change of the load to the next time; 0: there are no times */
 
 static struct {
     struct numbers times; /* of the points */
@@ -112,12 +113,14 @@ warn_of_material(struct run *run)
         tool_warn(&run->d.t, "--relaxation: the relaxed modulus is 0, so that body 1 flows without "
                              "end under a load: for a solid give its relaxed modulus, first as in "
                              "1MPa,9MPa:1ms, or in a line `inf E` of a table");
-    if (m->terms > 0 && shortest > 0 && shortest < m->time[0])
+    if (m->terms > 0 && soonest > 0 && soonest < m->time[0])
         tool_warn(&run->d.t,
-                  "--time: %s passes between two times, and the shortest relaxation time is %s: "
+                  "--time: %s passes %s, and the shortest relaxation time is %s: "
                   "there the "
                   "answer rests on the instantaneous modulus alone",
-                  shown_in_unit(shortest, "s"), shown_in_unit(m->time[0], "s"));
+                  shown_in_unit(soonest, "s"),
+                  run->steps->n > 1 ? "between two times" : "before the first result",
+                  shown_in_unit(m->time[0], "s"));
     if (nu < rubber)
         tool_warn(&run->d.t,
                   "Poisson's ratio %g is constant in time, which holds for rubber (0.5): a "
@@ -250,7 +253,7 @@ check_times(struct run *run)
     if (time->v[0] < 0 || (time->v[0] > 0 && run->steps->n > 1))
         tool_usage(t, "--time: the first time is %g s: it must be 0", time->v[0]);
     own.before = time->v[0] > 0;
-    shortest = INFINITY;
+    shortest = soonest = INFINITY;
     for (size_t k = 0; k < time->n; k++) {
         const double leg = time->v[k] - (k > 0 ? time->v[k - 1] : 0);
         if (!(leg >= 0) || isinf(leg) || (leg == 0 && k > 0 && run->steps->n == 1))
@@ -259,9 +262,11 @@ check_times(struct run *run)
                        run->steps->n > 1 ? ", or be equal at a jump" : "");
         if (leg > 0)
             shortest = fmin(shortest, leg);
+        if (leg > 0 && (run->steps->n > 1 || isinf(soonest))) /* one load changes at 0 only */
+            soonest = fmin(soonest, leg);
     }
     if (isinf(shortest))
-        shortest = 0;
+        shortest = soonest = 0;
 }
 
 /* The times of the points. */
