@@ -75,6 +75,8 @@ static const double most_longer = 2;
 /* Least fall of the errors where the steps are halved that the estimate takes from two differences, and the
  * part of the former difference that it has at least: its own with errors of second order. */
 static const double least_fall = 1.5, of_former = 0.25;
+/* The largest relative L1 error. */
+static const double largest = 2;
 /* Relative: rounding of the times that a user gives. Half and double of `same_slope` change no bit (12
  * runs of bench/constants.py). */
 static const double same_slope = 1e-9, whole = 1 - 1e-9;
@@ -463,10 +465,9 @@ start_step(struct viscoelastic *v, struct rc_err *err)
 static void
 follow_load(struct viscoelastic *v, double load)
 {
-    const double most = 2; /* of a relative L1 error */
-    const double own = load > 0
-                           ? fmin(most, rc_model_number(v->base.inner, "pressure_error_estimate"))
-                           : 0,
+    const double own = load > 0 ? fmin(largest,
+                                       rc_model_number(v->base.inner, "pressure_error_estimate"))
+                                : 0,
                  old = load > 0 ? history_of(v, &v->error) : 0;
 
     v->inherited = load > 0 ? fabs(old) / load : 0;
@@ -553,7 +554,7 @@ of_joining(const struct viscoelastic *v, double pressure, double before)
  * halved, it is the difference of the fine and the half run over r - 1; r is that of the two differences. A
  * part of the other difference guards against one that is small by chance. A node that touches in no run may
  * do so where the difference of its gaps exceeds its gap. What a node has too much, the others have too
- * little. */
+ * little. Bodies that are apart at a given approach, and may touch, have the largest error. */
 static double
 error_of_steps(const struct viscoelastic *v, const double *fine)
 {
@@ -583,7 +584,7 @@ error_of_steps(const struct viscoelastic *v, const double *fine)
     rc_ranks_totals(v->base.rows.ranks, SUMS, total, sum, 0, NULL);
     size = fmax(sum[FINE_SUM], sum[HALF_SUM]);
     if (size == 0)
-        return 0;
+        return by_approach(v) && sum[JOINS] > 0 ? largest : 0;
     fell = sum[LAST] > 0 ? fmax(least_fall, sum[FORMER] / sum[LAST]) : INFINITY;
     return (fmax(sum[LAST] * fmax(1, 1 / (fell - 1)), of_former * sum[FORMER]) + 2 * sum[JOINS]) /
            size;
@@ -812,8 +813,8 @@ look(struct rc_model *m, struct rc_point *at, struct rc_err *err)
     f->contact.gap_error *= c;
     f->contact.elastic_energy = NAN; /* the bodies dissipate a part of the work */
     f->contact.inherited_error = v->inherited;
-    if (f->contact.load != 0)
-        f->contact.pressure_error += v->inherited + f->increment_error;
+    f->contact.pressure_error +=
+        f->contact.load != 0 ? v->inherited + f->increment_error : v->between;
     f->contact.converged = v->leg.taken && judge(v) == RC_OK;
     f->time = v->leg.taken ? v->leg.end : v->run[v->on].t;
     f->equivalent_load = v->load.now;

@@ -397,10 +397,36 @@ estimates(void **state)
     }
 }
 
+/* A fluid that has separated at a given approach and comes back: the body recovers, and whether it touches
+ * depends on the error of the history. The truth touches by 5e-4 of the former pressure; no contact is found,
+ * and the estimate says that this is not known. */
+static void
+whether_they_touch(void **state)
+{
+    enum {
+        NUMBER = 157,
+        BACK = 3
+    };
+    static struct result found[POINTS];
+    static double truth[POINTS][MOST];
+    struct history a;
+
+    (void)state;
+    seed = 90210079; /* as with RC_SEED=90210 */
+    for (size_t q = 0; q < NUMBER; q++)
+        a = random_history(FLUID);
+    assert_true(a.axis == RC_APPROACH && by_library(&a, found) >= 0 && by_strains(&a, 80, truth));
+    assert_true(carries(truth[BACK], a.n) && !carries(found[BACK].p, a.n));
+    assert_true(found[BACK].error > 1 && found[BACK].status == RC_SHORT);
+    assert_true(!carries(truth[1], a.n) && found[1].error < 1e-6 &&
+                found[1].status == RC_OK); /* well apart */
+}
+
 int
 main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(estimates)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(estimates),
+                                       cmocka_unit_test(whether_they_touch)};
 
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
