@@ -468,9 +468,11 @@ print_change(const struct line *l, FILE *out)
     else if (c->low == 0)
         fprintf(out, ": changes the %s by up to %s", what,
                 amount(l->figure, c->high, c->high, high));
+    else if (strcmp(amount(l->figure, c->low, c->high, low),
+                    amount(l->figure, c->high, c->high, high)) == 0)
+        fprintf(out, ": changes the %s by %s", what, high);
     else
-        fprintf(out, ": changes the %s by %s to %s", what, amount(l->figure, c->low, c->high, low),
-                amount(l->figure, c->high, c->high, high));
+        fprintf(out, ": changes the %s by %s to %s", what, low, high);
     if (l->decided)
         fputs(" (computed)", out);
     fputc('\n', out);
