@@ -44,6 +44,9 @@ HEADERS = {'Cache-Control': 'no-store', 'X-Content-Type-Options': 'nosniff', 'Re
            "connect-src 'self'; base-uri 'none'; form-action 'none'; frame-ancestors 'none'"}
 # Options that the page sets itself, that write further files, or whose files a later run would continue.
 HIDDEN = tools.HIDDEN | {'checkpoint', 'resume', 'interval', 'keep-going', 'psd-map', 'plot'}
+STEPS = ('rc-import', 'rc-add')  # beside the tools that read and write streams
+SECOND = {'name': 'second', 'argument': 'FILE', 'result': True,
+          'help': 'the scan to compare with, a file on this page, read with the options of the first step'}
 MAKERS = ('rc-render', 'rc-info', 'rc-export', 'rc-report', 'rc-scene', 'rc-cost')
 OF_SURFACE = ('rc-report', 'rc-scene', 'rc-cost')  # about the surface that is pressed
 REPORTS = ('rc-scene', 'rc-cost')  # their report is the result
@@ -69,12 +72,24 @@ def tables():
             row = tools.table(name)
         except stream.Error:
             continue
-        step = name == 'rc-import' or (row['reads'] == 'stream' and row['writes'] == 'stream')
+        step = name in STEPS or (row['reads'] == 'stream' and row['writes'] == 'stream')
         if step or name in MAKERS:
             options = [o for o in row['options'] if o['name'] not in HIDDEN and o['type'] != 'report']
             report = any(o['name'] == 'report' for o in row['options'])
+            if name == 'rc-add':  # its operand B
+                plain = {key: type(value)() for key, value in options[0].items()}
+                options.insert(0, dict(plain, **SECOND))
             found[name] = dict(row, options=options, step=step, report=step and report)
     return found
+
+
+def file_called(option, text, files):
+    """The file of this name, or None; files of one name must be equal."""
+    called = [file for file in files if file['name'] == text]
+    if not all(filecmp.cmp(called[0]['path'], file['path'], shallow=False) for file in called[1:]):
+        raise Refused('--%s %s: %d files on this page have this name: give the right one another name, and drop it again'
+                      % (option, text, len(called)))
+    return called[0] if called else None
 
 
 def words_of(tool, options, files):
@@ -86,10 +101,7 @@ def words_of(tool, options, files):
             raise Refused('%s has no option --%s on this page' % (tool, name))
         if re.search('[\0-\x1f]', text) or ('/' in text and 'FILE' in (rows[name]['argument'] or '')):
             raise Refused('--%s %s: give the name of a file on this page, without a folder' % (name, text))
-        called = [file['path'] for file in files if file['name'] == text]
-        if not all(filecmp.cmp(called[0], path, shallow=False) for path in called[1:]):
-            raise Refused('--%s %s: %d files on this page have this name: give the right one another name, and drop it again'
-                          % (name, text, len(called)))
+        file_called(name, text, files)
         try:
             words += tools._arguments(rows[name], '--' + name, value)
         except (TypeError, ValueError) as e:
@@ -113,24 +125,46 @@ def sample():
 class Step:
     """A command of a run; it is waiting, running, done, short (of the accuracy), failed or stopped."""
 
-    def __init__(self, tool, options, number, source, files):
+    def __init__(self, tool, options, number, source, files, reading=()):
+        """`reading`: the options with which the first file is read, which holds for a second one too."""
         if not tables()[tool]['step']:
             raise Refused('%s is not a step of this page' % tool)
         stem = '%d-%s' % (number, tool[3:])
         self.tool, self.output = tool, stem + '.rcg'
-        self.report = stem + '.tsv' if tables()[tool]['report'] else None
+        sources, self.before = [source], []  # before: the command that reads a second file
+        if tool == 'rc-add':
+            second, options = self.second(options, files), [option for option in options if option[0] != 'second']
+            read = '%d-second.rcg' % number
+            sources.append(second['shown'] if second['stream'] else read)
+            if not second['stream']:
+                self.before = ['rc-import'] + words_of('rc-import', reading, files) + ['-o', read, second['shown']]
+        reports = tables()[tool]['report'] and (tool != 'rc-add' or any(name == 'align' for name, _ in options))
+        self.report = stem + '.tsv' if reports else None
         report = ['--report', self.report] if self.report else []
         self.own = [tool] + words_of(tool, options, files)
-        self.command = self.own + report + ['-o', self.output, source]
+        self.command = self.own + report + ['-o', self.output] + sources
         self.state, self.words, self.progress, self.doing, self.seconds = 'waiting', '', None, '', None
+
+
+    @staticmethod
+    def second(options, files):
+        """The second scan of rc-add."""
+        name = next((value for name, value in options if name == 'second'), None)
+        file = file_called('second', name, files)
+        if file is None:
+            raise Refused('choose the second scan' if name is None else '--second %s: this file is not on this page' % name)
+        return file
+
+    def text(self):
+        return ' && '.join(shlex.join(words) for words in (self.before, self.command) if words)
 
 
 def steps_of(file, asked, files):
     """The steps [{tool, options, from}, ...] on one of the files; `from` is the number of the step that is read."""
-    made = []
+    made, reading = [], asked[0]['options'] if asked and asked[0]['tool'] == 'rc-import' else ()
     for number, step in enumerate(asked, 1):
         source = file['shown'] if number == 1 else made[step['from'] - 1].output
-        made.append(Step(step['tool'], step['options'], number, source, files))
+        made.append(Step(step['tool'], step['options'], number, source, files, reading))
     return made
 
 
@@ -178,9 +212,9 @@ class Run:
 
     def reuse(self, at):
         """Takes the files of an earlier run of the same commands on the same file."""
-        commands = [step.command for step in self.steps[:at + 1]]
+        commands = [step.text() for step in self.steps[:at + 1]]
         for old in list(self.desk.runs.values()):
-            same = old.file is self.file and [step.command for step in old.steps[:at + 1]] == commands
+            same = old.file is self.file and [step.text() for step in old.steps[:at + 1]] == commands
             if same and old.steps[at].state in ENDED_WELL:
                 vars(self.steps[at]).update(vars(old.steps[at]))
                 for name in filter(None, (old.steps[at].output, old.steps[at].report)):
@@ -197,8 +231,12 @@ class Run:
         def progress(said):
             step.progress, step.doing = said['progress'], said['text']
 
-        began, step.state = time.monotonic(), 'running'
-        status, step.words = self.desk.execute(step.command, self.folder, started, progress)
+        began, step.state, status, step.words = time.monotonic(), 'running', 0, ''
+        for command in filter(None, (step.before, step.command)):
+            status, words = self.desk.execute(command, self.folder, started, progress)
+            step.words += words
+            if status not in (0, 3):
+                break
         step.seconds = time.monotonic() - began
         stopped = self.cancelled.is_set() and status != 0
         step.state = 'stopped' if stopped else {0: 'done', 3: 'short'}.get(status, 'failed')
@@ -209,7 +247,7 @@ class Run:
             self.child.terminate()  # the tool removes its files
 
     def shown(self):
-        steps = [dict(vars(step), command=shlex.join(step.command)) for step in self.steps]
+        steps = [dict(vars(step), command=step.text()) for step in self.steps]
         return {'number': self.number, 'file': self.file['id'], 'state': self.state, 'steps': steps}
 
 
@@ -409,7 +447,7 @@ class Request(http.server.BaseHTTPRequestHandler):
         number = max(desk.runs, default=0) + 1 if asked['start'] and made else None
         if number is not None:
             desk.runs[number] = Run(desk, number, file, made)
-        return {'commands': [shlex.join(step.command) for step in made], 'run': number}
+        return {'commands': [step.text() for step in made], 'run': number}
 
     def post_remove(self):
         """Cancels a run, or removes one that has ended."""

@@ -74,6 +74,7 @@ claim "all four boundaries can be chosen" check boundaries
 
 claim "files of one name stay different files" check same_names
 claim "each step runs as the page adds it" check added_steps
+claim "a second scan is compared with the first one" check compare
 claim "a scan is read, cropped, levelled, pressed, and the stresses computed" check pipeline
 mkdir pasted
 cp rough-steel.x3p pasted

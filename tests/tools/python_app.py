@@ -57,13 +57,14 @@ def added_steps():
     for name, options in re.findall(r"^  (\w+): \['[^']*'(?:, \{(.*)\})?\],$", rows, re.M):
         pairs = re.findall(r"'?([\w-]+)'?: (?:'([^']*)'|(true))", options)
         begin['rc-' + name] = [[key, True if flag else text] for key, text, flag in pairs]
-    assert len(begin) >= 10 and ['load', '10N'] in begin['rc-solve'], begin
+    assert len(begin) >= 10 and ['load', '1N'] in begin['rc-solve'], begin
     first = [{'tool': tool, 'options': begin[tool], 'from': k} for k, tool in enumerate(('rc-import', 'rc-detrend', 'rc-solve'))]
-    for tool in set(begin) - {'rc-import', 'rc-pick', 'rc-detrend', 'rc-solve', 'rc-deflect'}:
+    for tool in set(begin) - {'rc-import', 'rc-pick', 'rc-detrend', 'rc-solve', 'rc-deflect', 'rc-add'}:
         assert all(text != '' for _, text in begin[tool]), begin[tool]
         number = found('steps', body={'file': SAMPLE, 'steps': first + [{'tool': tool, 'options': begin[tool], 'from': 3}], 'start': True})['run']
         last = ended(number)
         assert last['state'] == 'done', (tool, last)
+        assert not last['steps'][2]['words'], 'the contact that the page begins with has a warning: ' + last['steps'][2]['words']
 
 
 STATE = []
@@ -291,6 +292,52 @@ def frames():
     assert picture[16:24] == b'\0\0\1\1\0\0\0\1', picture[:30]  # 257 x 1 pixels
     first = zlib.decompress(picture[picture.index(b'IDAT') + 4:])[1:4]
     assert first == b'\xea\xea\xea', first  # no contact
+
+
+def compare():
+    """A second scan is read and subtracted, aligned: the volume of a known wear scar; the same command in a shell."""
+    import numpy
+    import rcg
+    whole = rcg.synth('selfaffine', nx=220, dx='1um', hurst=0.8, rms_height='0.5um', rolloff='60um', short_cut='6um', seed=3).height
+    x = numpy.arange(160) - 79.5
+    scar = numpy.maximum(1.5e-6 - numpy.hypot(x, x[:, None]) ** 2 * 2e-9, 0)
+    os.makedirs('scans')
+    for name, values in (('new', whole[30:190, 30:190]), ('worn', whole[33:193, 25:185] - scar + 4e-6)):
+        rcg.export(rcg.frame('height', values, '1um'), 'scans/%s.x3p' % name)
+    new, worn = uploaded('scans/new.x3p'), uploaded('scans/worn.x3p')
+    given = [['second', 'new.x3p'], ['subtract', True], ['align', True]]
+    contact = [['load', '0.1N'], ['body1', 'steel'], ['body2', 'steel']]
+    asked = steps(('rc-import', []), ('rc-detrend', LEVEL), ('rc-solve', contact)) + [{'tool': 'rc-add', 'options': given, 'from': 1}]
+    run = ended(found('steps', body={'file': worn, 'steps': asked, 'start': True})['run'])
+    assert run['state'] == 'done', run
+    command = run['steps'][3]['command']
+    assert command == ('rc-import -o 4-second.rcg new.x3p && '
+                       'rc-add --subtract --align --report 4-add.tsv -o 4-add.rcg 1-import.rcg 4-second.rcg'), command
+    place = {'run': run['number'], 'step': 3}
+    heads, row = [line.split('\t') for line in ask('file', dict(place, of='report'))[2].decode().splitlines()]
+    figures = dict(zip((head.split('/')[0] for head in heads), row))
+    volume = -scar.sum() * 1e-12
+    assert abs(float(figures['volume']) - volume) <= float(figures['volume_error']) < 0.05 * abs(volume), (figures, volume)
+    assert abs(abs(float(figures['shift_x'])) - 5e-6) < 5e-8 and abs(abs(float(figures['shift_y'])) - 3e-6) < 5e-8, figures
+    subprocess.run('rc-import -o 1-import.rcg worn.x3p && ' + command, shell=True, check=True, cwd='scans')
+    with open('scans/4-add.rcg', 'rb') as file:
+        assert file.read() == ask('file', dict(place, of='stream'))[2]
+    assert [head['channel'] for head in found('frames', place)] == ['height']
+    # without alignment there is no report; a stream is read as it is; a run takes its results again
+    with open('scans/1-import.rcg', 'rb') as file:
+        stream = found('upload', {'name': 'first.rcg'}, file.read())['name']
+    asked[3]['options'] = [['second', stream], ['subtract', True]]
+    run = ended(found('steps', body={'file': worn, 'steps': asked, 'start': True})['run'])
+    assert run['steps'][3]['command'] == 'rc-add --subtract -o 4-add.rcg 1-import.rcg first.rcg' and run['state'] == 'done', run
+    for wrong, words in (([['subtract', True]], 'choose the second scan'), ([['second', 'none.x3p']], '--second none.x3p: this file is not on this page'),
+                         ([['second', '../new.x3p']], 'this file is not on this page'), ([['second', True]], 'this file is not on this page')):
+        asked[3]['options'] = wrong
+        refused(400, words, 'steps', body=json.dumps({'file': worn, 'steps': asked, 'start': False}))
+    with open('note.doc', 'rb') as file:
+        note = found('upload', {'name': 'note.doc'}, file.read())['name']
+    asked[3]['options'] = [['second', note], ['subtract', True]]
+    run = ended(found('steps', body={'file': worn, 'steps': asked, 'start': True})['run'])
+    assert run['state'] == 'failed' and 'not recognised' in run['steps'][3]['words'], run
 
 
 def again():

@@ -8,14 +8,15 @@ const STEPS = {
   import: ['Read the file'],
   pick: ['Crop, resample, turn'],
   detrend: ['Level and filter', {poly: '2', spikes: '5', fill: true}],
-  solve: ['Press', {load: '10N', body1: 'steel', body2: 'steel', hardness: '6GPa'}],
+  solve: ['Press', {load: '1N', body1: 'steel', body2: 'steel', hardness: '6GPa'}],
   stress: ['Stresses below', {section: 'y=0', depths: '0:40um:41'}],
-  slip: ['Friction', {mu: '0.3', tangential: '1N'}],
+  slip: ['Friction', {mu: '0.3', tangential: '0.1N'}],
   wear: ['Wear', {coefficient: '1e-7mm3/Nm', distance: '1m'}],
   heat: ['Flash temperatures', {mu: '0.3', speed: '1m/s', body1: 'steel', body2: 'steel'}],
   fatigue: ['Fatigue', {'bending-limit': '600MPa', 'torsion-limit': '400MPa', pass: 'x', depths: 'auto'}],
   deflect: ['Displacement'],
   leak: ['Leakage', {viscosity: '1mPas', 'pressure-drop': '100kPa'}],
+  add: ['Compare with a second scan', {second: '', subtract: true, align: true}],
 };
 // Views, and the options of rc-render (for Numbers, of rc-info) that they begin with.
 const VIEWS = {
@@ -36,6 +37,7 @@ const TITLES = {
   distance: 'Sliding distance', displacement: 'Displacement along the surface', creep: 'Creepage',
   hardness: 'Hardness', conductivity: 'Thermal conductivities', diffusivity: 'Thermal diffusivities',
   'bending-limit': 'Endurance limit in bending', 'torsion-limit': 'Endurance limit in torsion', speed: 'Sliding speed', pass: 'Passes along', view: 'Direction of view', cut: 'Cut at',
+  second: 'Second scan', subtract: 'Subtract it', align: 'Shift and turn it onto the first',
   psd: 'Power spectrum', areal: 'Areal parameters', output: 'Frames to write', mean: 'Mean',
 };
 // What the page says of the states of steps and of runs.
@@ -113,20 +115,31 @@ function formRow(row, option, changed, drop) {
   if (chosen) option[1] ||= words[0];
   field[key] = option[1];
   field.oninput = () => { option[1] = field[key]; changed(); };
+  // A file of this machine becomes one of the page; the steps stay those of the first scan.
+  const chooser = row.argument !== 'FILE' ? [] : [make('input', {type: 'file', 'aria-label': 'Choose a file: ' + named(name),
+    onchange: trying(async () => {
+      field.value = option[1] = (await sent(chooser[0].files[0])).name;
+      tell(`${option[1]} is on this page now.`);
+      changed();
+    })})];
   const unit = units.length ? ` Units: ${units.join(', ')}; without a unit it is ${row.unit}.` : '';
   const label = make('label', {htmlFor: id, textContent: named(name)});
   return make('div', {className: 'option', 'data-name': name}, label, field, ...offers,
-    button('✕', () => drop(option), {'aria-label': 'Remove ' + named(name)}),
+    button('✕', () => drop(option), {'aria-label': 'Remove ' + named(name)}), ...chooser,
     hint(`--${name}: ${helped(row)}${rules && '; ' + rules}.${unit}`));
 }
 
 // ---- steps ----
 
-// Steps that do something; each after the last contact reads that contact, unless it changes the surface.
-const used = () => steps.filter(({tool, options}, k) => !k || tool !== 'rc-pick' || given(options).length);
+// Steps that do something; each after the last contact reads that contact, unless it changes the surface. A second
+// scan is compared with the first one as it was read and cropped: both have their form.
+const NEEDED = {'rc-pick': () => true, 'rc-add': ([name]) => name === 'second'};
+const used = () => steps.filter(({tool, options}, k) => !k || !NEEDED[tool] || given(options).some(NEEDED[tool]));
 const asked = all => all.map(({tool, options}, k) => {
   const contact = all.slice(0, k).map(other => other.tool).lastIndexOf('rc-solve') + 1;
-  return {tool, options: given(options), from: /pick|detrend|solve/.test(tool) ? k : contact || k};
+  const raw = all.findIndex(other => !/import|pick/.test(other.tool));
+  const from = tool === 'rc-add' ? raw : /pick|detrend|solve/.test(tool) ? k : contact || k;
+  return {tool, options: given(options), from};
 });
 const ordered = (all, start) => json('steps', {}, JSON.stringify({file: file.id, steps: asked(all), start}));
 const title = tool => STEPS[tool.slice(3)]?.[0] ?? tool;
@@ -466,13 +479,13 @@ const measure = trying(async () => {
 
 // ---- the beginning ----
 
-const upload = trying(async chosen => {
-  if (!chosen) return;
+async function sent(chosen) {
   if (chosen.size > most)
     throw new Error(`${chosen.name}: the page takes at most ${most / 2 ** 30} GB: use rc-import in a shell.`);
   tell(`Reading ${chosen.name} …`);
-  begin(await json('upload', {name: chosen.name}, chosen));
-});
+  return json('upload', {name: chosen.name}, chosen);
+}
+const upload = trying(async chosen => { if (chosen) begin(await sent(chosen)); });
 trying(async () => {
   const desk = await json('desk'), kept = JSON.parse(sessionStorage.getItem('work'));
   ({tables, most} = desk);
