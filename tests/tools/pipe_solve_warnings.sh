@@ -177,3 +177,14 @@ early() {
     [ $none -gt 0 ]
 }
 claim "a signal during the plan ends the tool at once, without a file" early
+
+# ---- a roller on a map that does not continue ----
+
+rc-pick --set periodic=no s.rcg -o scan.rcg
+roller() { rc-solve --estar 115GPa --output pressure --load 10N "$@" -o p.rcg scan.rcg; }
+export -f roller
+claim "a roller that reaches the edges of the map: the axis of the period, and the pressure at the edge, in one message" \
+    warns '% of the load is on the outer 2 % of the map and the largest pressure, [0-9.]+ GPa, at the edge itself, .*--periodic=y if the roller continues along its axis' roller --cylinder 5mm
+claim "  no other message is about the edge" bash -c '[ "$(roller --cylinder 5mm 2>&1 | grep -c edge)" = 1 ]'
+claim "  with --periodic=y there is none" bash -c '! roller --cylinder 5mm --periodic=y 2>&1 | grep -q edge'
+claim "  without a roller the surface is to repeat" warns '% of the load is on the outer 2 % of the map.*or --periodic if the surface repeats' roller

@@ -115,12 +115,47 @@ solve_warn_of_theory(struct run *run, const char *where, const struct solution *
 /* ---- beyond the grid ---- */
 
 /* At a sharp edge the pressure of a punch has no bound. */
+static bool
+is_punch(const struct rc_contact *c)
+{
+    return c->edge_pressure > 0 && c->edge_pressure >= c->max_pressure && !c->hardness_active;
+}
+
+static bool
+reaches_edge(const struct run *run, const struct rc_contact *c)
+{
+    return rc_has_mean(run->physics->boundary) &&
+           c->edge_load_fraction > rc_figure_find("edge_load_fraction")->limit;
+}
+
+static void
+warn_of_reach(struct run *run, const char *where, const struct rc_contact *c)
+{
+    const struct physics *a = run->physics;
+    char punch[128 + SHOWN_NUMBER] = "";
+
+    if (is_punch(c))
+        snprintf(punch, sizeof punch,
+                 " and the largest pressure, %s, at the edge itself, where a finer grid raises it "
+                 "without limit",
+                 shown_in_unit(c->max_pressure, "Pa"));
+    course_warn(&run->d.course, "the contact reaches the edge of the map",
+                "%s: %.1f %% of the load is on the outer 2 %% of the map%s: the contact reaches "
+                "its edge, beyond which there is no material: take a larger map%s",
+                where, 100 * c->edge_load_fraction, punch,
+                rc_repeats(a->boundary) > 0 ? " or a smaller load"
+                : isnan(a->cylinder) ? ", a smaller load, or --periodic if the surface repeats"
+                : physics_cylinder_axis(a, run->g) == RC_X
+                    ? ", a smaller load, or --periodic=x if the roller continues along its axis"
+                    : ", a smaller load, or --periodic=y if the roller continues along its axis");
+}
+
 static void
 warn_of_edge(struct run *run, const char *where, const struct solution *s)
 {
     const struct rc_contact *c = &s->contact;
 
-    if (c->edge_pressure > 0 && c->edge_pressure >= c->max_pressure && !c->hardness_active)
+    if (is_punch(c) && !reaches_edge(run, c))
         course_warn(&run->d.course, "the largest pressure is at the edge of the map",
                     "%s: the largest pressure, %s, is at the edge of the map, as under a punch: a "
                     "finer grid raises it without limit: take a wider map, or other figures",
@@ -228,15 +263,8 @@ judge_pressure(struct run *run, const char *where, const struct solution *s)
     SOLVE_EACH (run, e, judge)
         e->judge(run, where, s);
     solve_warn_of_limits(run, where, NULL);
-    if (rc_has_mean(run->physics->boundary) &&
-        s->contact.edge_load_fraction > rc_figure_find("edge_load_fraction")->limit)
-        course_warn(&run->d.course, "the contact reaches the edge of the map",
-                    "%s: %.1f %% of the load is on the outer 2 %% of the map: the contact reaches "
-                    "its edge, beyond which there is no material: take a larger map%s",
-                    where, 100 * s->contact.edge_load_fraction,
-                    rc_repeats(run->physics->boundary) > 0
-                        ? " or a smaller load"
-                        : ", a smaller load, or --periodic if the surface repeats");
+    if (reaches_edge(run, &s->contact))
+        warn_of_reach(run, where, &s->contact);
     if (tool_interrupted() == 0 && s->contact.contact_nodes > 0) {
         solve_warn_of_theory(run, where, s);
         warn_of_grid(run, run->g, where, s);
