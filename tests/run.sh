@@ -74,9 +74,9 @@ build ci
 # tests without MPI run at the same time.
 build mpi --target mpi_tested
 failed=0
-try mpi -R '^(same|law).*_ranks$' || failed=1
+try mpi -R '^(same|law).*_ranks$|^pipe_models_ranks$' || failed=1
 phase "mpi, tests of two processes that solve together"
-try mpi -R '^pipe_(models_)?ranks$|law_folders|pipe_(installed|library(_page)?|solve)$' >build-mpi/tests.log 2>&1 &
+try mpi -R '^pipe_ranks$|law_folders|pipe_(installed|library(_page)?|solve)$' >build-mpi/tests.log 2>&1 &
 shared=$!
 # One test more than cores: some wait for a limit of time, a signal or another process.
 try ci --parallel "$(($(cores) + 1))" || failed=1

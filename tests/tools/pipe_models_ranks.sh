@@ -30,11 +30,17 @@ rc-solve --estar 1GPa --load 0.2mN --quiet -o pressed-ball.rcg ball.rcg
 
 # ---- models ----
 
-yield="rc-solve --E1 100GPa --nu1 0.3 --E2 rigid --yield 0.5GPa,1GPa --slabs 3 --increments 8 --quiet"
-claim "yield, periodic, a history" same "$yield --periodic --mean-pressure 60MPa,20MPa,70MPa --history --output pressure,strain,plastic,residual rough.rcg"
-deep=${yield/--slabs 3 --increments 8/--slabs 8 --increments 2}
-claim "yield, deep slabs on coarser grids" same "$deep --tol 1e-2 --periodic --mean-pressure 200MPa --output pressure,strain even.rcg"
-claim "yield, free, slabs chosen, several threads" same "RC_THREADS=2 ${yield/--slabs 3/} --load 40mN,0 --history ball.rcg"
+# Every exchange waits for the other process, so few steps and a large tolerance keep their number small. The bytes of
+# unfinished iterations are as sensitive to a wrong sum as those of a solution.
+yield="rc-solve --E1 100GPa --nu1 0.3 --E2 rigid --yield 1GPa,20GPa --slabs 2 --increments 1 --tol 1e-1 --quiet"
+yields() { grep -q '"plastic_volume": [1-9]' shared.json; }
+claim "yield, periodic, a history" same "$yield --periodic --mean-pressure 20MPa,5MPa,25MPa --history --output pressure,strain,plastic,residual rough.rcg"
+claim "  the body yields" yields
+deep=${yield/--slabs 2/--slabs 8}
+claim "yield, deep slabs on coarser grids" same "$deep --periodic --mean-pressure 30MPa --output pressure,strain even.rcg"
+claim "  the body yields" yields
+claim "yield, free, slabs chosen, several threads" same "RC_THREADS=2 ${yield/1GPa,20GPa --slabs 2/0.5GPa,20GPa} --load 40mN,0 --history ball.rcg"
+claim "  the body yields" yields
 claim "creep" same "rc-solve --periodic --relaxation 1MPa,9MPa:1s --nu1 0.5 --E2 rigid --mean-pressure 20kPa --time 0,1s --increments 4 --quiet rough.rcg"
 claim "relaxation at an approach" same "rc-solve --relaxation 1MPa,9MPa:1s --nu1 0.5 --E2 rigid --approach 0.5um --time 0,1s --increments 4 --quiet ball.rcg"
 speed="rc-solve --relaxation 1MPa,9MPa:1s --nu1 0.5 --E2 rigid --quiet --speed"
@@ -43,21 +49,23 @@ claim "  an approach, a repeated track, several threads" same "RC_THREADS=2 $spe
 travel="rc-solve --estar 1GPa --radius 200um --load 1mN --quiet"
 claim "travel against a rough map with more rows" same "$travel --travel=-1um,0,0.5um --counter other.rcg rough.rcg"
 claim "travel of a window" same "$travel --travel=-1um,0,1um --window 110x37 rough.rcg"
-claim "travel over a body that yields" same "$yield --periodic --tol 1e-2 --radius 200um --load 30mN --travel=-2um,0,2um --passes 2 rough.rcg"
-wear="rc-wear --coefficient 1e-3mm3/Nm,1e-3mm3/Nm --quiet"
+claim "travel over a body that yields" same "$yield --periodic --radius 200um --load 30mN --travel=-1um,0,1um --passes 2 rough.rcg"
+claim "  it yields" yields
+wear="rc-wear --coefficient 1e-3mm3/Nm,1e-3mm3/Nm --tol 0.1 --quiet"
 claim "wear" same "$wear --distance 0.1m,1m pressed.rcg"
 claim "  its report has the exchanges" grep -q '"exchanges": [1-9]' shared.json
-claim "wear to a contact area" same "$wear --distance 10m --until area=0.2 pressed.rcg"
+claim "wear to a contact area" same "$wear --distance 10m --until area=0.06 pressed.rcg"
 claim "wear of a track" same "$wear --motion track:1mm --distance 0.1m pressed-ball.rcg"
-claim "wear of two rough bodies" same "$wear --motion sliding --counter rough.rcg --tol 0.1 --distance 0.05m pressed.rcg"
-slip="rc-slip --mu 0.3 --quiet --output pressure,traction-x,traction-y,slip-x,slip-y,state,slip,dissipation"
+rough_wear="${wear/0.1/0.3} --motion sliding --counter rough.rcg --distance 20um pressed.rcg"
+claim "wear of two rough bodies" same "$rough_wear"
+slip="rc-slip --mu 0.3 --quiet --tol 0.1 --output pressure,traction-x,traction-y,slip-x,slip-y,state,slip,dissipation"
 for edges in "" --periodic; do
     rc-solve --quiet $edges --E1 3GPa --nu1 0.3 --E2 3GPa --nu2 0.3 --mean-pressure 60MPa -o similar$edges.rcg rough.rcg
     rc-solve --quiet $edges --E1 3GPa --nu1 0.3 --E2 rigid --mean-pressure 60MPa -o dissimilar$edges.rcg rough.rcg
     claim "friction, loads and forces${edges:+, periodic}" same \
-        "$slip --path '0.3N,0,0; 0.3N,50mN,0; 0.2N,30mN,20mN; 0,0,0; 0.3N,20mN,0' --increments 4 similar$edges.rcg"
+        "$slip --path '0.3N,0,0; 0.3N,50mN,0; 0.2N,30mN,20mN; 0,0,0; 0.3N,20mN,0' --increments 2 similar$edges.rcg"
     claim "  a displacement" same "$slip --displacement 0.5um,0.2um --tau-max 60MPa similar$edges.rcg"
-    claim "  dissimilar bodies" same "$slip --tangential 30mN --increments 8 --tol 1e-2 dissimilar$edges.rcg"
+    claim "  dissimilar bodies" same "$slip --tangential 30mN --increments 1 dissimilar$edges.rcg"
 done
 claim "friction, several threads" same "RC_THREADS=2 $slip --tangential 30mN,30mN similar--periodic.rcg"
 # Spectra in double and in single precision have other columns on each process; on the ball only one has contact.
@@ -97,8 +105,8 @@ kept() {
         cmp resumed-1.rcg resumed-3.rcg && cmp resumed-1.kept resumed-3.kept || return
     done
 }
-claim "a checkpoint of yield" kept "$yield --tol 1e-2 --periodic --mean-pressure 60MPa,20MPa --history rough.rcg"
-claim "  of yield, deep slabs on coarser grids" kept "${deep/--increments 2/--increments 1} --tol 1e-1 --periodic --mean-pressure 20MPa even.rcg"
+claim "a checkpoint of yield" kept "$yield --periodic --mean-pressure 20MPa,5MPa --history rough.rcg"
+claim "  of yield, deep slabs on coarser grids" kept "$deep --periodic --mean-pressure 20MPa even.rcg"
 claim "  of creep" kept "rc-solve --periodic --relaxation 1MPa,9MPa:1s --nu1 0.5 --E2 rigid --mean-pressure 20kPa --time 0,1s --increments 2 --quiet rough.rcg"
 claim "  of sliding on rubber" kept "$speed 10um/s --periodic --mean-pressure 20kPa rough.rcg"
 claim "  of wear" kept "$wear --distance 0.1m pressed.rcg"
@@ -108,10 +116,10 @@ claim "  of friction" kept "rc-slip --nu 0.3 --mu 0.3 --quiet --tol 0.1 --increm
 if before_release; then
     claim "  of adhesion, pulled off" kept "$stick --estar 2MPa --load 2mN,0.1mN --pull-off small-ball.rcg"
     claim "  of friction, loads and forces" kept "$slip --path '0.3N,0,0;0.3N,50mN,0;0.2N,30mN,20mN' --increments 4 similar.rcg"
-    claim "  of friction, dissimilar bodies" kept "$slip --tangential 30mN --increments 2 --tol 1e-1 dissimilar--periodic.rcg"
-    claim "  of yield, no contact on one process" kept "$yield --tol 1e-2 --load 40mN,60mN --history ball.rcg"
-    claim "  of travel over a body that yields" kept "$yield --periodic --tol 1e-2 --radius 200um --load 30mN --travel=-2um,0,2um --passes 2 rough.rcg"
-    claim "  of wear of two rough bodies" kept "$wear --motion sliding --counter rough.rcg --tol 0.1 --distance 0.05m pressed.rcg"
+    claim "  of friction, dissimilar bodies" kept "$slip --tangential 30mN --increments 2 dissimilar--periodic.rcg"
+    claim "  of yield, no contact on one process" kept "${yield/1GPa/0.5GPa} --load 40mN,60mN --history ball.rcg"
+    claim "  of travel over a body that yields" kept "$yield --periodic --radius 200um --load 30mN --travel=-2um,0,2um --passes 2 rough.rcg"
+    claim "  of wear of two rough bodies" kept "$rough_wear"
 fi
 
 # ---- faults ----
@@ -156,14 +164,14 @@ memory() {
     echo "$last allocations" >&2
 }
 export ASAN_OPTIONS="${ASAN_OPTIONS-}:verify_asan_link_order=0"
-claim "allocations of one process fail: yield" memory "$yield --tol 0.1 --load 40mN ball.rcg"
+claim "allocations of one process fail: yield" memory "${yield/1GPa/0.5GPa} --load 40mN ball.rcg"
 claim "  adhesion" memory "$stick --estar 2MPa --load 0.1mN --tol 1e-3 small-ball.rcg"
 claim "  friction" memory "rc-slip --nu 0.3 --mu 0.3 --quiet --tol 0.1 --tangential 20uN pressed-ball.rcg"
 claim "  creep" memory "$relax --tol 0.1 rough.rcg"
-claim "  wear" memory "$wear --distance 0.1m --tol 0.1 pressed-ball.rcg"
+claim "  wear" memory "$wear --distance 0.1m pressed-ball.rcg"
 killed() {
     local launcher victim= child
-    $run ${yield/--quiet/} --progress line --periodic --increments 200 --mean-pressure 60MPa,20MPa,70MPa --history -o no.rcg rough.rcg >/dev/null 2>killed.err &
+    $run ${yield/--increments 1 --tol 1e-1 --quiet/} --progress line --periodic --increments 200 --mean-pressure 60MPa,20MPa,70MPa --history -o no.rcg rough.rcg >/dev/null 2>killed.err &
     launcher=$!
     until grep -aq increment killed.err || ! kill -0 "$launcher"; do sleep 0.05; done
     for child in $(pgrep -P "$launcher" -x rc-solve); do
@@ -174,13 +182,13 @@ killed() {
     [ -z "$(ls no.rcg* 2>/dev/null)" ]
 }
 claim "a process that is killed among the increments ends all and leaves no file" killed
-# The second process is killed after 20 states; the others continue from the last one.
+# The second process is killed after 5 states; the others continue from the last one.
 killed_states() {
-    local launcher victim= child n command="${yield/--increments 8/--increments 40} --tol 1e-2 --periodic --mean-pressure 60MPa,20MPa --history rough.rcg"
+    local launcher victim= child n command="${yield/--increments 1/--increments 10} --periodic --mean-pressure 25MPa,5MPa --history rough.rcg"
     rm -f *.kept
     $run $command --interval 0 --checkpoint killed.kept -o no.rcg >/dev/null 2>killed.err &
     launcher=$!
-    until n=$(grep -acs '^checkpoint.numbers=' killed.kept) && [ "$n" -ge 20 ] || ! kill -0 "$launcher"; do sleep 0.05; done
+    until n=$(grep -acs '^checkpoint.numbers=' killed.kept) && [ "$n" -ge 5 ] || ! kill -0 "$launcher"; do sleep 0.05; done
     for child in $(pgrep -P "$launcher" -x rc-solve); do
         ! grep -zqx '\(OMPI_COMM_WORLD\|PMI\)_RANK=1' "/proc/$child/environ" || victim=$child
     done
