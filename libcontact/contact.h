@@ -1541,7 +1541,7 @@ RC_API enum rc_status rc_fatigue_history(unsigned wanted, const struct rc_fatigu
  * columns wrap around. A contact that stays is unloaded before and after the cases, unless the map
  * repeats along both axes. */
 struct rc_fatigue_problem {
-    /* Its members wanted, section and traction are ignored; no ranks, no strain. */
+    /* Its members wanted, section and traction are ignored; no strain. */
     struct rc_stress_options stress;
     /* bits of enum rc_criterion */
     unsigned wanted;
@@ -1551,14 +1551,14 @@ struct rc_fatigue_problem {
     char pass;
     /* 1 with a pass */
     size_t cases;
-    /* of each case, nx ny values, Pa */
+    /* of each case, nx ny values, Pa; among ranks the rows held here */
     const double *const *p;
     /* the same; NULL: none */
     const double *const *traction[2];
     /* of each case: the column of the body below its first column; NULL: the contact stays */
     const size_t *column;
     /* Bytes for histories of cases; 0: all. With little room, stresses are computed again for
-     * each band of rows, which costs time. */
+     * each band of rows, which costs time. The results are the same. */
     size_t room;
     /* Stressed volume: the integral of (amplitude - threshold)^power z^-depth_power over points
      * of a depth and over depths, with the amplitude in GPa. That of a pass is per length of
@@ -1610,7 +1610,8 @@ RC_API struct rc_fatigue *rc_fatigue_new(const struct rc_shape *shape,
                                          const struct rc_fatigue_problem *problem,
                                          struct rc_err *err);
 /* The wanted values at the depth z >= 0 for a material with these limits: out[c] (NULL: not needed) for each
- * bit of `wanted`, on the grid of rc_fatigue_shape. residual: NULL, or a stress that is always there, Pa, six
+ * bit of `wanted`, on the grid of rc_fatigue_shape. Among ranks each gets its rows of this grid, of a pass all
+ * values, and each gives the same members of `out`. residual: NULL, or a stress that is always there, Pa, six
  * components of ny values, for a pass along y nx values; NULL in it: 0. */
 RC_API enum rc_status rc_fatigue_depth(struct rc_fatigue *fatigue, double depth,
                                        const struct rc_fatigue_limits *limits,

@@ -87,6 +87,7 @@ static const struct tool_info info = {
         "  rc-render --curve depth:dangvan -o curve.png depths.tsv\n",
     .opts = opts,
     .figures = (const char *const[]){"fatigue", NULL},
+    .shares = true,
     .fill = materials_fill,
     .of_materials = (const char *const[]){"nu", NULL},
     .reads = READS_STREAM,
@@ -115,6 +116,8 @@ struct run {
     double step;  /* m: largest distance of the contact between two states */
     size_t needs; /* bytes of all work, beside the maps that are read */
     struct rc_grid *frame[RC_FATIGUES];
+    double *line
+        [RC_FATIGUES]; /* of a pass: the values of a depth, of which a row of the frame is made */
 };
 
 static bool
@@ -286,10 +289,18 @@ lines_of(const struct run *run)
     return run->problem.pass == 'y' ? run->position[0].p->nx : run->position[0].p->ny;
 }
 
-static size_t
-columns_of(const struct run *run)
+/* A section with a row for each depth, or the map of a depth. */
+static struct rc_shape
+frame_shape(const struct run *run)
 {
-    return rc_fatigue_shape(rc_shape_of(run->position[0].p), &run->problem).nx;
+    struct rc_shape shape = rc_fatigue_shape(rc_shape_of(run->position[0].p), &run->problem);
+    const struct numbers *d = &run->depths;
+
+    if (run->problem.pass != 0) {
+        shape.ny = d->n;
+        shape.dy = d->n > 1 ? (d->v[d->n - 1] - d->v[0]) / (double)(d->n - 1) : shape.dx;
+    }
+    return shape;
 }
 
 static void
@@ -299,7 +310,8 @@ set_problem(struct run *run)
     const struct rc_grid *first = run->position[0].p;
     const struct rc_shape shape = rc_grid_shape(first);
     const size_t n = run->positions;
-    size_t frames, least, left = tool_memory_left(t);
+    size_t frames, least, first_row, rows, left = tool_memory_left(t);
+    struct rc_shape frame;
 
     run->column = tool_room(t, n, sizeof *run->column, "cases");
     for (int m = 0; m < 3; m++) {
@@ -325,8 +337,9 @@ set_problem(struct run *run)
         run->problem.traction[k] = run->map[k + 1][0] == NULL ? NULL : run->map[k + 1];
     tool_must(t, first, rc_fatigue_check(&shape, &run->problem, &t->err));
     /* histories get what the plan, the maps and the frames leave */
-    frames = run->problem.pass != 0 ? run->depths.n * lines_of(run) : columns_of(run) * first->ny;
-    frames *= count_wanted() * sizeof(double);
+    frame = frame_shape(run);
+    ranks_rows(t, &frame, &first_row, &rows);
+    frames = count_wanted() * frame.nx * (rows + (run->problem.pass != 0)) * sizeof(double);
     run->problem.room = 1;
     run->needs = stress_plan_bytes(first, &run->options, RC_COMPONENTS) + frames;
     least = run->needs + rc_fatigue_memory(&shape, &run->problem);
@@ -336,6 +349,16 @@ set_problem(struct run *run)
 
 /* ---- depths and frames ---- */
 
+static double
+highest(const struct tool *t, const struct rc_grid *p)
+{
+    double most = -INFINITY;
+
+    for (size_t k = 0; k < rc_grid_nodes(p); k++)
+        most = fmax(most, p->v[k]);
+    return ranks_most(t, most);
+}
+
 /* Automatic depths are at least half a node below the surface. Above that the stress is that of single cells,
  * not of the pressure. */
 static void
@@ -344,13 +367,13 @@ set_depths(struct run *run)
     const struct rc_grid *peak = run->position[0].p;
     struct numbers *d = &run->depths;
     double largest = -INFINITY, least = fmin(peak->dx, peak->dy) / 2;
-    size_t kept = 0, low, high;
+    size_t kept = 0;
 
     for (size_t k = 0; k < run->positions; k++) {
         const struct rc_grid *p = run->position[k].p;
-        rc_extremes(rc_grid_nodes(p), p->v, &low, &high);
-        if (p->v[high] > largest) {
-            largest = p->v[high];
+        const double high = highest(&run->t, p);
+        if (high > largest) {
+            largest = high;
             peak = p;
         }
     }
@@ -406,22 +429,32 @@ set_keys(struct run *run, struct rc_grid *g)
     tool_sign(t, g);
 }
 
-/* A section with a row for each depth, or the map of a depth. */
-static struct rc_grid *
-new_frame(struct run *run, const struct rc_shape *result, int c)
+static void
+new_frames(struct run *run)
 {
-    const struct rc_grid *first = run->position[0].p;
-    const struct numbers *d = &run->depths;
-    struct rc_shape shape = *result;
-    struct rc_grid *g;
+    const struct rc_shape shape = frame_shape(run);
 
-    if (run->problem.pass != 0) {
-        shape.ny = d->n;
-        shape.dy = d->n > 1 ? (d->v[d->n - 1] - d->v[0]) / (double)(d->n - 1) : shape.dx;
+    for (int c = 0; c < RC_FATIGUES; c++) {
+        run->frame[c] = NULL;
+        if (!wanted(c))
+            continue;
+        run->frame[c] =
+            tool_frame_like(&run->t, run->position[0].p, &shape, rc_criterion_names[c], unit_of(c));
+        set_keys(run, run->frame[c]);
+        if (run->problem.pass != 0)
+            run->line[c] = tool_room(&run->t, shape.nx, sizeof(double), "a section");
     }
-    g = tool_frame_like(&run->t, first, &shape, rc_criterion_names[c], unit_of(c));
-    set_keys(run, g);
-    return g;
+}
+
+static void
+free_frames(struct run *run)
+{
+    for (int c = 0; c < RC_FATIGUES; c++) {
+        rc_grid_free(run->frame[c]);
+        free(run->line[c]);
+        run->frame[c] = NULL;
+        run->line[c] = NULL;
+    }
 }
 
 /* The criteria and effects: computed, or why not. */
@@ -502,6 +535,7 @@ report_all(struct run *run, const struct rc_fatigue *f, double **by_depth, doubl
     report_effects(out, effects(run));
     report_seconds(out, (const struct report_phase[]){{NULL, 0}}, tool_now() - began);
     report_memory(out);
+    report_ranks(out, out->tool);
     report_finish_row(out);
 }
 
@@ -555,8 +589,23 @@ judge(struct run *run, const struct rc_fatigue *f)
 
 /* ---- a history ---- */
 
+/* The values of a pass to their row of the section. */
 static void
-do_depth(struct run *run, struct rc_fatigue *f, const struct rc_shape *result, size_t k)
+set_row(struct run *run, size_t k)
+{
+    for (int c = 0; c < RC_FATIGUES; c++) {
+        struct rc_grid *g = run->frame[c];
+        size_t first, rows;
+        if (!wanted(c))
+            continue;
+        ranks_rows(&run->t, rc_shape_of(g), &first, &rows);
+        if (k >= first && k < first + rows)
+            memcpy(g->v + (k - first) * g->nx, run->line[c], g->nx * sizeof *g->v);
+    }
+}
+
+static void
+do_depth(struct run *run, struct rc_fatigue *f, size_t k)
 {
     struct tool *t = &run->t;
     const double depth = run->depths.v[k], *at[RC_COMPONENTS];
@@ -567,11 +616,13 @@ do_depth(struct run *run, struct rc_fatigue *f, const struct rc_shape *result, s
     tool_progress(t, (double)k / (double)run->depths.n, "depth %zu of %zu", k + 1, run->depths.n);
     for (int c = 0; c < RC_FATIGUES; c++)
         if (wanted(c))
-            to[c] = run->frame[c]->v + (run->problem.pass != 0 ? k * result->nx : 0);
+            to[c] = run->problem.pass != 0 ? run->line[c] : run->frame[c]->v;
     tool_must(t, run->position[0].p,
               rc_fatigue_depth(f, depth, &l,
                                fatigue_residual_at(t, &run->residual, lines_of(run), depth, at), to,
                                &t->err));
+    if (run->problem.pass != 0)
+        set_row(run, k);
     for (int c = 0; c < RC_FATIGUES && run->problem.pass == 0 && !args.dry_run; c++) {
         if (!wanted(c))
             continue;
@@ -585,22 +636,20 @@ do_depth(struct run *run, struct rc_fatigue *f, const struct rc_shape *result, s
 
 /* Processor seconds of a thread for all depths, from a trial of one; NAN: the memory does not suffice. */
 static double
-expect(struct run *run, const struct rc_shape *result)
+expect(struct run *run)
 {
     const struct rc_grid *first = run->position[0].p;
     double began = tool_worked(), made;
     struct rc_fatigue *f;
 
-    if (run->needs > tool_memory_left(&run->t))
+    if (ranks_most(&run->t, run->needs > tool_memory_left(&run->t)) > 0)
         return NAN;
     f = tool_made(&run->t, first, rc_fatigue_new(rc_shape_of(first), &run->problem, &run->t.err));
-    for (int c = 0; c < RC_FATIGUES; c++)
-        run->frame[c] = wanted(c) ? new_frame(run, result, c) : NULL;
+    new_frames(run);
     made = tool_worked();
-    do_depth(run, f, result, run->depths.n / 2);
+    do_depth(run, f, run->depths.n / 2);
     tool_progress_end(&run->t);
-    for (int c = 0; c < RC_FATIGUES; c++)
-        rc_grid_free(run->frame[c]);
+    free_frames(run);
     rc_fatigue_free(f);
     return (made - began + (double)run->depths.n * (tool_worked() - made)) / (double)run->t.threads;
 }
@@ -610,8 +659,8 @@ show_plan(struct run *run, const struct rc_shape *shape)
 {
     const struct rc_grid *first = run->position[0].p;
     const struct rc_shape r = rc_fatigue_shape(shape, &run->problem);
-    const size_t memory = tool_memory_with(run->needs);
-    const double seconds = expect(run, &r);
+    const double memory = ranks_most(&run->t, (double)tool_memory_with(run->needs));
+    const double seconds = expect(run);
     const struct numbers *d = &run->depths;
     const struct plan plan = plan_begin(&run->t, &run->report, first, rc_grid_case(first),
                                         rc_boundary_word(run->options.boundary), "");
@@ -621,7 +670,7 @@ show_plan(struct run *run, const struct rc_shape *shape)
     plan_say(&plan, "depths", "%zu, %g to %g m", d->n, d->v[0], d->v[d->n - 1]);
     plan_say(&plan, "histories", "%zu at each depth", r.nx * r.ny);
     plan_effects(&plan, effects(run));
-    plan_end(&plan, NAN, seconds, memory);
+    plan_end(&plan, NAN, seconds, (size_t)memory);
 }
 
 static void
@@ -631,7 +680,6 @@ do_history(struct run *run)
     const struct rc_grid *first = run->position[0].p;
     const struct rc_shape shape = rc_grid_shape(first);
     const double began = tool_now();
-    struct rc_shape result;
     struct rc_fatigue *f;
     double *by_depth[RC_CRITERIA + 1];
 
@@ -642,23 +690,20 @@ do_history(struct run *run)
         show_plan(run, &shape);
         return;
     }
-    tool_demand_memory(t, first, run->needs);
-    result = rc_fatigue_shape(&shape, &run->problem);
+    tool_must(t, first, ranks_agree(t, tool_ask_memory(t, &shape, run->needs, &t->err), &t->err));
     f = tool_made(t, first, rc_fatigue_new(&shape, &run->problem, &t->err));
-    for (int c = 0; c < RC_FATIGUES; c++)
-        run->frame[c] = wanted(c) ? new_frame(run, &result, c) : NULL;
+    new_frames(run);
     for (int c = 0; c <= RC_CRITERIA; c++)
         by_depth[c] = tool_room(t, run->depths.n, sizeof(double), "the report");
     for (size_t k = 0; k < run->depths.n; k++) {
-        do_depth(run, f, &result, k);
+        do_depth(run, f, k);
         report_depth(run, f, run->depths.v[k], by_depth, k);
     }
     tool_progress_end(t);
-    for (int c = 0; c < RC_FATIGUES; c++) {
+    for (int c = 0; c < RC_FATIGUES; c++)
         if (run->frame[c] != NULL && run->problem.pass != 0)
             tool_write(t, run->frame[c]);
-        rc_grid_free(run->frame[c]);
-    }
+    free_frames(run);
     judge(run, f);
     report_all(run, f, by_depth, began);
     for (int c = 0; c <= RC_CRITERIA; c++)

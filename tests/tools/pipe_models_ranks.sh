@@ -26,6 +26,7 @@ rc-synth selfaffine --nx 160 --ny 57 --dx 1um --hurst 0.8 --rms-slope 0.05 --sho
 rc-synth selfaffine --nx 128 --ny 96 --dx 1um --hurst 0.8 --rms-slope 0.1 --short-cut 8um --long-cut 60um --seed 5 -o even.rcg
 rc-synth sphere --nx 131 --ny 45 --dx 1um --radius 200um -o ball.rcg
 rc-solve --periodic --estar 1GPa --mean-pressure 2MPa --quiet -o pressed.rcg rough.rcg
+rc-solve --periodic --estar 1GPa --mean-pressure 2MPa,4MPa --quiet -o loads.rcg rough.rcg
 rc-solve --estar 1GPa --load 0.2mN --quiet -o pressed-ball.rcg ball.rcg
 
 # ---- models ----
@@ -70,6 +71,27 @@ done
 claim "friction, several threads" same "RC_THREADS=2 $slip --tangential 30mN,30mN similar--periodic.rcg"
 # Spectra in double and in single precision have other columns on each process; on the ball only one has contact.
 claim "friction of a ball" same "$slip --nu 0.3 --tangential 20uN,10uN pressed-ball.rcg"
+
+# A pass along y needs columns of all processes; positions need the neighbouring rows. The results of positions have more
+# columns than the map, and therefore other rows on each process.
+fatigue="rc-fatigue --nu 0.3 --bending-limit 20MPa --torsion-limit 12MPa --criteria crossland,dangvan,papadopoulos,findley,amplitude --planes --life 3 --quiet"
+rc-pick --channel pressure --crop 5,0,120,45 pressed-ball.rcg >one.rcg
+for ((k = 0; k < 6; k++)); do rc-pick --set position="$((k * k))e-6" one.rcg; done >positions.rcg
+rc-stress --quiet --nu 0.3 --depths 4um --components sxx,syy pressed-ball.rcg | rc-pick --crop 65,0,1,45 -o lines.rcg
+rc-slip --nu 0.3 --mu 0.3 --quiet --tol 0.1 --increments 1 --tangential 20uN --output pressure,traction-x,traction-y -o slipped.rcg pressed-ball.rcg
+claim "fatigue, a pass along x" same "$fatigue --criteria crossland,shakedown --yield 10MPa --pass x --depths auto pressed.rcg"
+claim "  a pass along y, several threads" same "RC_THREADS=2 $fatigue --pass y --depths 1um,4um pressed.rcg"
+claim "  free, with traction and residual stress" same "$fatigue --pass x --depths 4um --residual lines.rcg slipped.rcg"
+claim "  positions" same "$fatigue --depths 1um,4um positions.rcg"
+bands() {
+    $MPIRUN -n 2 $fatigue --depths 1um,4um --memory 1700k -o bands.rcg --report bands.json positions.rcg &&
+        ! grep -q '"bands": 1,' bands.json && cmp alone.rcg bands.rcg &&
+        diff <(figures alone.json | sed 's/"bands": [0-9]*//') <(figures bands.json | sed 's/"bands": [0-9]*//')
+}
+claim "    little memory: the same in bands of rows" bands
+refuses 1 'need about .* --memory allows' "    too little memory" "$MPIRUN -n 2 $fatigue --depths 1um,4um --memory 1M -o no.rcg positions.rcg"
+claim "      the message is printed once" test "$(grep -c 'need about' refuses.err)" = 1
+claim "  loads of a contact that stays, periodic" same "$fatigue --depths 20um pressed.rcg loads.rcg"
 
 # With adhesion a free map is solved on a padded grid, of which the second process has the padding only.
 rc-synth sphere --nx 51 --ny 45 --dx 3um --radius 200um -o small-ball.rcg

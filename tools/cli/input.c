@@ -597,6 +597,13 @@ tool_demand_finite(struct tool *t, const struct rc_grid *g, const char *remedy)
             first = before + k;
     count = (size_t)ranks_sum(t, (double)count);
     first = (size_t)-ranks_most(t, -(double)first);
+    tool_demand_none(t, g, count, first, remedy);
+}
+
+void
+tool_demand_none(struct tool *t, const struct rc_grid *g, size_t count, size_t first,
+                 const char *remedy)
+{
     if (count > 0)
         tool_refuse(t, g,
                     "%zu of %zu values are NaN or infinite, the first in column %zu of row %zu: %s",

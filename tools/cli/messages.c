@@ -274,11 +274,13 @@ tool_frame_like(struct tool *t, const struct rc_grid *like, const struct rc_shap
                 const char *channel, const char *unit)
 {
     struct rc_grid as = *like;
+    size_t first, rows;
 
     if (shape != NULL) {
         as.nx = shape->nx;
         as.ny = shape->ny;
-        as.elsewhere = 0;
+        ranks_rows(t, shape, &first, &rows);
+        as.elsewhere = shape->ny - rows;
         as.dx = shape->dx;
         as.dy = shape->dy;
     }

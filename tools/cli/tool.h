@@ -431,6 +431,9 @@ const char *tool_where_to(const struct tool *tool, const struct rc_grid *grid, c
 /* Ends the tool if a value is NaN or infinite, with their number and the place of the first one; `remedy` is
  * the advice. */
 void tool_demand_finite(struct tool *tool, const struct rc_grid *grid, const char *remedy);
+/* The same of `count` such values that the caller has found, the first one in node `first`. */
+void tool_demand_none(struct tool *tool, const struct rc_grid *grid, size_t count, size_t first,
+                      const char *remedy);
 /* Ends the tool if a height is infinite; NaN is a point without a measurement. By rows: of the rows read so
  * far. */
 void tool_demand_measured(struct tool *tool, const struct rc_grid *grid);

@@ -107,6 +107,7 @@ warn_of_units(struct tool *t, const struct rc_grid *p, const struct fatigue_limi
     }
     for (size_t k = 0; k < rc_grid_nodes(p); k++)
         most = fmax(most, p->v[k]);
+    most = ranks_most(t, most);
     if (least < part * most)
         tool_warn(
             t,
@@ -179,40 +180,81 @@ index_of(const struct fatigue_residual *r, double depth)
     return k;
 }
 
-/* For each line its mean along the travel; *varies: the largest deviation from these means. */
+/* A map that is read row by row: no process holds it. */
+struct along {
+    double *mean, *low, *high; /* of each line along the travel */
+    double largest;            /* absolute value */
+};
+
+static void
+add_row(struct along *a, size_t line, double v, size_t n)
+{
+    a->mean[line] += v / (double)n;
+    a->low[line] = fmin(a->low[line], v);
+    a->high[line] = fmax(a->high[line], v);
+    a->largest = fmax(a->largest, fabs(v));
+}
+
+/* For each line its mean along the travel. largest: the largest deviation from these means, and the largest
+ * absolute value; both grow. */
 static double *
-means(struct tool *t, const struct rc_grid *g, char pass, double *varies)
+means(struct tool *t, const struct fatigue_residual *r, struct rc_reader *reader,
+      const struct rc_grid *g, char pass, double largest[2])
 {
     const bool along_x = pass == 'x';
     const size_t lines = along_x ? g->ny : g->nx, n = along_x ? g->nx : g->ny;
-    double *line = tool_room(t, lines, sizeof *line, "the residual stress");
+    double *room = tool_room(t, 2 * lines + g->nx, sizeof *room, "the residual stress");
+    double *row = room + 2 * lines;
+    struct along a = {tool_room(t, lines, sizeof *a.mean, "the residual stress"), room,
+                      room + lines, 0};
+    size_t count = 0, first = 0;
 
-    *varies = 0;
-    for (size_t j = 0; j < lines; j++) {
-        const double *v = g->v + (along_x ? j * g->nx : j);
-        const size_t step = along_x ? 1 : g->nx;
-        for (size_t i = 0; i < n; i++)
-            line[j] += v[i * step] / (double)n;
-        for (size_t i = 0; i < n; i++)
-            *varies = fmax(*varies, fabs(v[i * step] - line[j]));
+    for (size_t k = 0; k < lines; k++) {
+        a.low[k] = INFINITY;
+        a.high[k] = -INFINITY;
     }
-    return line;
+    for (size_t j = 0; j < g->ny; j++) {
+        if (rc_reader_rows(reader, 1, row, &t->err) != RC_OK)
+            tool_die(t, "--residual %s: %s", r->name, t->err.text);
+        for (size_t i = 0; i < g->nx; i++) {
+            if (!isfinite(row[i]) && count++ == 0)
+                first = j * g->nx + i;
+            add_row(&a, along_x ? j : i, row[i], n);
+        }
+    }
+    tool_demand_none(t, g, count, first, "recompute the map");
+    for (size_t k = 0; k < lines; k++)
+        largest[0] =
+            fmax(largest[0], fmax(fabs(a.low[k] - a.mean[k]), fabs(a.high[k] - a.mean[k])));
+    largest[1] = fmax(largest[1], a.largest);
+    free(room);
+    return a.mean;
+}
+
+/* Reads the rows of a frame that is not needed, because the file may be a pipe. */
+static void
+pass_over(struct tool *t, const struct fatigue_residual *r, struct rc_reader *reader,
+          const struct rc_grid *g)
+{
+    double *row = tool_room(t, g->nx, sizeof *row, "the residual stress");
+
+    for (size_t j = 0; j < g->ny; j++)
+        if (rc_reader_rows(reader, 1, row, &t->err) != RC_OK)
+            tool_die(t, "--residual %s: %s", r->name, t->err.text);
+    free(row);
 }
 
 static void
-keep_residual(struct tool *t, struct fatigue_residual *r, const struct rc_grid *g, char pass,
-              double largest[2])
+keep_residual(struct tool *t, struct fatigue_residual *r, struct rc_reader *reader,
+              const struct rc_grid *g, char pass, double largest[2])
 {
     const int c = component_of(g->channel);
     const size_t lines = pass == 'x' ? g->ny : g->nx;
-    double depth, varies;
+    double depth;
     size_t k, room;
 
-    if (c == RC_COMPONENTS)
-        return;
     if (!rc_grid_number(g, "depth", &depth))
         tool_refuse(t, g, "--residual %s: it has no key depth: a section will not do", r->name);
-    tool_demand_finite(t, g, "recompute the map");
     if (r->n > 0 && lines != r->lines)
         tool_refuse(t, g, "--residual %s: its maps differ in size", r->name);
     r->lines = lines;
@@ -228,10 +270,7 @@ keep_residual(struct tool *t, struct fatigue_residual *r, const struct rc_grid *
         r->depth[r->n++] = depth;
     }
     free(r->line[c][k]);
-    r->line[c][k] = means(t, g, pass, &varies);
-    largest[0] = fmax(largest[0], varies);
-    for (size_t j = 0; j < rc_grid_nodes(g); j++)
-        largest[1] = fmax(largest[1], fabs(g->v[j]));
+    r->line[c][k] = means(t, r, reader, g, pass, largest);
 }
 
 void
@@ -249,10 +288,14 @@ fatigue_residual_read(struct tool *t, const char *name, char pass, struct fatigu
         tool_die(t, "--residual %s: %s", name, strerror(errno));
     if ((reader = rc_reader_new(file, 0, t->memory, &t->err)) == NULL)
         tool_die(t, "--residual %s: %s", name, t->err.text);
-    while ((status = rc_reader_next(reader, &g, &t->err)) == RC_MORE) {
+    rc_reader_by_rows(reader);
+    while ((status = rc_reader_head(reader, &g, &t->err)) == RC_MORE) {
         if (rc_keys_check(g, &t->err) != RC_OK)
             tool_die(t, "--residual %s: %s: correct it with rc-pick --set", name, t->err.text);
-        keep_residual(t, r, g, pass, largest);
+        if (component_of(g->channel) < RC_COMPONENTS)
+            keep_residual(t, r, reader, g, pass, largest);
+        else
+            pass_over(t, r, reader, g);
         rc_grid_free(g);
     }
     if (status == RC_FAIL)
