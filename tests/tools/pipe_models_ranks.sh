@@ -52,12 +52,12 @@ claim "travel against a rough map with more rows" same "$travel --travel=-1um,0,
 claim "travel of a window" same "$travel --travel=-1um,0,1um --window 110x37 rough.rcg"
 claim "travel over a body that yields" same "$yield --periodic --radius 200um --load 30mN --travel=-1um,0,1um --passes 2 rough.rcg"
 claim "  it yields" yields
-wear="rc-wear --coefficient 1e-3mm3/Nm,1e-3mm3/Nm --tol 0.1 --quiet"
-claim "wear" same "$wear --distance 0.1m,1m pressed.rcg"
+wear="rc-wear --coefficient 1e-3mm3/Nm,1e-3mm3/Nm --tol 0.3 --quiet"
+claim "wear" same "$wear --distance 1mm,2mm pressed.rcg"
 claim "  its report has the exchanges" grep -q '"exchanges": [1-9]' shared.json
-claim "wear to a contact area" same "$wear --distance 10m --until area=0.06 pressed.rcg"
-claim "wear of a track" same "$wear --motion track:1mm --distance 0.1m pressed-ball.rcg"
-rough_wear="${wear/0.1/0.3} --motion sliding --counter rough.rcg --distance 20um pressed.rcg"
+claim "wear to a contact area" same "$wear --distance 10m --until area=0.05 pressed.rcg"
+claim "wear of a track" same "$wear --motion track:1mm --distance 10mm pressed-ball.rcg"
+rough_wear="${wear/0.3/0.5} --motion sliding --counter rough.rcg --distance 5um pressed.rcg"
 claim "wear of two rough bodies" same "$rough_wear"
 slip="rc-slip --mu 0.3 --quiet --tol 0.1 --output pressure,traction-x,traction-y,slip-x,slip-y,state,slip,dissipation"
 for edges in "" --periodic; do
@@ -106,7 +106,8 @@ claim "  a history of approaches with a hardness" same \
 claim "  periodic, under a load: near nodes of other processes" same "$stick --periodic --estar 1GPa --mean-pressure 2MPa large.rcg"
 claim "    they replace convolutions" grep -qE '"convolutions": [0-9]+\.[0-9]{3}' alone.json
 claim "  periodic, several threads: approaches" same "RC_THREADS=2 $stick --periodic --estar 1GPa --approach 0.2um,0.4um,0 large.rcg"
-claim "  a cylinder, across the rows of all processes" same "$stick,jkr --estar 2MPa --cylinder 1mm --periodic=x --approach 0 --pull-off tall.rcg"
+claim "  a cylinder, across the rows of all processes" same \
+    "$stick,jkr --estar 2MPa --cylinder 1mm --periodic=x --approach 0 $(before_release && echo --pull-off) tall.rcg"
 
 # ---- states ----
 
@@ -129,9 +130,9 @@ kept() {
 }
 claim "a checkpoint of yield" kept "$yield --periodic --mean-pressure 20MPa,5MPa --history rough.rcg"
 claim "  of yield, deep slabs on coarser grids" kept "$deep --periodic --mean-pressure 20MPa even.rcg"
-claim "  of creep" kept "rc-solve --periodic --relaxation 1MPa,9MPa:1s --nu1 0.5 --E2 rigid --mean-pressure 20kPa --time 0,1s --increments 2 --quiet rough.rcg"
+claim "  of creep" kept "rc-solve --periodic --relaxation 1MPa,9MPa:1s --nu1 0.5 --E2 rigid --mean-pressure 20kPa --time 0,1s --increments 2 --tol 0.1 --quiet rough.rcg"
 claim "  of sliding on rubber" kept "$speed 10um/s --periodic --mean-pressure 20kPa rough.rcg"
-claim "  of wear" kept "$wear --distance 0.1m pressed.rcg"
+claim "  of wear" kept "$wear --distance 1mm pressed.rcg"
 # The states of the first point have no maps.
 claim "  of adhesion with a hardness" kept "$stick --estar 2MPa --load 2mN,0.1mN --history --hardness 0.4MPa small-ball.rcg" "0 0.7"
 claim "  of friction" kept "rc-slip --nu 0.3 --mu 0.3 --quiet --tol 0.1 --increments 1 --tangential 20uN --output pressure,traction-x,dissipation pressed-ball.rcg"
@@ -154,7 +155,7 @@ refuses 1 '1 of 5895 values are NaN or infinite, the first in column 7 of row 44
     "$run $yield --load 40mN -o no.rcg nan.rcg"
 claim "  the message is printed once" test "$(grep -c 'are NaN' refuses.err)" = 1
 refuses 1 'repeats along one axis only cannot be shared among processes' "yield on a map that repeats along one axis" \
-    "$run $yield --periodic=x --load 40mN -o no.rcg ball.rcg"
+    "$run ${yield/1GPa/0.5GPa} --periodic=x --load 40mN -o no.rcg ball.rcg"
 claim "  the message is printed once" test "$(grep -c 'along one axis' refuses.err)" = 1
 refuses 1 'several processes needs a periodic map' "sliding on a free map" "$run $speed 10um/s --load 1mN -o no.rcg ball.rcg"
 claim "  the message is printed once" test "$(grep -c 'needs a periodic' refuses.err)" = 1
@@ -190,7 +191,7 @@ claim "allocations of one process fail: yield" memory "${yield/1GPa/0.5GPa} --lo
 claim "  adhesion" memory "$stick --estar 2MPa --load 0.1mN --tol 1e-3 small-ball.rcg"
 claim "  friction" memory "rc-slip --nu 0.3 --mu 0.3 --quiet --tol 0.1 --tangential 20uN pressed-ball.rcg"
 claim "  creep" memory "$relax --tol 0.1 rough.rcg"
-claim "  wear" memory "$wear --distance 0.1m pressed-ball.rcg"
+claim "  wear" memory "$wear --distance 1mm pressed-ball.rcg"
 killed() {
     local launcher victim= child
     $run ${yield/--increments 1 --tol 1e-1 --quiet/} --progress line --periodic --increments 200 --mean-pressure 60MPa,20MPa,70MPa --history -o no.rcg rough.rcg >/dev/null 2>killed.err &
