@@ -121,6 +121,7 @@ refuses 2 "from 0 to 1" "a share above 1" "$heat --partition 1.5 ball.rcg"
 refuses 2 "needs --time" "time steps of a steady state" "$heat --time-steps 4 ball.rcg"
 refuses 2 "with and without a unit" "0 that may be degrees" "$heat --bulk 20degC,0 ball.rcg"
 refuses 1 "no frame with the channel dissipation" "no dissipation" "rc-heat --frequency 5 $steel ball.rcg"
+refuses 1 "no frame with the channel heat, .*follows from the pressure and --mu, that of rolling from --rolling" "no heat of a contact" "rc-heat --speed 1m/s $steel ball.rcg"
 rc-synth selfaffine --nx 64 --dx 1um --hurst 0.8 --rms-slope 0.1 --seed 1 -o a.rcg
 rc-synth selfaffine --nx 64 --dx 1um --hurst 0.8 --rms-slope 0.1 --seed 2 | rc-add a.rcg - |
     rc-solve --quiet --estar 114GPa --load 100mN --output pressure -o both.rcg
