@@ -25,13 +25,6 @@ enum {
     AXES = 4 /* at most these axes, the load first; others are not the load */
 };
 
-/* With the address sanitizer a step takes several times as long, and fewer states are tried. */
-#ifdef __SANITIZE_ADDRESS__
-static const bool sanitized = true;
-#else
-static const bool sanitized = false;
-#endif
-
 static const struct rc_shape shape = {NX, NY, 1e-6, 1e-6};
 static double heights[N];
 

@@ -6,6 +6,13 @@
  * frames are refused. */
 #include "kinds.h"
 
+/* With the address sanitizer a step takes several times as long, and fewer states are tried. */
+#ifdef __SANITIZE_ADDRESS__
+static const bool sanitized = true;
+#else
+static const bool sanitized = false;
+#endif
+
 enum {
     FEW = 60 /* steps of a run with such numbers */
 };

@@ -160,12 +160,7 @@ takes(size_t stop, size_t last)
         next = 1;
     if (stop < next)
         return end;
-    if (getenv("RC_LONG") != NULL)
-        next++;
-    else if (sanitized)
-        next += 1 + last / 5;
-    else
-        next += last < 40 ? 1 : 1 + stop % (last / 10);
+    next += getenv("RC_LONG") != NULL || last < 40 ? 1 : 1 + stop % (last / 10);
     return true;
 }
 
