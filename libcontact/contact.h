@@ -1610,9 +1610,9 @@ RC_API struct rc_fatigue *rc_fatigue_new(const struct rc_shape *shape,
                                          const struct rc_fatigue_problem *problem,
                                          struct rc_err *err);
 /* The wanted values at the depth z >= 0 for a material with these limits: out[c] (NULL: not needed) for each
- * bit of `wanted`, on the grid of rc_fatigue_shape. Among ranks each gets its rows of this grid, of a pass all
- * values, and each gives the same members of `out`. residual: NULL, or a stress that is always there, Pa, six
- * components of ny values, for a pass along y nx values; NULL in it: 0. */
+ * bit of `wanted`, on the grid of rc_fatigue_shape. Among ranks each gets its rows of this grid, of a pass
+ * all values, and each gives the same members of `out`. residual: NULL, or a stress that is always there, Pa,
+ * six components of ny values, for a pass along y nx values; NULL in it: 0. */
 RC_API enum rc_status rc_fatigue_depth(struct rc_fatigue *fatigue, double depth,
                                        const struct rc_fatigue_limits *limits,
                                        const double *const residual[RC_COMPONENTS],

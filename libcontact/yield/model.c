@@ -392,7 +392,8 @@ forget_volume(struct yield *y)
     y->depths.slabs = 0;
 }
 
-/* RC_MORE if a first load deserves thinner slabs, which are then set. A last load within the goal does not. */
+/* RC_MORE if a first load deserves thinner slabs, which are then set. A last load within the goal does not
+ * deserve them. */
 static enum rc_status
 take_thinner(struct yield *y, struct rc_err *err)
 {

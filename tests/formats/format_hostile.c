@@ -14,7 +14,8 @@
 #include "made/made.h"
 #include "tests/exact.h"
 
-/* A commit cuts files at every third byte, and with the sanitizer, which takes ten times as long, every fifth. */
+/* A commit cuts files at every third byte. With the sanitizer, which takes ten times as long, it cuts them at
+ * every fifth. */
 #ifdef __SANITIZE_ADDRESS__
 static const size_t step = 5;
 #else

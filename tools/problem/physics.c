@@ -264,8 +264,8 @@ is_flat(const char *form, double radius)
            is >= flat * radius;
 }
 
-/* An added form is named in the header, so that it is not added twice. The form of a body that travels is not in
- * the heights of body 1, which may have their own. */
+/* An added form is named in the header, so that it is not added twice. The form of a body that travels is not
+ * in the heights of body 1, which may have their own. */
 static void
 add_form(struct tool *t, const struct physics *a, struct rc_grid *g)
 {
@@ -289,8 +289,8 @@ add_form(struct tool *t, const struct physics *a, struct rc_grid *g)
     tool_set(t, g, "form", name);
 }
 
-/* Least squares of h = c + a_x x + a_y y - x^2/(2 R_x) - y^2/(2 R_y) on the whole map: on a regular grid about
- * its middle the terms are orthogonal, when their means are subtracted. */
+/* Least squares of h = c + a_x x + a_y y - x^2/(2 R_x) - y^2/(2 R_y) on the whole map: on a regular grid
+ * about its middle the terms are orthogonal, when their means are subtracted. */
 struct paraboloid {
     double mean, slope[2], curvature[2]; /* of rows along x, and of columns along y */
 };

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
- * The interface of this folder: the page of rc-report. A table (parts.c) has a row for each part: the command of
- * another tool, the file that it writes into a temporary folder, and the function that shows this file.
+ * The interface of this folder: the page of rc-report. A table (parts.c) has a row for each part: the command
+ * of another tool, the file that it writes into a temporary folder, and the function that shows this file.
  */
 #ifndef RC_TOOL_PAGE_H
 #define RC_TOOL_PAGE_H

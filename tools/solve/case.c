@@ -133,9 +133,9 @@ look_inside(struct run *run, const struct rc_grid *g, const double *touch, struc
     s->inside_fraction = inside > 0 ? touching / inside : NAN;
 }
 
-/* The centre of the touching nodes along one axis of n nodes, in nodes: the angle of the sum of exp(2 pi i k/n),
- * which holds also for a patch across the seam of a periodic map. w: touching nodes at each k, on this
- * process. Adds the second moment about the centre, in nodes^2 a node, to *moment. */
+/* The centre of the touching nodes along one axis of n nodes, in nodes: the angle of the sum of
+ * exp(2 pi i k/n), which holds also for a patch across the seam of a periodic map. w: touching nodes at each
+ * k, on this process. Adds the second moment about the centre, in nodes^2 a node, to *moment. */
 static void
 add_moment(struct tool *t, size_t n, double d, const double *w, double *moment)
 {
