@@ -1306,6 +1306,8 @@ struct rc_heat_problem {
     double tol;
     /* 0: all */
     size_t threads;
+    /* processes that share the map; maps are then the rows held here. NULL: none */
+    const struct rc_ranks *ranks;
 };
 /* The Peclet number of a body is V a/(2 kap). a is the radius of a circle of the area of the largest
  * patch; of a patch that goes around a map that repeats along one axis, half its mean width; for a cell the

@@ -95,6 +95,7 @@ static const struct tool_info info = {
                 "          --diffusivity 12mm2/s,12mm2/s --report fretting.tsv -o warm.rcg\n",
     .opts = opts,
     .figures = (const char *const[]){"heat", NULL},
+    .shares = true,
     .fill = materials_fill,
     .of_materials = (const char *const[]){"conductivity", "diffusivity", NULL},
     .reads = READS_STREAM,
@@ -218,6 +219,7 @@ read_options(struct run *run)
     p->time = args.time;
     p->tol = args.tol;
     p->threads = t->threads;
+    p->ranks = ranks_of(t);
     read_motion(run);
     read_partition(run);
     read_source(run);
@@ -226,13 +228,33 @@ read_options(struct run *run)
 /* ---- a case ---- */
 
 static bool
-any_heat(const struct rc_grid *g)
+any_heat(const struct tool *t, const struct rc_grid *g)
 {
     size_t k = 0;
 
     while (k < rc_grid_nodes(g) && g->v[k] == 0)
         k++;
-    return k < rc_grid_nodes(g);
+    return ranks_most(t, k < rc_grid_nodes(g)) > 0;
+}
+
+/* Friction of bodies that attract each other is refused: the first node with a pressure below 0. */
+static void
+demand_positive(struct tool *t, const struct rc_grid *p)
+{
+    struct rc_err *err = &t->err;
+    enum rc_status status = RC_OK;
+    size_t first, rows;
+
+    ranks_rows(t, rc_shape_of(p), &first, &rows);
+    for (size_t k = 0; k < rc_grid_nodes(p) && status == RC_OK; k++)
+        if (p->v[k] < 0)
+            status = rc_err_set(err,
+                                "pressure %g Pa at column %zu, row %zu: friction of bodies that "
+                                "attract each other is not implemented: give the heat in a frame "
+                                "heat",
+                                p->v[k], k % p->nx, first + k / p->nx);
+    if (ranks_agree(t, status, err) != RC_OK)
+        tool_refuse(t, p, "%s", err->text);
 }
 
 /* The motion of both bodies past a contact that rolls towards +x, from the creepages of the case.
@@ -244,7 +266,7 @@ find_rolling(struct run *run, const struct rc_grid *g)
     double creep[2] = {0, 0};
 
     if ((!rc_grid_number(g, "creep_x", &creep[0]) || !rc_grid_number(g, "creep_y", &creep[1])) &&
-        any_heat(g))
+        any_heat(&run->t, g))
         tool_refuse(&run->t, g,
                     "it has no keys creep_x and creep_y: --rolling takes the output of "
                     "rc-slip --creep or --creep-force");
@@ -291,14 +313,8 @@ heat_factor(struct run *run, const struct rc_grid *g)
             "that rolls or --frequency for a cycle instead of --mu");
     if (rolls)
         find_rolling(run, g);
-    for (size_t k = 0; k < rc_grid_nodes(g); k++) {
-        if (friction && g->v[k] < 0)
-            tool_refuse(
-                &run->t, g,
-                "pressure %g Pa at column %zu, row %zu: friction of bodies that attract each "
-                "other is not implemented: give the heat in a frame heat",
-                g->v[k], k % g->nx, k / g->nx);
-    }
+    if (friction)
+        demand_positive(&run->t, g);
     return factor;
 }
 
@@ -427,6 +443,7 @@ put_report(struct run *run, const struct rc_grid *g, const struct rc_heat_figure
     report_effects(r, effects(run));
     report_seconds(r, (const struct report_phase[]){{NULL, 0}}, seconds);
     report_memory(r);
+    report_ranks(r, &run->t);
     report_finish_row(r);
 }
 

@@ -25,34 +25,42 @@ rc_conduction_free(struct rc_conduction *c)
 }
 
 struct rc_conduction *
-rc_conduction_new(const struct rc_shape *shape, struct rc_boundary boundary, size_t threads,
-                  struct rc_err *err)
+rc_conduction_new(const struct rc_shape *shape, struct rc_boundary boundary,
+                  const struct rc_ranks *ranks, size_t threads, struct rc_err *err)
 {
     const struct rc_pair pair = {.estar = 1};
     const struct rc_operator_options options = {.boundary = boundary, .pair = &pair};
     RC_OWN(rc_conduction, c) = calloc(1, sizeof *c);
+    struct rc_shape own;
+    size_t all;
 
-    if (c == NULL)
-        return rc_err_null(err, "out of memory for a plan");
+    if (rc_ranks_need(ranks, c != NULL, err, "out of memory for a plan") != RC_OK)
+        return NULL;
     c->shape = *shape;
+    c->rows = rc_rows_of(ranks, shape);
     c->boundary = rc_boundary_on(shape, boundary);
-    c->threads = rc_useful_threads(shape, threads);
-    if ((c->fft = rc_fft_new(NULL, NULL, shape, boundary, RC_DOUBLE, threads, err)) == NULL)
+    own = rc_rows_shape(&c->rows, shape);
+    c->threads = rc_useful_threads(&own, threads);
+    if ((c->fft = rc_fft_new(ranks, NULL, shape, boundary, RC_DOUBLE, threads, err)) == NULL)
         return NULL;
     c->framed = c->fft;
     if (rc_has_mean(boundary)) {
         c->frame = rc_operator_frame(shape, &options);
-        c->framed =
-            rc_fft_new_framed(NULL, c->fft, shape, c->boundary, &c->frame, RC_DOUBLE, threads, err);
+        c->above = c->rows.n > 0 && c->rows.first == 0 ? c->frame.y : 0;
+        c->below = c->rows.n > 0 && c->rows.first + c->rows.n == shape->ny ? c->frame.y : 0;
+        c->framed = rc_fft_new_framed(ranks, c->fft, shape, c->boundary, &c->frame, RC_DOUBLE,
+                                      threads, err);
         if (c->framed == NULL)
             return NULL;
     }
-    rc_fft_waves(c->fft, &c->columns, &c->cy);
+    rc_fft_waves(c->fft, &all, &c->cy);
+    rc_fft_columns(c->fft, &c->first, &c->columns);
     c->length = rc_fft_length(c->fft);
     c->waves = rc_store_take(&c->own, 2 * c->columns * c->length, sizeof *c->waves);
-    if (!rc_fft_fold(c->fft, &c->own, &c->wave, &c->mirror))
-        return rc_err_null(err, "out of memory for the heat of %zu x %zu nodes", shape->nx,
-                           shape->ny);
+    if (rc_ranks_need(ranks, rc_fft_fold(c->fft, &c->own, &c->wave, &c->mirror), err,
+                      "out of memory for the heat of %zu x %zu nodes", shape->nx,
+                      shape->ny) != RC_OK)
+        return NULL;
     return rc_give(&c);
 }
 
@@ -68,14 +76,30 @@ sample(struct rc_warming *w, const struct rc_conduction *c, const struct rc_heat
     for (size_t i = 0; i < c->columns; i++)
         for (size_t j = 0; j < c->cy; j++) {
             double part[RC_HEAT_PARTS];
-            rc_heat_symbol_parts(&waves, rc_fft_qx(c->fft, i), rc_fft_qy(c->fft, j), part);
+            rc_heat_symbol_parts(&waves, rc_fft_qx(c->fft, c->first + i), rc_fft_qy(c->fft, j),
+                                 part);
             /* a wave of two nodes is 0 at all nodes in a direction in which the part is odd */
             for (unsigned k = 0; k < RC_HEAT_PARTS; k++)
                 if (w->part[k] != NULL)
                     w->part[k][i * c->cy + j] =
-                        (2 * i == nx && k & RC_ODD_X) || (2 * j == ny && k & RC_ODD_Y) ? 0
-                                                                                       : part[k];
+                        (2 * (c->first + i) == nx && k & RC_ODD_X) || (2 * j == ny && k & RC_ODD_Y)
+                            ? 0
+                            : part[k];
         }
+}
+
+/* The columns of a spectrum that are held here, from `first` on. */
+struct kept {
+    size_t first;
+    double *to;
+};
+
+static void
+keep_column(void *ctx, size_t i, size_t n, double *column)
+{
+    const struct kept *kept = ctx;
+
+    rc_keep_column(kept->to, i - kept->first, n, column);
 }
 
 static enum rc_status
@@ -89,14 +113,16 @@ transform(struct rc_warming *w, const struct rc_conduction *c, const struct rc_h
     rc_fft_quarter(c->fft, &offsets.nx, &offsets.ny);
     offsets.nx = c->boundary.x ? c->shape.nx : offsets.nx;
     offsets.ny = c->boundary.y ? c->shape.ny : offsets.ny;
-    if ((cells = rc_heat_cells_new(&offsets, c->boundary, body, err)) == NULL ||
+    cells = rc_heat_cells_new(&offsets, c->boundary, body, err);
+    if (rc_ranks_agree(c->rows.ranks, cells != NULL ? RC_OK : RC_FAIL, err) != RC_OK ||
         (passing = rc_spectrum_new(c->fft, err)) == NULL)
         return RC_FAIL;
     for (unsigned k = 0; k < RC_HEAT_PARTS; k++) {
         const struct rc_heat_part part = {cells, k};
         const struct rc_kernel kernel = rc_heat_kernel(&part);
+        struct kept kept = {c->first, w->part[k]};
         if (w->part[k] != NULL && rc_spectrum_set_by(passing, c->fft, &kernel, c->boundary,
-                                                     rc_keep_column, w->part[k], err) != RC_OK)
+                                                     keep_column, &kept, err) != RC_OK)
             return RC_FAIL;
     }
     return RC_OK;
@@ -107,14 +133,11 @@ rc_warming_new(struct rc_warming *w, struct rc_store *own, const struct rc_condu
                const struct rc_heated *body, struct rc_err *err)
 {
     *w = (struct rc_warming){{NULL}};
-    for (unsigned k = 0; k < RC_HEAT_PARTS; k++) {
-        if ((k & RC_ODD_X && body->px == 0) || (k & RC_ODD_Y && body->py == 0))
-            continue;
-        if ((w->part[k] = rc_store_zeros(own, c->columns * c->cy, sizeof(double))) == NULL)
-            return rc_err_set(err, "out of memory for the heat of %zu x %zu nodes", c->shape.nx,
-                              c->shape.ny);
-    }
-    return RC_OK;
+    for (unsigned k = 0; k < RC_HEAT_PARTS; k++)
+        if (!(k & RC_ODD_X && body->px == 0) && !(k & RC_ODD_Y && body->py == 0))
+            w->part[k] = rc_store_zeros(own, c->columns * c->cy, sizeof(double));
+    return rc_ranks_need(c->rows.ranks, !own->failed, err,
+                         "out of memory for the heat of %zu x %zu nodes", c->shape.nx, c->shape.ny);
 }
 
 enum rc_status

@@ -82,18 +82,22 @@ struct doubling {
 };
 
 struct rc_heat {
-    struct rc_store own; /* the maps and arrays below */
-    struct rc_shape shape;
+    struct rc_store own;   /* the maps and arrays below */
+    struct rc_shape shape; /* of the whole map          */
+    struct rc_rows rows;   /* held here                 */
+    size_t nodes;          /* of these rows             */
+    size_t *deal;          /* the first row of each rank, the number of rows, and as much scratch */
     struct rc_heat_problem problem;
     struct rc_conduction *c;
     struct times times;
     struct rc_heat_inverse *inverse; /* NULL: heat is not matched */
     double drop;                     /* K: bulk temperature of body 2 less that of body 1 */
     double scale;                    /* K: largest rise of a body above its bulk          */
-    size_t n, *node;                 /* in contact                                        */
-    double *q, *flux[2],
-        *rise[2]; /* heat and rise above their bulk, nx ny; heat is 0 out of contact */
-    double *work; /* nx ny */
+    size_t n, *node;                 /* in contact, of the rows held here                 */
+    size_t all;                      /* in contact on the whole map                       */
+    double *q, *flux[2], *rise[2];   /* heat and rise above their bulk; heat is 0 out of contact */
+    double *work;
+    unsigned char *line; /* 1 at the nodes in contact of a row or column, and scratch */
     struct space space;
     size_t earlier; /* steps of all time steps before */
     double worst;   /* largest mismatch of the time steps  */
@@ -217,30 +221,73 @@ heated(const struct rc_heat *h, int b, double depth, size_t lag)
     };
 }
 
+/* Keeps the heat, and counts the nodes in contact. */
 static enum rc_status
-set_contact(struct rc_heat *h, const double *q, const double *contact, struct rc_err *err)
+set_heat(struct rc_heat *h, const double *q, const double *contact, struct rc_err *err)
 {
-    const struct rc_shape *s = &h->shape;
-
-    for (size_t k = 0; k < s->nx * s->ny; k++) {
+    for (size_t k = 0; k < h->nodes; k++) {
         const bool in = contact != NULL ? rc_in_contact(contact[k]) : q[k] != 0;
         if (!isfinite(q[k]) || (q[k] != 0 && !in))
             return rc_err_set(
                 err,
                 "heat flux %g W/m2 at column %zu, row %zu: it must be finite, and 0 out of "
                 "contact",
-                q[k], k % s->nx, k / s->nx);
+                q[k], k % h->shape.nx, h->rows.first + k / h->shape.nx);
         h->q[k] = q[k];
         h->n += in;
     }
-    if (h->n == 0)
+    return RC_OK;
+}
+
+static enum rc_status
+set_contact(struct rc_heat *h, const double *q, const double *contact, struct rc_err *err)
+{
+    const struct rc_ranks *ranks = h->rows.ranks;
+
+    if (rc_ranks_agree(ranks, set_heat(h, q, contact, err), err) != RC_OK)
+        return RC_FAIL;
+    if ((h->all = rc_ranks_sum(ranks, h->n)) == 0)
         return rc_err_set(err, "no node is in contact, so no heat flows");
-    if ((h->node = rc_store_take(&h->own, h->n, sizeof *h->node)) == NULL)
-        return rc_err_set(err, "out of memory for %zu nodes in contact", h->n);
-    for (size_t k = 0, n = 0; k < s->nx * s->ny; k++)
+    h->node = rc_store_take(&h->own, h->n, sizeof *h->node);
+    if (rc_ranks_need(ranks, h->node != NULL, err, "out of memory for %zu nodes in contact",
+                      h->n) != RC_OK)
+        return RC_FAIL;
+    for (size_t k = 0, n = 0; k < h->nodes; k++)
         if (contact != NULL ? rc_in_contact(contact[k]) : q[k] != 0)
             h->node[n++] = k;
     return RC_OK;
+}
+
+/* Moves rows of `bytes` from the ranks that have them to rank r, rows to[r] .. to[r + 1] - 1; NULL: all. */
+static void
+move_rows(const struct rc_heat *h, size_t bytes, const size_t *to, const void *v, void *w)
+{
+    if (h->rows.ranks == NULL)
+        memcpy(w, v, h->shape.ny * bytes);
+    else
+        rc_ranks_move(h->rows.ranks, bytes, h->deal, to, 0, v, w);
+}
+
+/* The rows held here of two copies of a map beside each other, along x or along y. */
+static void
+set_twice(const struct rc_heat *h, const struct rc_shape *two, const double *map, double *twice)
+{
+    const size_t nx = h->shape.nx, ny = h->shape.ny, unit = rc_rows_unit(two->nx);
+    const size_t count = rc_ranks_count(h->rows.ranks), own = rc_ranks_own(h->rows.ranks);
+    size_t *to = h->deal + count + 1, n = 0;
+
+    for (size_t copy = 0; copy < two->ny / ny; copy++) {
+        for (size_t r = 0; r <= count; r++) {
+            const size_t row = rc_rows_dealt(two->ny, unit, count, r);
+            to[r] = row < copy * ny ? 0 : row < (copy + 1) * ny ? row - copy * ny : ny;
+        }
+        n += copy == 0 && two->nx > nx ? to[own + 1] - to[own] : 0; /* room to spread them */
+        move_rows(h, nx * sizeof *map, to, map, twice + n * nx);
+        n += to[own + 1] - to[own];
+    }
+    for (size_t j = 0; two->nx > nx && j < n / 2; j++)
+        for (size_t k = 0; k < 2; k++)
+            memmove(twice + (2 * j + k) * nx, twice + (n / 2 + j) * nx, nx * sizeof *twice);
 }
 
 /* The length of a map that repeats along one axis, along this axis. */
@@ -258,7 +305,7 @@ is_band(const struct rc_heat *h, const double *contact, const struct rc_patch_op
         double area, bool *band, struct rc_err *err)
 {
     const bool x = h->problem.boundary.x;
-    const size_t nx = h->shape.nx, ny = h->shape.ny, n = x ? nx : nx * ny;
+    const size_t nx = h->shape.nx, ny = h->shape.ny;
     const struct rc_shape two = {x ? 2 * nx : nx, x ? ny : 2 * ny, h->shape.dx, h->shape.dy};
     RC_OWNED double *twice = NULL;
     struct rc_patches patches;
@@ -267,10 +314,11 @@ is_band(const struct rc_heat *h, const double *contact, const struct rc_patch_op
     *band = false;
     if (rc_repeats(h->problem.boundary) != 1)
         return RC_OK;
-    if ((twice = rc_alloc(2 * nx * ny, sizeof *twice)) == NULL)
-        return rc_err_set(err, "out of memory for the contact of %zu x %zu nodes", nx, ny);
-    for (size_t k = 0; k < 2 * nx * ny; k++)
-        twice[k] = contact[k / n / 2 * n + k % n];
+    twice = rc_alloc(two.nx * rc_rows_of(h->rows.ranks, &two).n, sizeof *twice);
+    if (rc_ranks_need(h->rows.ranks, twice != NULL, err,
+                      "out of memory for the contact of %zu x %zu nodes", nx, ny) != RC_OK)
+        return RC_FAIL;
+    set_twice(h, &two, contact, twice);
     status = rc_patches_find(&two, twice, options, &patches, err);
     *band = status == RC_OK && patches.patch[0].area > 1.5 * area;
     rc_patches_free(&patches);
@@ -281,8 +329,10 @@ is_band(const struct rc_heat *h, const double *contact, const struct rc_patch_op
 static enum rc_status
 set_figures(struct rc_heat *h, const double *contact, struct rc_err *err)
 {
-    const struct rc_patch_options options = {
-        .boundary = h->problem.boundary, .each = true, .threads = h->problem.threads};
+    const struct rc_patch_options options = {.boundary = h->problem.boundary,
+                                             .each = true,
+                                             .threads = h->problem.threads,
+                                             .ranks = h->rows.ranks};
     const struct rc_heat_body *body = h->problem.body;
     struct rc_heat_figures *f = &h->figures;
     struct rc_patches patches;
@@ -306,7 +356,7 @@ set_figures(struct rc_heat *h, const double *contact, struct rc_err *err)
         f->peclet_2 = peclet[1];
         f->cell_peclet_1 = of_cell[0];
         f->cell_peclet_2 = of_cell[1];
-        f->heat_power = rc_sum(h->q, h->shape.nx * h->shape.ny) * h->shape.dx * h->shape.dy;
+        f->heat_power = rc_ranks_sum_of(h->rows.ranks, h->q, h->nodes) * h->shape.dx * h->shape.dy;
         f->steady_time =
             (band ? pow(patches.contact_area / length_around(h), 2) : patches.contact_area) /
             fmin(body[0].diffusivity, body[1].diffusivity);
@@ -351,8 +401,9 @@ set_lags(const struct rc_heat *h, int b, double depth, struct lags *lags, struct
     lags->first = rc_store_zeros(own, n, sizeof *lags->first);
     lags->second = n > 1 ? rc_store_zeros(own, n, sizeof *lags->second) : NULL;
     lags->later = n > 1 ? rc_store_zeros(own, n, sizeof *lags->later) : NULL;
-    if (own->failed)
-        return rc_err_set(err, "out of memory for %zu time steps", n);
+    if (rc_ranks_need(h->rows.ranks, !own->failed, err, "out of memory for %zu time steps", n) !=
+        RC_OK)
+        return RC_FAIL;
     for (size_t k = 0; k < n && has_rise(&h->problem, b); k++) {
         const struct rc_heated body = heated(h, b, depth, k), grows = growing(h, b, depth, k);
         if (rc_warming_set(&lags->first[k], own, h->c, &body, err) != RC_OK ||
@@ -429,7 +480,7 @@ usual_steps(const struct rc_shape *shape, const struct rc_heat_problem *p)
     return fmin(steps * pow(2.2, fmax(log10(usual_tol / tol), 0)), TIMES);
 }
 
-/* Adds the work and the memory of n time steps; `part`: how probable this run is. Each step has
+/* Adds the work and the memory of n time steps, on a rank; `part`: how probable this run is. Each step has
  * coefficients of its own. */
 static void
 expect_run(const struct rc_heat_problem *p, size_t n, double nodes, double part,
@@ -442,8 +493,10 @@ expect_run(const struct rc_heat_problem *p, size_t n, double nodes, double part,
                                       RC_HEAT_TIME_STEP * ((double)n - 1));
     expected->seconds += part * RC_HEAT_STEP_NODE * nodes * 2 * ((double)n - 1);
     expected->memory +=
-        (size_t)(nodes * (rc_by_padding(p->boundary, bytes[0][!matched], bytes[1][!matched]) +
-                          rc_by_padding(p->boundary, of_step[0], of_step[1]) * ((double)n - 1)));
+        (size_t)(nodes *
+                 (rc_by_padding(p->boundary, bytes[0][!matched], bytes[1][!matched]) +
+                  rc_by_padding(p->boundary, of_step[0], of_step[1]) * ((double)n - 1)) /
+                 (double)rc_ranks_count(p->ranks));
 }
 
 enum rc_status
@@ -493,28 +546,53 @@ set_times(struct rc_heat *h, struct rc_err *err)
     }
     t->sum.of = rc_store_take(&h->own, 2 * t->n + 2 * GUESSES + 2, sizeof *t->sum.of);
     t->heat = size > 0 ? rc_store_take(&h->own, size, sizeof(double)) : NULL;
-    if (h->own.failed)
-        return rc_err_set(err, "out of memory for %zu time steps", t->n);
+    if (rc_ranks_need(h->rows.ranks, !h->own.failed, err, "out of memory for %zu time steps",
+                      t->n) != RC_OK)
+        return RC_FAIL;
     return t->n > 1 && has_rise(&h->problem, 1)
                ? rc_warming_set(&t->total, &h->own, h->c, &body, err)
                : RC_OK;
+}
+
+/* The maps of the rows held here; NULL: memory is short on a rank. */
+static struct rc_heat *
+with_maps(const struct rc_shape *shape, const struct rc_ranks *ranks, struct rc_err *err)
+{
+    RC_OWN(rc_heat, h) = calloc(1, sizeof *h);
+    const size_t count = rc_ranks_count(ranks);
+
+    if (h != NULL) {
+        h->shape = *shape;
+        h->rows = rc_rows_of(ranks, shape);
+        h->nodes = shape->nx * h->rows.n;
+        h->q = rc_store_zeros(&h->own, 6 * h->nodes, sizeof *h->q);
+        h->deal = rc_store_take(&h->own, 2 * (count + 1), sizeof *h->deal);
+        h->line =
+            rc_store_take(&h->own, (shape->nx > shape->ny ? shape->nx : shape->ny) + h->rows.n, 1);
+    }
+    if (rc_ranks_need(ranks, h != NULL && !h->own.failed, err,
+                      "out of memory for the heat of %zu x %zu nodes", shape->nx,
+                      shape->ny) != RC_OK)
+        return NULL;
+    for (size_t r = 0; r <= count; r++)
+        h->deal[r] = rc_rows_dealt(shape->ny, rc_rows_unit(shape->nx), count, r);
+    for (int b = 0; b < 2; b++) {
+        h->flux[b] = h->q + (size_t)(1 + b) * h->nodes;
+        h->rise[b] = h->q + (size_t)(3 + b) * h->nodes;
+    }
+    h->work = h->q + 5 * h->nodes;
+    return rc_give(&h);
 }
 
 struct rc_heat *
 rc_heat_new(const struct rc_shape *shape, const struct rc_heat_problem *problem, const double *q,
             const double *contact, struct rc_err *err)
 {
-    const size_t nodes = shape->nx * shape->ny;
     struct rc_heated body[2];
     RC_OWN(rc_heat, h) = NULL;
 
-    if (check(shape, problem, err) != RC_OK)
+    if (check(shape, problem, err) != RC_OK || (h = with_maps(shape, problem->ranks, err)) == NULL)
         return NULL;
-    if ((h = calloc(1, sizeof *h)) == NULL ||
-        (h->q = rc_store_take(&h->own, 6 * nodes, sizeof *h->q)) == NULL)
-        return rc_err_null(err, "out of memory for the heat of %zu x %zu nodes", shape->nx,
-                           shape->ny);
-    h->shape = *shape;
     h->problem = *problem;
     h->asked = problem->tol > 0 ? problem->tol : usual_tol;
     h->doubling.on =
@@ -527,12 +605,6 @@ rc_heat_new(const struct rc_shape *shape, const struct rc_heat_problem *problem,
                          problem->partition == RC_HEAT_MATCHED /* else the shares are constant */
                      ? problem->time_steps
                      : 1;
-    for (int b = 0; b < 2; b++) {
-        h->flux[b] = h->q + (size_t)(1 + b) * nodes;
-        h->rise[b] = h->q + (size_t)(3 + b) * nodes;
-    }
-    h->work = h->q + 5 * nodes;
-    memset(h->q, 0, 6 * nodes * sizeof *h->q);
     if (set_contact(h, q, contact, err) != RC_OK)
         return NULL;
     h->space.right = rc_store_take(&h->own, h->n, sizeof *h->space.right);
@@ -540,15 +612,17 @@ rc_heat_new(const struct rc_shape *shape, const struct rc_heat_problem *problem,
     h->times.waves = rc_store_zeros(&h->own, h->times.n, sizeof *h->times.waves);
     h->times.guess = rc_store_take(&h->own, h->n, sizeof *h->times.guess);
     for (int b = 0; b < 2 && h->doubling.on; b++)
-        h->doubling.rise[b] = rc_store_take(&h->own, nodes, sizeof **h->doubling.rise);
+        h->doubling.rise[b] = rc_store_take(&h->own, h->nodes, sizeof **h->doubling.rise);
     if (h->doubling.on)
-        h->doubling.flux = rc_store_take(&h->own, nodes, sizeof *h->doubling.flux);
-    if (h->own.failed)
-        return rc_err_null(err, "out of memory for %zu nodes in contact", h->n);
+        h->doubling.flux = rc_store_take(&h->own, h->nodes, sizeof *h->doubling.flux);
+    if (rc_ranks_need(h->rows.ranks, !h->own.failed, err, "out of memory for %zu nodes in contact",
+                      h->n) != RC_OK)
+        return NULL;
     for (size_t k = 0; k < h->n; k++)
         h->work[h->node[k]] = 1;
     if (set_figures(h, h->work, err) != RC_OK ||
-        (h->c = rc_conduction_new(shape, problem->boundary, problem->threads, err)) == NULL ||
+        (h->c = rc_conduction_new(shape, problem->boundary, problem->ranks, problem->threads,
+                                  err)) == NULL ||
         set_times(h, err) != RC_OK)
         return NULL;
     for (int b = 0; b < 2; b++)
@@ -584,9 +658,9 @@ rise_of(const struct rc_heat *h, int b, const struct lags *lags, const struct rc
         to->of[to->n++] = (struct rc_heating){total, h->times.heat, 1};
 }
 
-/* The largest value of a map at n nodes; NULL: of n numbers. */
+/* The largest absolute value of a map at n nodes; NULL: of n numbers. */
 static double
-largest(const size_t *node, size_t n, const double *map)
+highest(const size_t *node, size_t n, const double *map)
 {
     double most = 0;
 
@@ -595,25 +669,56 @@ largest(const size_t *node, size_t n, const double *map)
     return most;
 }
 
-/* Nodes in contact in a row through node k along this axis; all n of a row that joins itself. */
+/* The same at all nodes in contact. */
+static double
+largest(const struct rc_heat *h, const double *map)
+{
+    return rc_ranks_most(h->rows.ranks, highest(h->node, h->n, map));
+}
+
+/* Marks in h->line the nodes in contact of the row or column, along this axis, through column i of row j. */
+static void
+set_line(struct rc_heat *h, size_t i, size_t j, enum rc_map_axis axis)
+{
+    const size_t nx = h->shape.nx, n = axis == RC_Y ? h->rows.n : nx;
+    unsigned char *own = axis == RC_Y ? h->line + h->shape.ny : h->line;
+    size_t root = 0;
+
+    memset(own, 0, n);
+    for (size_t k = 0; k < h->n; k++) {
+        const size_t column = h->node[k] % nx, row = h->node[k] / nx;
+        if (axis == RC_Y && column == i)
+            own[row] = 1;
+        if (axis == RC_X && h->rows.first + row == j)
+            own[column] = 1;
+    }
+    while (h->deal[root + 1] <= j)
+        root++;
+    if (axis == RC_Y)
+        move_rows(h, 1, NULL, own, h->line);
+    else
+        rc_ranks_share(h->rows.ranks, root, nx, h->line);
+}
+
+/* Nodes in contact in a row through node k of the whole map along this axis; all n of a row that joins
+ * itself. */
 static size_t
-nodes_along(const struct rc_heat *h, size_t k, enum rc_map_axis axis)
+nodes_along(struct rc_heat *h, size_t k, enum rc_map_axis axis)
 {
     const size_t nx = h->shape.nx, n = axis == RC_Y ? h->shape.ny : nx;
-    const size_t at = axis == RC_Y ? k / nx : k % nx, step = axis == RC_Y ? nx : 1;
-    const double *row = h->work + (k - at * step);
+    const size_t at = axis == RC_Y ? k / nx : k % nx;
     const bool wraps = rc_wraps(h->problem.boundary, axis);
     size_t before = 0, after = 0;
 
-    while (before + 1 < n && (wraps || before < at) && row[(at + n - before - 1) % n * step] > 0)
+    set_line(h, k % nx, k / nx, axis);
+    while (before + 1 < n && (wraps || before < at) && h->line[(at + n - before - 1) % n])
         before++;
-    while (before + after + 1 < n && (wraps || at + after + 1 < n) &&
-           row[(at + after + 1) % n * step] > 0)
+    while (before + after + 1 < n && (wraps || at + after + 1 < n) && h->line[(at + after + 1) % n])
         after++;
     return before + after + 1;
 }
 
-/* Nodes in contact in a row through node k, along the faster direction of the body that moves faster. A row
+/* Nodes in contact in a row through node k of the whole map, along the faster direction of the body that moves faster. A row
  * that joins itself has no trailing edge; the row along the other axis then counts. */
 static size_t
 row_of_nodes(struct rc_heat *h, size_t k)
@@ -622,12 +727,8 @@ row_of_nodes(struct rc_heat *h, size_t k)
     const struct rc_heated one = heated(h, 0, 0, 0), two = heated(h, 1, 0, 0);
     const bool along_y = fmax(fabs(one.py), fabs(two.py)) > fmax(fabs(one.px), fabs(two.px));
     const enum rc_map_axis axis = along_y ? RC_Y : RC_X;
-    size_t count;
+    const size_t count = nodes_along(h, k, axis);
 
-    memset(h->work, 0, s->nx * s->ny * sizeof *h->work);
-    for (size_t i = 0; i < h->n; i++)
-        h->work[h->node[i]] = 1;
-    count = nodes_along(h, k, axis);
     return rc_wraps(h->problem.boundary, axis) && count == (along_y ? s->ny : s->nx)
                ? nodes_along(h, k, along_y ? RC_X : RC_Y)
                : count;
@@ -648,32 +749,38 @@ static void
 judge(struct rc_heat *h)
 {
     const struct rc_shape *s = &h->shape;
-    const size_t nodes = s->nx * s->ny;
+    const struct rc_ranks *ranks = h->rows.ranks;
     struct rc_heat_figures *f = &h->figures;
-    double sum[2] = {0, 0}, most = -INFINITY, differs = 0;
+    struct rc_total total[2] = {{0}};
+    double sum[2],
+        own = -INFINITY,
+        most[4] = {highest(h->node, h->n, h->rise[0]), highest(h->node, h->n, h->rise[1])};
     size_t hottest = 0;
 
-    h->scale =
-        fmax(fmax(largest(h->node, h->n, h->rise[0]), largest(h->node, h->n, h->rise[1])), DBL_MIN);
     for (size_t i = 0; i < h->n; i++) {
         const size_t k = h->node[i];
         const double one = h->rise[0][k], two = h->rise[1][k] + h->drop;
-        sum[0] += one;
-        sum[1] += two;
-        differs = fmax(differs, fabs(one - two));
-        if (fmax(one, two) > most) {
-            most = fmax(one, two);
-            hottest = k;
+        rc_total_add(&total[0], one);
+        rc_total_add(&total[1], two);
+        most[2] = fmax(most[2], fabs(one - two));
+        if (fmax(one, two) > own) {
+            own = fmax(one, two);
+            hottest = h->rows.first * s->nx + k;
         }
     }
-    f->max_temperature = most;
+    most[3] = own;
+    rc_ranks_totals(ranks, 2, total, sum, 4, most);
+    /* the first of equal nodes */
+    hottest = (size_t)-rc_ranks_most(ranks, own == most[3] ? -(double)hottest : -INFINITY);
+    h->scale = fmax(fmax(most[0], most[1]), DBL_MIN);
+    f->max_temperature = most[3];
     f->max_x = ((double)(hottest % s->nx) - (double)(s->nx - 1) / 2) * s->dx;
     f->max_y = ((double)(hottest / s->nx) - (double)(s->ny - 1) / 2) * s->dy;
-    f->mean_temperature = fmax(sum[0], sum[1]) / (double)h->n;
+    f->mean_temperature = fmax(sum[0], sum[1]) / (double)h->all;
     f->hot_nodes = row_of_nodes(h, hottest);
-    f->heat_power_1 = rc_sum(h->flux[0], nodes) * s->dx * s->dy;
+    f->heat_power_1 = rc_ranks_sum_of(ranks, h->flux[0], h->nodes) * s->dx * s->dy;
     f->share_1 = share_of(&h->figures, h->drop);
-    f->mismatch = fmax(h->worst, differs / h->scale);
+    f->mismatch = fmax(h->worst, most[2] / h->scale);
     f->iterations = h->doubling.iterations + h->earlier + h->space.steps;
     f->convolutions = h->doubling.count + h->c->count;
     f->converged = h->problem.partition != RC_HEAT_MATCHED || f->mismatch <= h->problem.tol;
@@ -696,9 +803,7 @@ find_rises(struct rc_heat *h)
 static void
 finish(struct rc_heat *h)
 {
-    const size_t nodes = h->shape.nx * h->shape.ny;
-
-    for (size_t k = 0; k < nodes; k++)
+    for (size_t k = 0; k < h->nodes; k++)
         h->flux[1][k] = h->q[k] - h->flux[0][k];
     for (size_t k = 0; k < h->n; k++)
         h->times.share[h->times.at][k] = h->flux[0][h->node[k]];
@@ -726,13 +831,13 @@ need_vector(struct rc_store *own, size_t n, double **v, struct rc_err *err)
 }
 
 static double
-product(size_t n, const double *a, const double *b)
+product(const struct rc_heat *h, const double *a, const double *b)
 {
     struct rc_total sum = {0, 0};
 
-    for (size_t k = 0; k < n; k++)
+    for (size_t k = 0; k < h->n; k++)
         rc_total_add(&sum, a[k] * b[k]);
-    return rc_total_value(&sum);
+    return rc_ranks_total(h->rows.ranks, sum);
 }
 
 /* to = (C1 + C2) z at the nodes in contact, z = M v. */
@@ -744,7 +849,7 @@ apply(struct rc_heat *h, const double *v, double *z, double *to)
                                              warming_of(h, &h->times.lags[1], at)};
 
     rc_heat_inverse_apply(h->inverse, both, v, z);
-    memset(h->work, 0, h->shape.nx * h->shape.ny * sizeof *h->work);
+    memset(h->work, 0, h->nodes * sizeof *h->work);
     for (size_t k = 0; k < h->n; k++)
         h->work[h->node[k]] = z[k];
     rc_conduction_load(h->c, h->work);
@@ -761,7 +866,7 @@ largest_rise(struct rc_heat *h, int b)
 
     if (t->n == 1) {
         field(h, t->lags[b].first, h->rise[b]);
-        return largest(h->node, h->n, h->rise[b]);
+        return largest(h, h->rise[b]);
     }
     t->sum.n = 0;
     t->at = t->n - 1;
@@ -769,7 +874,7 @@ largest_rise(struct rc_heat *h, int b)
         t->sum.of[t->sum.n++] = (struct rc_heating){warming_of(h, &t->lags[b], k), t->heat, 1};
     t->at = 0;
     rc_conduction_sum(h->c, t->sum.n, t->sum.of, h->rise[b]);
-    return largest(h->node, h->n, h->rise[b]);
+    return largest(h, h->rise[b]);
 }
 
 /* Blok's share for heat since the start, and with it a guess of the largest rise in this time step. */
@@ -785,7 +890,7 @@ find_blok(struct rc_heat *h)
         most[b] = largest_rise(h, b);
         if (h->times.n > 1)
             field(h, h->times.lags[b].first, h->rise[b]);
-        first[b] = h->times.n > 1 ? largest(h->node, h->n, h->rise[b]) : most[b];
+        first[b] = h->times.n > 1 ? largest(h, h->rise[b]) : most[b];
     }
     h->figures.share_blok =
         has_rise(&h->problem, 0) && has_rise(&h->problem, 1) && most[0] + most[1] > 0
@@ -890,9 +995,10 @@ begin(struct rc_heat *h, struct rc_err *err)
     find_right(h);
     for (size_t k = 0; k < h->n; k++)
         h->space.right[k] = h->work[h->node[k]] + h->drop;
-    if (need_vector(&h->own, h->n, &h->space.v[0], err) != RC_OK)
+    if (rc_ranks_agree(h->rows.ranks, need_vector(&h->own, h->n, &h->space.v[0], err), err) !=
+        RC_OK)
         return RC_FAIL;
-    size = h->space.g[0] = sqrt(product(h->n, h->space.right, h->space.right));
+    size = h->space.g[0] = sqrt(product(h, h->space.right, h->space.right));
     for (size_t k = 0; k < h->n; k++)
         h->space.v[0][k] = size > 0 ? h->space.right[k] / size : 0;
     h->begun = true;
@@ -905,18 +1011,20 @@ extend(struct rc_heat *h, struct rc_err *err)
 {
     const size_t m = h->space.steps;
     double *column = h->space.h[m], *next, size, c, s;
+    enum rc_status status = need_vector(&h->own, h->n, &h->space.z[m], err);
 
-    if (need_vector(&h->own, h->n, &h->space.z[m], err) != RC_OK ||
-        need_vector(&h->own, h->n, &h->space.v[m + 1], err) != RC_OK)
+    if (status == RC_OK)
+        status = need_vector(&h->own, h->n, &h->space.v[m + 1], err);
+    if (rc_ranks_agree(h->rows.ranks, status, err) != RC_OK)
         return RC_FAIL;
     next = h->space.v[m + 1];
     apply(h, h->space.v[m], h->space.z[m], next);
     for (size_t i = 0; i <= m; i++) {
-        column[i] = product(h->n, h->space.v[i], next);
+        column[i] = product(h, h->space.v[i], next);
         for (size_t k = 0; k < h->n; k++)
             next[k] -= column[i] * h->space.v[i][k];
     }
-    size = column[m + 1] = sqrt(product(h->n, next, next));
+    size = column[m + 1] = sqrt(product(h, next, next));
     for (size_t k = 0; k < h->n; k++)
         next[k] = size > 0 ? next[k] / size : 0;
     for (size_t i = 0; i < m; i++) {
@@ -936,8 +1044,9 @@ extend(struct rc_heat *h, struct rc_err *err)
 
 /* The largest value of the residual V Q'(0, ..., 0, g). */
 static double
-largest_residual(const struct space *space, size_t n)
+largest_residual(const struct rc_heat *h)
 {
+    const struct space *space = &h->space;
     double y[STEPS + 1] = {0}, most = 0;
     const size_t m = space->steps;
 
@@ -947,13 +1056,13 @@ largest_residual(const struct space *space, size_t n)
         y[i] = space->turn[i][0] * a - space->turn[i][1] * b;
         y[i + 1] = space->turn[i][1] * a + space->turn[i][0] * b;
     }
-    for (size_t k = 0; k < n; k++) {
+    for (size_t k = 0; k < h->n; k++) {
         double r = 0;
         for (size_t i = 0; i <= m; i++)
             r += y[i] * space->v[i][k];
         most = fmax(most, fabs(r));
     }
-    return most;
+    return rc_ranks_most(h->rows.ranks, most);
 }
 
 /* f = guess + Z y with the least residual. */
@@ -1019,14 +1128,15 @@ advance(struct rc_heat *h, struct rc_err *err)
         return RC_OK;
     }
     if (begins && t->n > 1 &&
-        (residual = largest(NULL, h->n, h->space.right)) <= h->problem.tol * h->scale)
+        (residual = rc_ranks_most(h->rows.ranks, highest(NULL, h->n, h->space.right))) <=
+            h->problem.tol * h->scale)
         last = false;
     else if (extend(h, err) != RC_OK)
         return RC_FAIL;
     last = h->space.steps == STEPS ||
            fabs(h->space.g[h->space.steps]) <= 16 * DBL_EPSILON * fabs(h->space.g[0]);
     if (h->space.steps > 0)
-        residual = largest_residual(&h->space, h->n);
+        residual = largest_residual(h);
     if (!last && residual > h->problem.tol * h->scale)
         return RC_MORE;
     take_solution(&h->space, h->node, h->n, t->guess, h->flux[0]);
@@ -1060,7 +1170,7 @@ static double
 extrapolate(struct rc_heat *h, const struct rc_heat *finest)
 {
     struct doubling *d = &h->doubling;
-    const size_t nodes = h->shape.nx * h->shape.ny;
+    const size_t nodes = h->nodes;
     const double more = beyond(finest);
     double change = 0;
 
@@ -1079,7 +1189,7 @@ extrapolate(struct rc_heat *h, const struct rc_heat *finest)
     d->count += finest->c->count;
     d->iterations += finest->figures.iterations;
     judge(h);
-    return change / h->scale;
+    return rc_ranks_most(h->rows.ranks, change) / h->scale;
 }
 
 /* True if body b moves so far in one of n time steps that they do not resolve how the front of its first heat
@@ -1128,7 +1238,7 @@ find_ripple(struct rc_heat *h, int b, size_t n, double *ripple, struct rc_err *e
                 rc_warming_add(h->c, &sum, times[m], &one);
         }
         field(h, &sum, h->work);
-        *ripple = fmax(*ripple, largest(h->node, h->n, h->work) / h->scale);
+        *ripple = fmax(*ripple, largest(h, h->work) / h->scale);
     }
     return RC_OK;
 }
@@ -1170,7 +1280,7 @@ refine(struct rc_heat *h, struct rc_err *err)
     rc_heat_free(d->half);
     d->half = d->finest;
     problem.time_steps = d->half != NULL ? 2 * d->half->times.n : 2;
-    memset(h->work, 0, h->shape.nx * h->shape.ny * sizeof *h->work);
+    memset(h->work, 0, h->nodes * sizeof *h->work);
     for (size_t i = 0; i < h->n; i++)
         h->work[h->node[i]] = 1;
     d->finest = rc_heat_new(&h->shape, &problem, h->q, h->work, err);
@@ -1205,7 +1315,7 @@ redouble(struct rc_heat *h, enum rc_status status, struct rc_err *err)
 {
     struct doubling *d = &h->doubling;
     struct rc_heat_figures *f = &h->figures;
-    const size_t nodes = h->shape.nx * h->shape.ny;
+    const size_t nodes = h->nodes;
     double front = 0;
 
     if (d->finest == NULL) {
@@ -1262,16 +1372,17 @@ rc_heat_flux(const struct rc_heat *h, int body)
 static enum rc_status
 add_rise_at(struct rc_heat *h, int b, double depth, double weight, double *to, struct rc_err *err)
 {
-    const size_t nodes = h->shape.nx * h->shape.ny;
     RC_ENDS(rc_store_free) struct rc_store own = {0};
     struct lags lags;
     double *rise;
 
     if (set_lags(h, b, depth, &lags, &own, err) != RC_OK)
         return RC_FAIL;
-    if ((rise = rc_store_zeros(&own, nodes, sizeof *rise)) == NULL)
-        return rc_err_set(err, "out of memory for the temperatures of %zu x %zu nodes", h->shape.nx,
-                          h->shape.ny);
+    rise = rc_store_zeros(&own, h->nodes, sizeof *rise);
+    if (rc_ranks_need(h->rows.ranks, rise != NULL, err,
+                      "out of memory for the temperatures of %zu x %zu nodes", h->shape.nx,
+                      h->shape.ny) != RC_OK)
+        return RC_FAIL;
     if (h->times.waves[0] != NULL) {
         h->times.sum.n = 0;
         rise_of(h, b, &lags, NULL, h->times.n, &h->times.sum);
@@ -1280,7 +1391,7 @@ add_rise_at(struct rc_heat *h, int b, double depth, double weight, double *to, s
         rc_conduction_load(h->c, h->flux[b]);
         field(h, lags.first, rise);
     }
-    for (size_t k = 0; k < nodes; k++)
+    for (size_t k = 0; k < h->nodes; k++)
         to[k] += weight * rise[k];
     return RC_OK;
 }
@@ -1288,7 +1399,7 @@ add_rise_at(struct rc_heat *h, int b, double depth, double weight, double *to, s
 enum rc_status
 rc_heat_temperature(struct rc_heat *h, int b, double depth, double *to, struct rc_err *err)
 {
-    const size_t nodes = h->shape.nx * h->shape.ny;
+    const size_t nodes = h->nodes;
     const struct doubling *d = &h->doubling;
     enum rc_status status = RC_OK;
 

@@ -73,27 +73,34 @@ struct rc_warming {
 };
 
 struct rc_conduction {
-    struct rc_shape shape;
+    struct rc_shape shape; /* of the whole map */
+    struct rc_rows rows;   /* held here        */
     struct rc_boundary boundary;
     int threads;
     struct rc_frame frame;       /* of padding along the free axes */
+    size_t above, below;         /* rows of the frame that are held here */
     struct rc_fft *fft, *framed; /* framed: of the map with its frame; the same if both repeat */
-    size_t columns, length, cy; /* columns of waves; numbers in a column; rows of a quarter of it */
-    double *waves;              /* transform of the loaded map                                    */
-    size_t *wave;               /* for place t of a column: its row in the quarter                */
-    signed char *mirror;        /* -1 where this row is the mirror image, else 1                  */
+    size_t first, columns;       /* columns of waves that are held here */
+    size_t length, cy;           /* numbers in a column; rows of a quarter of it */
+    double *waves;               /* transform of the loaded map                  */
+    size_t *wave;        /* for place t of a column: its row in the quarter                */
+    signed char *mirror; /* -1 where this row is the mirror image, else 1                  */
     struct rc_store own;
     double count; /* of convolutions */
 };
+/* `ranks` share the map of this shape (NULL: none). Maps are then the rows held here, transforms and spectra
+ * the columns held here, and all ranks make every call of this file but rc_warming_add and
+ * rc_conduction_keep. */
 struct rc_conduction *rc_conduction_new(const struct rc_shape *shape, struct rc_boundary boundary,
-                                        size_t threads, struct rc_err *err);
+                                        const struct rc_ranks *ranks, size_t threads,
+                                        struct rc_err *err);
 void rc_conduction_free(struct rc_conduction *c); /* NULL is allowed */
 RC_OWNER(rc_conduction)
 /* A spectrum of 0 of a body, in memory of `own`. */
 enum rc_status rc_warming_new(struct rc_warming *w, struct rc_store *own,
                               const struct rc_conduction *c, const struct rc_heated *body,
                               struct rc_err *err);
-/* Sets the spectrum of a body, in memory of `own`. RC_FAIL when that is short. */
+/* Sets the spectrum of a body, in memory of `own`. RC_FAIL when that is short on any rank. */
 enum rc_status rc_warming_set(struct rc_warming *w, struct rc_store *own, struct rc_conduction *c,
                               const struct rc_heated *body, struct rc_err *err);
 /* Keeps the transform of a map of nx ny values. */
@@ -122,7 +129,7 @@ void rc_conduction_inverse(struct rc_conduction *c, const struct rc_warming *con
 /* ---- inverse.c: the preconditioner ---- */
 
 struct rc_heat_inverse;
-/* For n nodes in contact; c outlives it. NULL when memory is short. */
+/* For n nodes in contact, of those held here; c outlives it. NULL when memory is short on any rank. */
 struct rc_heat_inverse *rc_heat_inverse_new(struct rc_conduction *c,
                                             const struct rc_heated bodies[2], size_t n,
                                             const size_t *node, struct rc_err *err);

@@ -15,7 +15,7 @@
 
 struct rc_heat_inverse {
     struct rc_conduction *c;
-    struct rc_shape grid; /* the map with its frame */
+    struct rc_shape grid; /* the rows held here with their part of the frame */
     struct rc_pyramid *pyramid;
     size_t n, *place; /* of the nodes in contact on the grid */
     float *v;         /* a number for each node of the grid  */
@@ -86,25 +86,24 @@ rc_heat_inverse_new(struct rc_conduction *c, const struct rc_heated bodies[2], s
         .body = {rc_heat_waves_of(&bodies[0]), rc_heat_waves_of(&bodies[1])},
         .x = nx > 1 || c->shape.ny == 1,
         .y = c->shape.ny > 1};
-    struct rc_pyramid_base base = {
-        .shape = c->shape, .count = 1, .boundary = c->boundary, .threads = c->threads};
+    struct rc_pyramid_base base = rc_pyramid_base_of(&c->shape, c->boundary, c->frame, &c->rows);
 
-    if (e == NULL)
-        return rc_err_null(err, "out of memory for %zu nodes in contact", n);
-    base.shape.nx += 2 * c->frame.x;
-    base.n = base.shape.ny += 2 * c->frame.y;
-    e->c = c;
-    e->grid = base.shape;
-    e->n = n;
-    e->place = rc_store_take(&e->own, n, sizeof *e->place);
-    e->v = rc_store_take(&e->own, e->grid.nx * e->grid.ny, sizeof *e->v);
-    if (e->own.failed)
-        return rc_err_null(err, "out of memory for %zu nodes in contact", n);
-    if ((e->pyramid = rc_pyramid_new(&base, power, &decrease, err)) == NULL)
+    base.threads = c->threads;
+    if (e != NULL) {
+        e->c = c;
+        e->grid = base.shape;
+        e->grid.ny = base.n;
+        e->n = n;
+        e->place = rc_store_take(&e->own, n, sizeof *e->place);
+        e->v = rc_store_take(&e->own, e->grid.nx * e->grid.ny, sizeof *e->v);
+    }
+    if (rc_ranks_need(c->rows.ranks, e != NULL && !e->own.failed, err,
+                      "out of memory for %zu nodes in contact", n) != RC_OK ||
+        (e->pyramid = rc_pyramid_new(&base, power, &decrease, err)) == NULL)
         return NULL;
     clear(e);
     for (size_t k = 0; k < n; k++) {
-        e->place[k] = (node[k] / nx + c->frame.y) * e->grid.nx + node[k] % nx + c->frame.x;
+        e->place[k] = (node[k] / nx + c->above) * e->grid.nx + node[k] % nx + c->frame.x;
         e->v[e->place[k]] = 1;
     }
     rc_pyramid_set(e->pyramid, add_row, e);
@@ -130,7 +129,7 @@ fade(struct rc_heat_inverse *e)
 
 #pragma omp parallel for num_threads(c->threads) schedule(static)
     for (size_t j = 0; j < e->grid.ny; j++) {
-        const float of_row = rc_frame_fade(j, c->frame.y, c->shape.ny, c->frame.y);
+        const float of_row = rc_frame_fade(j, c->above, c->rows.n, c->frame.y);
         for (size_t i = 0; i < e->grid.nx; i++)
             e->v[j * e->grid.nx + i] *=
                 of_row * rc_frame_fade(i, c->frame.x, c->shape.nx, c->frame.x);
