@@ -33,7 +33,7 @@ libcontact/stress   | %base libcontact/operator/operator.h     | libcontact libc
 libcontact/stress   | libcontact/body/line.h libcontact/operator/waves.h                  | libcontact/transform libcontact/body
 libcontact/stress   | libcontact/volume/volume.h               | libcontact/volume
 libcontact/fatigue  | %base %ranks                             | libcontact libcontact/ranks libcontact/stress libcontact/body
-libcontact/heat     | %base libcontact/operator/operator.h     | libcontact libcontact/operator libcontact/transform libcontact/body libcontact/surface/parameters
+libcontact/heat     | %base libcontact/operator/operator.h     | libcontact libcontact/ranks libcontact/operator libcontact/transform libcontact/body libcontact/surface/parameters
 libcontact/heat     | libcontact/body/quadrature.h libcontact/body/line.h| libcontact/body
 libcontact/heat     | libcontact/pyramid/pyramid.h             | libcontact/pyramid
 libcontact/volume   | %base libcontact/operator/operator.h     | libcontact libcontact/ranks libcontact/operator libcontact/transform

@@ -93,6 +93,24 @@ refuses 1 'need about .* --memory allows' "    too little memory" "$MPIRUN -n 2 
 claim "      the message is printed once" test "$(grep -c 'need about' refuses.err)" = 1
 claim "  loads of a contact that stays, periodic" same "$fatigue --depths 20um pressed.rcg loads.rcg"
 
+# The ball touches on one process only. Where nx is even, the last column of a spectrum has waves of two nodes. A line
+# contact goes around a map that repeats along one axis.
+rc-solve --periodic --estar 1GPa --mean-pressure 2MPa --quiet -o pressed-even.rcg even.rcg
+bodies="--conductivity 45W/mK,16W/mK --diffusivity 12mm2/s,4mm2/s --tol 0.1 --quiet"
+heat="rc-heat --mu 0.3 $bodies"
+for axis in x y; do
+    rc-synth cylinder --nx 91 --ny 93 --dx 1um --radius 1mm --direction $([ $axis = y ] && echo 90 || echo 0) |
+        rc-solve --periodic=$axis --estar 1GPa --approach 10nm --quiet -o line-$axis.rcg
+done
+rc-slip --mu 0.3 --nu 0.3 --quiet --tol 0.1 --increments 1 --path '0.2mN,0,0; 0.2mN,20uN,0; 0.2mN,-20uN,0' \
+    --output pressure,dissipation pressed-ball.rcg | rc-pick --case 2,3 -o cycle.rcg
+claim "heat, free, below the surface" same "$heat --speed 1m/s,0.3m/s --bulk 20degC,25degC --depths 0,3um pressed-ball.rcg"
+claim "  periodic, in time steps, several threads" same \
+    "RC_THREADS=2 $heat --speed 1m/s,2m/s --time 1us --time-steps 2 pressed-even.rcg"
+claim "  as many steps as the tolerance needs, a line contact along y" same "$heat --moving 1m/s,0.8m/s --time 1us line-y.rcg"
+claim "  one share, a line contact along x" same "$heat --speed 0,2m/s --moving 1 --time 1us --partition blok line-x.rcg"
+claim "  of a cycle of micro-slip" same "rc-heat --frequency 50Hz $bodies cycle.rcg"
+
 # With adhesion a free map is solved on a padded grid, of which the second process has the padding only.
 rc-synth sphere --nx 51 --ny 45 --dx 3um --radius 200um -o small-ball.rcg
 rc-synth wave --nx 35 --ny 128 --dx 2um --amplitude 1fm --wavelength 256um -o tall.rcg
@@ -171,6 +189,10 @@ perl -MCompress::Zlib -0777 -pe 's/(RCG1\nchannel=height\n.*?\n\n.{46160}).{8}(.
     my $to = "$1\0\0\0\0\0\0\xf8\x7f$2"; sprintf("%scrc32 %08x\n", $to, crc32($to))/se' pressed.rcg >nan-pressed.rcg
 refuses 1 'height 5770 is not a finite number' "  wear" "$run $wear --distance 0.01m -o no.rcg nan-pressed.rcg"
 claim "  nothing else is printed" test "$(grep -ac '^rc-wear' refuses.err)" = 1
+perl -MCompress::Zlib -0777 -pe 's/(RCG1\nchannel=pressure\n.*?\n\n.{46160}).{8}(.{992})crc32 .{8}\n/
+    my $to = "$1\0\0\0\0\0\0\xf0\xbf$2"; sprintf("%scrc32 %08x\n", $to, crc32($to))/se' pressed.rcg >pulled.rcg
+refuses 1 'pressure -1 Pa at column 6, row 44' "  heat of a negative pressure" "$run $heat --speed 1m/s --time 1us -o no.rcg pulled.rcg"
+claim "  nothing else is printed" test "$(grep -ac '^rc-heat' refuses.err)" = 1
 # An allocation of the second process fails: the work is done nevertheless, or all end with status 1 and a message.
 memory() {
     local command=$1 n last status
@@ -192,6 +214,7 @@ claim "  adhesion" memory "$stick --estar 2MPa --load 0.1mN --tol 1e-3 small-bal
 claim "  friction" memory "rc-slip --nu 0.3 --mu 0.3 --quiet --tol 0.1 --tangential 20uN pressed-ball.rcg"
 claim "  creep" memory "$relax --tol 0.1 rough.rcg"
 claim "  wear" memory "$wear --distance 1mm pressed-ball.rcg"
+claim "  heat" memory "$heat --speed 1m/s --time 1us line-x.rcg"
 killed() {
     local launcher victim= child
     $run ${yield/--increments 1 --tol 1e-1 --quiet/} --progress line --periodic --increments 200 --mean-pressure 60MPa,20MPa,70MPa --history -o no.rcg rough.rcg >/dev/null 2>killed.err &
