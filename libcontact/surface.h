@@ -318,6 +318,11 @@ struct rc_statistics {
 };
 /* Figures of the measured values, in the unit of v; rms_slope in that unit per metre. */
 RC_API void rc_measure(const struct rc_shape *shape, const double *v, struct rc_statistics *result);
+/* The same figures of a map that is not in memory, from two passes over a source (its put is not called), in
+ * the memory of some rows. RC_FAIL when memory is short or the source fails. */
+RC_API enum rc_status rc_measure_source(const struct rc_shape *shape,
+                                        const struct rc_row_source *source,
+                                        struct rc_statistics *result, struct rc_err *err);
 
 /* Sum of n doubles with the compensation of Neumaier 1974: its error does not grow with n. */
 RC_API double rc_sum(const double *v, size_t n);

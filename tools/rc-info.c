@@ -91,35 +91,36 @@ is_pressure(const struct rc_grid *g)
     return strcmp(g->channel, "pressure") == 0 && strcmp(g->unit, "Pa") == 0 && in_metres(g);
 }
 
-/* Load and contact are computed from the values, so that they are right for any program that wrote them.
- * `touch` gives the contact; NULL: unknown. */
+/* Numbers of values of a frame. */
+struct counts {
+    size_t positive, wrong, plastic; /* wrong: neither 0 nor 1; plastic: at least the hardness */
+    double negative;
+    bool touches;    /* the contact is known: */
+    size_t touching; /* nodes in contact      */
+};
+
+/* Load and contact are computed from the values, so that they are right for any program that wrote them. */
 static void
-result_of(const struct rc_grid *g, const struct rc_grid *touch, const struct rc_statistics *s,
+result_of(const struct rc_grid *g, const struct counts *c, const struct rc_statistics *s,
           struct result *r)
 {
     const char *converged = rc_grid_get(g, "converged");
-    bool whole = s->missing == 0 && s->infinite == 0;
-    double cell = g->dx * g->dy, most, nodes = 0;
+    const double cell = g->dx * g->dy;
 
     *r = (struct result){NAN, NAN, NAN, NAN, NAN, NAN, NAN, NAN, 0, NULL};
     rc_grid_number(g, "approach", &r->approach);
     rc_grid_number(g, "hardness", &r->hardness);
-    /* the resolution of single precision */
-    most = g->type == RC_F32 ? (double)(float)r->hardness : r->hardness;
-    for (size_t k = 0; whole && k < g->nx * g->ny; k++) {
-        nodes += touch != NULL && rc_in_contact(touch->v[k]) ? 1 : 0;
-        r->plastic_nodes += g->v[k] >= most ? 1 : 0;
-    }
     if (converged != NULL && (strcmp(converged, "yes") == 0 || strcmp(converged, "no") == 0))
         r->converged = converged;
-    if (!whole)
+    if (s->missing > 0 || s->infinite > 0)
         return;
+    r->plastic_nodes = c->plastic;
     r->load = s->sum * cell;
     r->max_pressure = s->maximum;
-    if (touch != NULL) {
-        r->contact_nodes = nodes;
-        r->contact_area = cell * nodes;
-        r->contact_fraction = nodes / ((double)g->nx * (double)g->ny);
+    if (c->touches) {
+        r->contact_nodes = (double)c->touching;
+        r->contact_area = cell * r->contact_nodes;
+        r->contact_fraction = r->contact_nodes / ((double)g->nx * (double)g->ny);
     }
     if (!isnan(r->hardness))
         r->plastic_area = cell * (double)r->plastic_nodes;
@@ -141,7 +142,7 @@ put_result_object(struct report *r, const struct result *v)
 
 static void
 show_json(struct tool *t, const struct rc_grid *g, const struct rc_statistics *s,
-          const struct info_figures *f)
+          const struct counts *c, const struct info_figures *f)
 {
     struct report r = {.tool = t, .name = "--json", .file = t->output.file};
     struct rc_statistics shown = *s;
@@ -162,7 +163,7 @@ show_json(struct tool *t, const struct rc_grid *g, const struct rc_statistics *s
     report_text(&r, "type", g->type == RC_F32 ? "f32" : "f64");
     report_table(&r, rc_figures("statistics"), &shown);
     if (is_pressure(g)) {
-        result_of(g, f->touch, s, &result);
+        result_of(g, c, s, &result);
         put_result_object(&r, &result);
     }
     report_object(&r, "keys");
@@ -300,14 +301,14 @@ put_keys(FILE *out, const struct rc_grid *g)
 
 static void
 show_text(struct tool *t, const struct rc_grid *g, const struct rc_statistics *s,
-          const struct info_figures *f, bool first)
+          const struct counts *c, const struct info_figures *f, bool first)
 {
     struct result result;
 
     fprintf(t->output.file, "%s", first ? "" : "\n");
     put_text(t->output.file, tool_where(t, g), WHERE);
     if (is_pressure(g)) {
-        result_of(g, f->touch, s, &result);
+        result_of(g, c, s, &result);
         put_result(t->output.file, g, &result);
     }
     put_grid(t->output.file, g);
@@ -316,27 +317,99 @@ show_text(struct tool *t, const struct rc_grid *g, const struct rc_statistics *s
     put_keys(t->output.file, g);
 }
 
-/* The last frame `contact`, and the last case whose pressure was shown without one (0: none), with its number
- * of nodes in contact. */
-struct beside {
-    struct rc_grid *contact;
-    size_t without, nodes;
+/* ---- rows ---- */
+
+/* The values of a frame, from memory or from its file, in two passes. */
+struct values {
+    struct tool *t;
+    const struct rc_grid *g;
+    size_t pass, row;
+    double most, hardness; /* most: the largest value, at least 0 */
+    struct counts *counts; /* NULL: nobody needs them */
 };
 
-static size_t
-count_contact(const struct rc_grid *touch)
+static enum rc_status
+again(void *of, struct rc_err *err)
 {
-    size_t nodes = 0;
+    struct values *v = of;
 
-    for (size_t k = 0; touch != NULL && k < touch->nx * touch->ny; k++)
-        nodes += rc_in_contact(touch->v[k]);
-    return nodes;
+    (void)err;
+    if (v->pass++ > 0 && !tool_has_values(v->g))
+        tool_read_again(v->t);
+    v->row = 0;
+    return RC_OK;
 }
+
+static enum rc_status
+next_rows(void *of, size_t rows, double *to, struct rc_err *err)
+{
+    struct values *v = of;
+    const size_t n = rows * v->g->nx;
+
+    (void)err;
+    if (tool_has_values(v->g))
+        memcpy(to, v->g->v + v->row * v->g->nx, n * sizeof *to);
+    else
+        tool_read_rows(v->t, rows, to);
+    v->row += rows;
+    for (size_t k = 0; k < n && v->counts != NULL && v->pass == 1; k++) {
+        v->counts->positive += rc_in_contact(to[k]);
+        v->counts->wrong += to[k] != 0 && to[k] != 1;
+        v->counts->plastic += to[k] >= v->hardness;
+        v->most = fmax(v->most, to[k]);
+    }
+    for (size_t k = 0; k < n && v->counts != NULL && v->pass > 1; k++)
+        v->counts->negative += contact_negative(to[k], v->most);
+    return RC_OK;
+}
+
+/* True for a frame that may define the contact. */
+static bool
+touches(const struct rc_grid *g)
+{
+    return strcmp(g->channel, "pressure") == 0 || strcmp(g->channel, CONTACT_CHANNEL) == 0;
+}
+
+/* True if all that is asked for needs some rows at a time. */
+static bool
+works_by_rows(const struct tool *t, const struct rc_grid *g)
+{
+    const struct info_wanted *w = &args.wanted;
+    const bool whole = strcmp(g->channel, "height") == 0 ? w->areal || w->psd || w->profile != NULL
+                                                         : w->patches && touches(g);
+
+    return !whole && tool_reads_file(t);
+}
+
+static void
+measure(struct tool *t, struct rc_grid *g, struct rc_statistics *statistics, struct counts *counts)
+{
+    struct values v = {.t = t, .g = g, .hardness = NAN};
+    const struct rc_row_source source = {&v, again, next_rows, NULL};
+
+    *counts = (struct counts){0};
+    if (touches(g))
+        v.counts = counts;
+    rc_grid_number(g, "hardness", &v.hardness);
+    if (g->type == RC_F32) /* the resolution of single precision */
+        v.hardness = (double)(float)v.hardness;
+    if (!works_by_rows(t, g))
+        tool_load(t, g);
+    tool_must(t, g, rc_measure_source(rc_shape_of(g), &source, statistics, &t->err));
+}
+
+/* The last frame `contact` with its numbers, and the last case whose pressure was shown without one (0:
+ * none), with its number of nodes in contact. */
+struct beside {
+    struct rc_grid *contact;
+    struct counts counts;
+    size_t without, nodes;
+};
 
 /* The frame that defines the contact of this one: `contact` earlier in its case, or the pressure itself.
  * NULL: unknown, or it is not a pressure. */
 static const struct rc_grid *
-touching(struct tool *t, const struct rc_grid *g, struct beside *b)
+touching(struct tool *t, const struct rc_grid *g, struct counts *c, struct beside *b)
 {
     const struct rc_grid *touch;
 
@@ -345,24 +418,26 @@ touching(struct tool *t, const struct rc_grid *g, struct beside *b)
         b->contact = NULL;
     }
     if (strcmp(g->channel, CONTACT_CHANNEL) == 0 && b->without == rc_grid_case(g) &&
-        b->nodes != count_contact(g))
+        b->nodes != c->positive)
         tool_refuse(t, g,
                     "%zu nodes are in contact according to this frame, %zu according to the "
                     "pressure before it: the frame contact must precede its pressure",
-                    count_contact(g), b->nodes);
+                    c->positive, b->nodes);
     if (strcmp(g->channel, "pressure") != 0)
         return NULL;
-    touch = (args.wanted.patches ? contact_demand : contact_frame)(t, g, b->contact);
+    touch = contact_counted(t, g, b->contact, args.wanted.patches, b->counts.wrong, c->negative);
+    c->touches = touch != NULL;
+    c->touching = touch == NULL ? 0 : touch == g ? c->positive : b->counts.positive;
     if (b->contact == NULL) {
         b->without = rc_grid_case(g);
-        b->nodes = count_contact(touch);
+        b->nodes = c->touching;
     }
     return touch;
 }
 
 /* Frees a frame that has been shown, unless a later pressure may need it. */
 static void
-let_go(struct rc_grid *g, struct beside *beside)
+let_go(struct rc_grid *g, const struct counts *counts, struct beside *beside)
 {
     if (strcmp(g->channel, CONTACT_CHANNEL) != 0) {
         rc_grid_free(g);
@@ -370,6 +445,7 @@ let_go(struct rc_grid *g, struct beside *beside)
     }
     rc_grid_free(beside->contact);
     beside->contact = g;
+    beside->counts = *counts;
 }
 
 static void
@@ -389,7 +465,8 @@ main(int argc, char **argv)
     static struct info_spread spread;
     struct rc_statistics statistics;
     struct info_figures figures;
-    struct beside beside = {NULL, 0, 0};
+    struct counts counts;
+    struct beside beside = {0};
     struct rc_grid *g;
     struct tool t;
     bool first = true;
@@ -399,22 +476,23 @@ main(int argc, char **argv)
     if (args.spread && t.output.report_alone)
         tool_usage(&t, "--spread prints on standard output, and so does --report -: give --report "
                        "a file");
+    tool_by_rows(&t);
     while ((g = tool_read(&t)) != NULL) {
-        struct rc_shape shape = rc_grid_shape(g);
-        const struct rc_grid *touch = touching(&t, g, &beside);
+        const struct rc_grid *touch;
 
-        rc_measure(&shape, g->v, &statistics);
+        measure(&t, g, &statistics, &counts);
+        touch = touching(&t, g, &counts, &beside);
         info_compute(&args.wanted, &t, g, touch, &figures);
         info_report(&args.wanted.out, &args.wanted, &figures, &statistics);
         if (args.spread)
             info_spread_take(&spread, &args.wanted, &figures, &statistics);
         else if (args.json && !t.output.report_alone)
-            show_json(&t, g, &statistics, &figures);
+            show_json(&t, g, &statistics, &counts, &figures);
         else if (args.wanted.report == NULL)
-            show_text(&t, g, &statistics, &figures, first);
+            show_text(&t, g, &statistics, &counts, &figures, first);
         first = false;
         info_free(&figures);
-        let_go(g, &beside);
+        let_go(g, &counts, &beside);
     }
     rc_grid_free(beside.contact);
     info_end(&args.wanted, &t);

@@ -152,6 +152,19 @@ polynomial_of_rows(double *out, struct rc_err *err)
 }
 
 static enum rc_status
+figures_of_rows(double *out, struct rc_err *err)
+{
+    struct rows r = {0};
+    const struct rc_row_source source = {&r, rows_again, rows_read, NULL};
+    struct rc_statistics s;
+
+    if (rc_measure_source(&shape, &source, &s, err) != RC_OK)
+        return RC_FAIL;
+    out[0] = s.rms;
+    return RC_OK;
+}
+
+static enum rc_status
 robust_sphere(double *out, struct rc_err *err)
 {
     static const struct rc_form what = {.kind = RC_SPHERE, .robust = true, .threads = 1};
@@ -1164,6 +1177,7 @@ static const struct {
     {.name = "self-affine roughness", .use = selfaffine},
     {.name = "a polynomial", .use = polynomial},
     {.name = "a polynomial of rows", .use = polynomial_of_rows},
+    {.name = "figures of rows", .use = figures_of_rows},
     {.name = "rows", .use = levelled_rows},
     {.name = "a robust sphere", .use = robust_sphere},
     {.name = "a cylinder", .use = cylinder},

@@ -10,6 +10,7 @@
 #include <float.h>
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
 
 #include "tests/exact.h"
 #include "libcontact/contact.h"
@@ -178,14 +179,104 @@ test_nothing_there(void **state)
                 isnan(s.maximum) && s.sum == 0);
 }
 
+/* Rows of a map in memory. */
+struct rows {
+    const struct rc_shape *shape;
+    const double *v;
+    size_t at, passes;
+};
+
+static enum rc_status
+again(void *of, struct rc_err *err)
+{
+    struct rows *r = of;
+
+    (void)err;
+    r->at = 0;
+    r->passes++;
+    return RC_OK;
+}
+
+static enum rc_status
+next(void *of, size_t n, double *v, struct rc_err *err)
+{
+    struct rows *r = of;
+
+    if (r->at + n > r->shape->ny)
+        return rc_err_set(err, "there are no more rows");
+    memcpy(v, r->v + r->at * r->shape->nx, n * r->shape->nx * sizeof *v);
+    r->at += n;
+    return RC_OK;
+}
+
+/* A map row by row has the figures of the map in memory, bit for bit. Pieces of rows end within the map. */
+static void
+test_rows(void **state)
+{
+    const struct rc_shape shapes[] = {{37, 4001, 1e-6, 2e-6}, {9001, 29, 1e-6, 1e-6},
+                                      {70001, 1, 1e-6, 1e-6}, {1, 70001, 1e-6, 1e-6},
+                                      {1, 1, 1e-6, 1e-6},     {11, 3, 1e-6, 1e-6}};
+    (void)state;
+
+    for (size_t k = 0; k < sizeof shapes / sizeof *shapes; k++)
+        for (int holes = 0; holes < 3; holes++) {
+            const size_t n = shapes[k].nx * shapes[k].ny;
+            double *v = malloc(n * sizeof *v);
+            struct rows rows = {.shape = &shapes[k], .v = v};
+            const struct rc_row_source source = {&rows, again, next, NULL};
+            struct rc_statistics whole, by_rows;
+            struct rc_err err;
+            for (size_t i = 0; i < n; i++)
+                v[i] = holes == 2 || (holes == 1 && i % 17 == 3)
+                           ? NAN
+                           : 0.1 * (double)(i * i % 10007) - 300;
+            rc_measure(&shapes[k], v, &whole);
+            assert_int_equal(rc_measure_source(&shapes[k], &source, &by_rows, &err), RC_OK);
+            assert_memory_equal(&whole, &by_rows, sizeof whole);
+            assert_int_equal(rows.passes, holes < 2 ? 2 : 1);
+            free(v);
+        }
+}
+
+static enum rc_status
+fails(void *of, size_t n, double *v, struct rc_err *err)
+{
+    struct rows *r = of;
+
+    return r->passes == 2 && r->at > 0 ? rc_err_set(err, "a cut file") : next(of, n, v, err);
+}
+
+/* The sentence of a source that fails, in the second pass too. */
+static void
+test_source_fails(void **state)
+{
+    const struct rc_shape long_map = {1, 70001, 1e-6, 1e-6};
+    double *v = calloc(70001, sizeof *v);
+    struct rows rows = {.shape = &long_map, .v = v};
+    const struct rc_row_source source = {&rows, again, fails, NULL};
+    struct rc_statistics s;
+    struct rc_err err;
+    (void)state;
+
+    assert_int_equal(rc_measure_source(&long_map, &source, &s, &err), RC_FAIL);
+    assert_string_equal(err.text, "a cut file");
+    free(v);
+}
+
 int
 main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_sum_of_what_cancels), cmocka_unit_test(test_sum_does_not_wear_out),
-        cmocka_unit_test(test_sum_keeps_infinity),  cmocka_unit_test(test_plane),
-        cmocka_unit_test(test_far_datum),           cmocka_unit_test(test_holes),
-        cmocka_unit_test(test_profiles_and_points), cmocka_unit_test(test_nothing_there),
+        cmocka_unit_test(test_sum_of_what_cancels),
+        cmocka_unit_test(test_sum_does_not_wear_out),
+        cmocka_unit_test(test_sum_keeps_infinity),
+        cmocka_unit_test(test_plane),
+        cmocka_unit_test(test_far_datum),
+        cmocka_unit_test(test_holes),
+        cmocka_unit_test(test_profiles_and_points),
+        cmocka_unit_test(test_nothing_there),
+        cmocka_unit_test(test_rows),
+        cmocka_unit_test(test_source_fails),
     };
 
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -181,7 +181,7 @@ refuses 1 "$more [0-9.]+ MiB: give fewer rows" "rc-render --curve" "rc-render --
 refuses 1 "$more 8 MiB: the file itself takes memory too" "rc-import, for the process that reads the file" "rc-import --memory 8M made.park -o never.rcg"
 refuses 1 "$more 4 MiB" "rc-synth" "rc-synth --memory 4M $rough --nx 1024 -o never.rcg"
 refuses 1 "$more [0-9.]+ MiB" "rc-cost" "rc-cost --memory 3M --limit 60s odd.rcg -- rc-solve $load"
-refuses 1 "$more 1 MiB" "a frame that is read" "rc-info --memory 1M odd.rcg"
+refuses 1 "$more 1 MiB" "a frame that is read" "cat odd.rcg | rc-info --memory 1M"
 claim "no file is left" bash -c '! ls never* 2>/dev/null'
 claim "a run within the limit finishes" rc-solve --quiet --memory 60M $load odd.rcg -o done.rcg
 

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-# rc-pick --crop, rc-add and rc-detrend --plane of files need the memory of some rows, and write the bytes of a
-# run with the maps in memory. A pipe cannot be read twice: rc-detrend and the second surface of rc-add are then
-# in memory. Damage in the last row of a map, after rows were written, leaves no file.
+# rc-pick --crop, rc-add, rc-detrend --plane and rc-info of files need the memory of some rows, and write the bytes
+# of a run with the maps in memory. A pipe cannot be read twice: rc-detrend, rc-info and the second surface of
+# rc-add are then in memory. Damage in the last row of a map, after rows were written, leaves no file.
 . "$(dirname "$0")/../pipe.sh"
 
 rough="selfaffine --dx 1um --hurst 0.8 --rms-slope 0.1 --short-cut 6um"
@@ -76,6 +76,23 @@ claim "  twice" bash -c 'rc-pick --crop 3,5,20,11 --crop 2,1,4,5 one.rcg | rc-ex
     cmp - <(rc-pick --crop 5,6,4,5 one.rcg | rc-export --format csv | grep -v "^#")'
 refuses 1 'columns 0 to 60 and rows 0 to 46' "  beyond the map" "rc-pick --crop 50,0,20,4 one.rcg -o no.rcg"
 
+# shown FILE: rc-info of the file and of a pipe print the same.
+shown() {
+    local option
+    for option in --quiet --json; do
+        rc-info $option <"$1" >by-rows.txt && rc-info $option < <(cat "$1") | cmp by-rows.txt - || return
+    done
+}
+rc-solve --quiet --estar 1GPa --load 0.2mN --hardness 1MPa --type f32 single.rcg -o hard.rcg
+rc-solve --quiet --estar 1GPa --load 0.2mN --adhesion 50mJ/m2 single.rcg -o stuck.rcg
+rc-pick --channel pressure -o net.rcg stuck.rcg
+for map in one holes single wide line both hard stuck net; do
+    claim "rc-info, $map" shown $map.rcg
+done
+claim "  the plastic area and the contact" grep -q 'reached on' <(rc-info hard.rcg)
+claim "  a net pressure" grep -q 'contact *unknown' <(rc-info --quiet net.rcg)
+claim "  with patches, the map is in memory" bash -c 'cmp <(rc-info --patches stuck.rcg) <(cat stuck.rcg | rc-info --patches)'
+
 # ---- damage ----
 
 perl -0777 -pe 's/.(?=crc32)/X/s' one.rcg >damaged.rcg
@@ -84,6 +101,8 @@ for command in "rc-pick --crop 0,0,4,4" "rc-pick --set a=b" "rc-detrend --plane"
     refuses 1 'frame 1: the checksum is' "$command: a damaged last value" "$command damaged.rcg -o no.rcg"
     refuses 1 'frame 1: the stream stops' "  a map that is cut off" "$command short.rcg -o no.rcg"
 done
+refuses 1 'frame 1: the checksum is' "rc-info: a damaged last value" "rc-info damaged.rcg"
+refuses 1 'frame 1: the stream stops' "  a map that is cut off" "rc-info short.rcg"
 claim "no file is left" bash -c '! ls no.rcg* 2>/dev/null'
 claim "  in a pipe the next tool fails too" bash -c '! rc-pick --crop 0,0,4,4 damaged.rcg 2>/dev/null | rc-info >/dev/null 2>&1'
 perl -0777 -pe 's/.{8}(?=crc32)/\0\0\0\0\0\0\xf0\x7f/s' one.rcg | reseal >infinite.rcg
@@ -109,6 +128,9 @@ if ! with_address_sanitizer; then
     little "rc-pick of a channel" rc-pick --channel height large.rcg
     little "rc-detrend --plane" rc-detrend --plane --threads 2 large.rcg
     little "rc-add" rc-add large.rcg large.rcg
+    claim "rc-info in 12 MiB" rc-info --memory 12M --debug large.rcg
+    between 1 "$(sed -n 's/.*counted, \([0-9.]*\) MiB taken.*/\1/p' claim.err)" 20 "  taken, MiB"
+    refuses 1 'memory allows' "rc-info --areal needs the map" "rc-info --areal --memory 12M large.rcg"
     refuses 1 'memory allows' "rc-detrend --lowpass needs the map" "rc-detrend --lowpass 9um --memory 12M large.rcg -o no.rcg"
     refuses 1 'memory allows' "rc-detrend --plane of a pipe, too" "cat large.rcg | rc-detrend --plane --memory 12M -o no.rcg"
 fi

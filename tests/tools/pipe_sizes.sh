@@ -56,7 +56,7 @@ rc-synth sphere --nx 3 --dx 1um --radius 1mm -o small.rcg
 sed -e '/^nx=/s/.*/nx=46400/' -e '/^ny=/s/.*/ny=46400/' small.rcg >huge.rcg
 # it exceeds an address space of 32 bits, for any --memory
 told='46400 x 46400 nodes need about 164[0-9]{2} MiB, --memory allows 4096 MiB: |2152960000 x 8 is more than this machine can address'
-for tool in "rc-info" "rc-pick --rotate 90" "rc-detrend --lowpass 9um" "rc-solve --load 1N --estar 1GPa" "rc-stress --nu 0.3 --depths 1um" \
+for tool in "rc-info --areal" "rc-pick --rotate 90" "rc-detrend --lowpass 9um" "rc-solve --load 1N --estar 1GPa" "rc-stress --nu 0.3 --depths 1um" \
     "rc-deflect --estar 1GPa" "rc-slip --mu 0.3 --nu 0.3 --tangential 1N" rc-leak "rc-export --format npy" "rc-add --subtract --align huge.rcg" "rc-render -o x.png"; do
     refuses 1 "$told" "$tool: no room for 46,400 x 46,400" "$tool --memory 4G huge.rcg | cat"
 done

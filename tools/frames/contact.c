@@ -23,6 +23,12 @@ is_net(const struct rc_grid *p, double negative)
     return negative > 0 && rc_grid_get(p, "adhesion") != NULL;
 }
 
+bool
+contact_negative(double v, double most)
+{
+    return v < -rounding * most;
+}
+
 /* The number of nodes whose pressure is negative by more than rounding. */
 static double
 count_negative(const struct tool *t, const struct rc_grid *p)
@@ -34,18 +40,23 @@ count_negative(const struct tool *t, const struct rc_grid *p)
         most = fmax(most, p->v[k]);
     most = ranks_most(t, most);
     for (size_t k = 0; k < rc_grid_nodes(p); k++)
-        negative += p->v[k] < -rounding * most;
+        negative += contact_negative(p->v[k], most);
     return ranks_sum(t, (double)negative);
 }
 
-static void
-demand_states(struct tool *t, const struct rc_grid *contact)
+static size_t
+count_wrong(const struct tool *t, const struct rc_grid *contact)
 {
     size_t wrong = 0;
 
     for (size_t k = 0; k < rc_grid_nodes(contact); k++)
         wrong += contact->v[k] != 0 && contact->v[k] != 1;
-    wrong = (size_t)ranks_sum(t, (double)wrong);
+    return (size_t)ranks_sum(t, (double)wrong);
+}
+
+static void
+demand_states(struct tool *t, const struct rc_grid *contact, size_t wrong)
+{
     if (wrong > 0)
         tool_refuse(t, contact,
                     "%zu of %zu values are neither 0 nor 1: a frame contact is 1 where the bodies "
@@ -53,19 +64,19 @@ demand_states(struct tool *t, const struct rc_grid *contact)
                     wrong, contact->nx * contact->ny);
 }
 
-static const struct rc_grid *
-find(struct tool *t, const struct rc_grid *p, const struct rc_grid *contact, bool demanded)
+const struct rc_grid *
+contact_counted(struct tool *t, const struct rc_grid *p, const struct rc_grid *contact,
+                bool demanded, size_t wrong, double negative)
 {
     const char *where = tool_where(t, p);
-    double negative;
 
     if (contact != NULL) {
         if (p != NULL)
             tool_demand_grid_of(t, contact, p);
-        demand_states(t, contact);
+        demand_states(t, contact, wrong);
         return contact;
     }
-    if (p == NULL || (negative = count_negative(t, p)) == 0)
+    if (p == NULL || negative == 0)
         return p;
     if (is_net(p, negative) && demanded)
         tool_refuse(t, p,
@@ -84,6 +95,13 @@ find(struct tool *t, const struct rc_grid *p, const struct rc_grid *contact, boo
               "count as contact; with adhesion a frame contact is needed",
               where, negative, p->nx * p->ny);
     return p;
+}
+
+static const struct rc_grid *
+find(struct tool *t, const struct rc_grid *p, const struct rc_grid *contact, bool demanded)
+{
+    return contact_counted(t, p, contact, demanded, contact == NULL ? 0 : count_wrong(t, contact),
+                           contact != NULL || p == NULL ? 0 : count_negative(t, p));
 }
 
 const struct rc_grid *

@@ -22,6 +22,14 @@ const struct rc_grid *contact_frame(struct tool *tool, const struct rc_grid *p,
 const struct rc_grid *contact_demand(struct tool *tool, const struct rc_grid *p,
                                      const struct rc_grid *contact);
 
+/* The same two for frames that are not in memory: `wrong` values of `contact` are neither 0 nor 1, and
+ * `negative` values of p are negative (contact_negative). */
+const struct rc_grid *contact_counted(struct tool *tool, const struct rc_grid *p,
+                                      const struct rc_grid *contact, bool demanded, size_t wrong,
+                                      double negative);
+/* True for a value that is negative by more than rounding beside the largest one, `most`, at least 0. */
+bool contact_negative(double v, double most);
+
 /* ---- the boundary ---- */
 
 /* The options --periodic and --datum. */

@@ -3,10 +3,12 @@
  * nodes nor a large constant costs digits. Several values are processed together, each in its own sum and
  * without branches, so that only memory limits the speed. */
 #include "libcontact/common.h"
+#include "libcontact/memory.h"
 #include "libcontact/ranks/ranks.h"
 
 #include <float.h>
 #include <math.h>
+#include <string.h>
 
 #include "measure.h"
 
@@ -148,15 +150,12 @@ take_all_about(struct second *restrict to, const double *restrict v, size_t n, d
 }
 
 static double
-rms_about(const double *v, size_t n, double mean, double nodes)
+rms_of(const struct second *s, double nodes)
 {
-    struct second s = {0};
-    double left, square;
-
-    take_all_about(&s, v, n, mean);
     /* the mean is rounded itself: corrects for its error */
-    left = value(&s.rest) / nodes;
-    square = value(&s.squares) / nodes - left * left;
+    const double left = value(&s->rest) / nodes;
+    const double square = value(&s->squares) / nodes - left * left;
+
     return square <= 0 ? 0 : sqrt(square); /* NaN, from an overflow of the squares, stays NaN */
 }
 
@@ -208,36 +207,126 @@ const struct rc_figure rc_figures_statistics[] = {
 };
 /* clang-format on */
 
-void
-rc_measure(const struct rc_shape *shape, const double *v, struct rc_statistics *result)
+/* The figures of a map in two passes over its rows. */
+struct passes {
+    const struct rc_shape *shape;
+    struct rc_first first;
+    struct slope slope;
+    struct second second;
+};
+
+/* The slopes of a row; another row follows it unless the map has only one. */
+static void
+take_slopes_of(struct passes *p, const double *row)
 {
-    size_t nx = shape->nx, ny = shape->ny;
-    size_t right = nx > 1 ? 1 : 0, below = ny > 1 ? nx : 0;
-    const double per[2] = {1 / shape->dx, 1 / shape->dy};
-    struct rc_first f;
-    struct slope slope = {0};
-    double nodes;
+    const size_t nx = p->shape->nx, right = nx > 1 ? 1 : 0, below = p->shape->ny > 1 ? nx : 0;
+    const double per[2] = {1 / p->shape->dx, 1 / p->shape->dy};
+
+    take_slopes(&p->slope, row, row + right, row + below, nx - right, per);
+}
+
+/* All but the second moment. */
+static void
+end_first(const struct passes *p, struct rc_statistics *result)
+{
+    const size_t all = p->shape->nx * p->shape->ny;
+    const double nodes = count(p->first.there);
 
     *result = (struct rc_statistics){
         .minimum = NAN, .maximum = NAN, .mean = NAN, .rms = NAN, .rms_slope = NAN};
-    rc_first_begin(&f);
-    for (size_t j = 0; j < ny; j++) {
-        const double *row = v + j * nx;
-        take_row(&f, row, nx);
-        if (j + 1 < ny || below == 0)
-            take_slopes(&slope, row, row + right, row + below, nx - right, per);
-    }
-    nodes = count(f.there);
-    result->missing = (size_t)count(f.missing);
-    result->infinite = nx * ny - (size_t)nodes - result->missing;
-    result->sum = value(&f.sum);
+    result->missing = (size_t)count(p->first.missing);
+    result->infinite = all - (size_t)nodes - result->missing;
+    result->sum = value(&p->first.sum);
     if (nodes == 0)
         return;
-    extremes(&f, &result->minimum, &result->maximum);
-    result->rms = rms_about(v, nx * ny, result->sum / nodes, nodes);
-    result->mean = rc_first_mean(&f);
-    if (right + below > 0 && count(slope.there) > 0)
-        result->rms_slope = sqrt(value(&slope.squares) / count(slope.there));
+    extremes(&p->first, &result->minimum, &result->maximum);
+    result->mean = rc_first_mean(&p->first);
+    if (all > 1 && count(p->slope.there) > 0)
+        result->rms_slope = sqrt(value(&p->slope.squares) / count(p->slope.there));
+}
+
+void
+rc_measure(const struct rc_shape *shape, const double *v, struct rc_statistics *result)
+{
+    struct passes p = {.shape = shape};
+    double nodes;
+
+    rc_first_begin(&p.first);
+    for (size_t j = 0; j < shape->ny; j++) {
+        take_row(&p.first, v + j * shape->nx, shape->nx);
+        if (j + 1 < shape->ny || shape->ny == 1)
+            take_slopes_of(&p, v + j * shape->nx);
+    }
+    end_first(&p, result);
+    if ((nodes = count(p.first.there)) == 0)
+        return;
+    take_all_about(&p.second, v, shape->nx * shape->ny, result->sum / nodes);
+    result->rms = rms_of(&p.second, nodes);
+}
+
+enum {
+    TOGETHER = 1 << 16 /* values that are read together */
+};
+
+/* Rows that are read together: a multiple of RC_LANES, so that a value of the second pass has the lane that
+ * it has in a map in memory. */
+static size_t
+rows_together(const struct rc_shape *shape)
+{
+    const size_t n =
+        (shape->nx < TOGETHER / RC_LANES ? TOGETHER / RC_LANES / shape->nx : 1) * RC_LANES;
+
+    return n < shape->ny ? n : shape->ny;
+}
+
+/* One pass over the source. Of a map of several rows room has one more: the last row of the piece before. */
+static enum rc_status
+pass(struct passes *p, const struct rc_row_source *from, double mean, bool second, double *room,
+     struct rc_err *err)
+{
+    const size_t nx = p->shape->nx, ny = p->shape->ny, together = rows_together(p->shape);
+    double *v = room + (ny > 1 ? nx : 0);
+
+    if (from->again(from->ctx, err) != RC_OK)
+        return RC_FAIL;
+    for (size_t n, j = 0; j < ny; j += n) {
+        n = together < ny - j ? together : ny - j;
+        if (from->get(from->ctx, n, v, err) != RC_OK)
+            return RC_FAIL;
+        if (second)
+            take_all_about(&p->second, v, n * nx, mean);
+        for (size_t k = 0; k < n && !second; k++) {
+            take_row(&p->first, v + k * nx, nx);
+            if (j + k > 0 || ny == 1)
+                take_slopes_of(p, ny == 1 ? v : v + k * nx - nx);
+        }
+        if (ny > 1)
+            memcpy(room, v + (n - 1) * nx, nx * sizeof *room);
+    }
+    return RC_OK;
+}
+
+enum rc_status
+rc_measure_source(const struct rc_shape *shape, const struct rc_row_source *from,
+                  struct rc_statistics *result, struct rc_err *err)
+{
+    struct passes p = {.shape = shape};
+    RC_OWNED double *room =
+        rc_alloc((rows_together(shape) + (shape->ny > 1)) * shape->nx, sizeof *room);
+    double nodes;
+
+    if (room == NULL)
+        return rc_err_set(err, "out of memory for rows of %zu nodes", shape->nx);
+    rc_first_begin(&p.first);
+    if (pass(&p, from, 0, false, room, err) != RC_OK)
+        return RC_FAIL;
+    end_first(&p, result);
+    if ((nodes = count(p.first.there)) == 0)
+        return RC_OK;
+    if (pass(&p, from, result->sum / nodes, true, room, err) != RC_OK)
+        return RC_FAIL;
+    result->rms = rms_of(&p.second, nodes);
+    return RC_OK;
 }
 
 /* ---- slopes in contact, and steps across the period ---- */
