@@ -258,7 +258,7 @@ set_contact(struct rc_heat *h, const double *q, const double *contact, struct rc
     return RC_OK;
 }
 
-/* Moves rows of `bytes` from the ranks that have them to rank r, rows to[r] .. to[r + 1] - 1; NULL: all. */
+/* Moves rows of `bytes` from their owners: rank r gets rows to[r] .. to[r + 1] - 1; NULL: all of them. */
 static void
 move_rows(const struct rc_heat *h, size_t bytes, const size_t *to, const void *v, void *w)
 {
@@ -752,9 +752,8 @@ judge(struct rc_heat *h)
     const struct rc_ranks *ranks = h->rows.ranks;
     struct rc_heat_figures *f = &h->figures;
     struct rc_total total[2] = {{0}};
-    double sum[2],
-        own = -INFINITY,
-        most[4] = {highest(h->node, h->n, h->rise[0]), highest(h->node, h->n, h->rise[1])};
+    double most[4] = {highest(h->node, h->n, h->rise[0]), highest(h->node, h->n, h->rise[1])};
+    double sum[2], own = -INFINITY;
     size_t hottest = 0;
 
     for (size_t i = 0; i < h->n; i++) {
