@@ -718,8 +718,8 @@ nodes_along(struct rc_heat *h, size_t k, enum rc_map_axis axis)
     return before + after + 1;
 }
 
-/* Nodes in contact in a row through node k of the whole map, along the faster direction of the body that moves
- * faster. A row that joins itself has no trailing edge; the row along the other axis then counts. */
+/* Nodes in contact in a row through node k of the whole map, along the faster direction of the body that
+ * moves faster. A row that joins itself has no trailing edge; the row along the other axis then counts. */
 static size_t
 row_of_nodes(struct rc_heat *h, size_t k)
 {

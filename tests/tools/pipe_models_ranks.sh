@@ -93,8 +93,8 @@ refuses 1 'need about .* --memory allows' "    too little memory" "$MPIRUN -n 2 
 claim "      the message is printed once" test "$(grep -c 'need about' refuses.err)" = 1
 claim "  loads of a contact that stays, periodic" same "$fatigue --depths 20um pressed.rcg loads.rcg"
 
-# The ball touches on one process only. Where nx is even, the last column of a spectrum has waves of two nodes. A line
-# contact goes around a map that repeats along one axis.
+# The ball touches on one process only. Where nx is even, the last column of a spectrum has waves of two nodes. A
+# line contact goes around a map that repeats along one axis.
 rc-solve --periodic --estar 1GPa --mean-pressure 2MPa --quiet -o pressed-even.rcg even.rcg
 bodies="--conductivity 45W/mK,16W/mK --diffusivity 12mm2/s,4mm2/s --tol 0.1 --quiet"
 heat="rc-heat --mu 0.3 $bodies"
