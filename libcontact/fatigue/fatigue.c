@@ -903,7 +903,9 @@ unknown_of_loads(const struct rc_fatigue *f, size_t point)
     return most;
 }
 
-/* The largest value that may be near a point: between the states of its history, and between the points. */
+/* The largest value that may be near a point: between the states of its history, and between the point and the
+ * next ones, of which a kink of the values may make a lower one the nearer. The values in the half of the way
+ * that is nearer to the point show how much they vary. */
 static double
 largest_near(struct rc_fatigue *f, const struct rc_fatigue_rule *rule, int c, size_t point)
 {
@@ -916,14 +918,15 @@ largest_near(struct rc_fatigue *f, const struct rc_fatigue_rule *rule, int c, si
     most = fabs(high - value);
     for (int axis = 0; axis < 2; axis++) {
         const struct line line = line_through(f, point, axis == 0 ? RC_X : RC_Y);
-        for (int k = -PARTS / 2; k <= PARTS / 2 && line.samples.n > 1; k++) {
+        for (int k = 1 - PARTS; k < PARTS && line.samples.n > 1; k++) {
             double v;
             if (k == 0 ||
                 (!line.samples.wraps && (k < 0 ? line.at == 0 : line.at + 1 == line.samples.n)))
                 continue;
             take_beside(f, &line, k / (double)PARTS, f->beside);
             v = value_between(f, rule, c, f->beside, NULL);
-            low = fmin(low, v);
+            if (2 * abs(k) <= PARTS)
+                low = fmin(low, v);
             high = fmax(high, v);
         }
     }

@@ -216,48 +216,57 @@ by_size(const void *a, const void *b)
     return (*(const double *)a > *(const double *)b) - (*(const double *)a < *(const double *)b);
 }
 
+/* The largest values of a random map at each depth beside those of the finer one. */
 static void
-sampling(void **state)
+compare_map(size_t seed)
 {
     static double fine[FINE * FINE], values[RC_CRITERIA + 1][FINE];
     static struct map m;
+    const unsigned planes = seed % 4 == 0 ? 1U << RC_FINDLEY | 1U << RC_PAPADOPOULOS : 0;
+    const unsigned wanted =
+        1U << RC_CROSSLAND | 1U << RC_DANG_VAN | 1U << RC_SHAKEDOWN | 1U << RC_AMPLITUDE | planes;
+    const double *one[] = {m.p}, *many[] = {fine};
     double *out[RC_FATIGUES] = {NULL}, *none[RC_FATIGUES] = {NULL};
-    (void)state;
+    struct rc_shape divided;
+    struct rc_fatigue *few, *all;
+    struct rc_err err = {""};
+    size_t lines;
 
     for (size_t c = 0; c <= RC_CRITERIA; c++)
         out[c] = values[c];
-    for (size_t seed = first; seed < first + count; seed++) {
-        const unsigned planes = seed % 4 == 0 ? 1U << RC_FINDLEY | 1U << RC_PAPADOPOULOS : 0;
-        const unsigned wanted = 1U << RC_CROSSLAND | 1U << RC_DANG_VAN | 1U << RC_SHAKEDOWN |
-                                1U << RC_AMPLITUDE | planes;
-        const double *one[] = {m.p}, *many[] = {fine};
-        struct rc_shape divided;
-        struct rc_fatigue *few, *all;
-        struct rc_err err = {""};
-        size_t lines;
-        srand48((long)seed);
-        random_map(seed, &m);
-        divided = divide_map(&m, fine);
-        lines = m.pass == 'y' ? divided.nx : divided.ny;
-        few = plan(&m, &m.shape, one, 1, NULL, wanted);
-        all = plan(&m, &divided, many, 1, NULL, wanted);
-        for (size_t k = 0; k < DEPTHS; k++) {
-            double truth[RC_CRITERIA + 1];
-            assert_int_equal(rc_fatigue_depth(few, depth[k], &limits, NULL, none, &err), RC_OK);
-            assert_int_equal(rc_fatigue_depth(all, depth[k], &limits, NULL, out, &err), RC_OK);
-            for (size_t c = 0; c <= RC_CRITERIA; c++) {
-                truth[c] = -INFINITY;
-                for (size_t j = 0; wanted >> c & 1 && j < lines; j++)
-                    if (m.shape.ny > 1 || j == PARTS / 2) /* a strip has one line of points */
-                        truth[c] = fmax(truth[c], values[c][j]);
-            }
-            compare(seed, &m, m.pass == 'y' ? "pass y" : "pass x", depth[k], few, truth, all);
-            if (k == seed % DEPTHS && m.pass == 'x' && m.kind != 0)
-                compare_positions(seed, &m, depth[k], truth, all);
+    srand48((long)seed);
+    random_map(seed, &m);
+    divided = divide_map(&m, fine);
+    lines = m.pass == 'y' ? divided.nx : divided.ny;
+    few = plan(&m, &m.shape, one, 1, NULL, wanted);
+    all = plan(&m, &divided, many, 1, NULL, wanted);
+    for (size_t k = 0; k < DEPTHS; k++) {
+        double truth[RC_CRITERIA + 1];
+        assert_int_equal(rc_fatigue_depth(few, depth[k], &limits, NULL, none, &err), RC_OK);
+        assert_int_equal(rc_fatigue_depth(all, depth[k], &limits, NULL, out, &err), RC_OK);
+        for (size_t c = 0; c <= RC_CRITERIA; c++) {
+            truth[c] = -INFINITY;
+            for (size_t j = 0; wanted >> c & 1 && j < lines; j++)
+                if (m.shape.ny > 1 || j == PARTS / 2) /* a strip has one line of points */
+                    truth[c] = fmax(truth[c], values[c][j]);
         }
-        rc_fatigue_free(few);
-        rc_fatigue_free(all);
+        compare(seed, &m, m.pass == 'y' ? "pass y" : "pass x", depth[k], few, truth, all);
+        if (k == seed % DEPTHS && m.pass == 'x' && m.kind != 0)
+            compare_positions(seed, &m, depth[k], truth, all);
     }
+    rc_fatigue_free(few);
+    rc_fatigue_free(all);
+}
+
+static void
+sampling(void **state)
+{
+    (void)state;
+    /* Dang Van's index has a kink here, nearer to a line with a lower value than to that with the largest one */
+    if (first == 1)
+        compare_map(9336);
+    for (size_t seed = first; seed < first + count; seed++)
+        compare_map(seed);
     qsort(ratio, ratios, sizeof *ratio, by_size);
     printf("%zu estimates, %zu below the error; the least is %.3f of it, the median %.2f, 90 %% "
            "%.1f\n",
