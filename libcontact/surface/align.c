@@ -33,7 +33,8 @@ enum {
     SMALLEST = 16,   /* nodes of a side                                            */
     COARSE = 96,     /* most nodes of a side of the maps that are correlated       */
     TURNS = 12,      /* steps of rotation on either side                           */
-    STARTS = 4,      /* correlation peaks that are tried                           */
+    PEAKS = 6,       /* of each correlation, by phases and by heights: starts      */
+    FIRST_PEAKS = 2, /* the others are tried if these give two maps that differ    */
     ROUNDS = 40,     /* of weights                                                 */
     POINTS = 1 << 20 /* most nodes of a fit                                        */
 };
@@ -415,6 +416,11 @@ struct start {
     double score, shift[2], turn;
 };
 
+/* From the highest peak on. */
+struct starts {
+    struct start of_phases[PEAKS], of_heights[PEAKS];
+};
+
 /* A map for the correlation: levelled, with 0 in its holes and towards its edges. */
 static enum rc_status
 flatten(const struct rc_shape *shape, double *h, struct rc_err *err)
@@ -441,7 +447,7 @@ struct search {
     struct rc_shape a, b, pad; /* coarse maps, and the grid of the transforms */
     double *v;
     double complex *sa, *sb, *s;
-    struct start best[STARTS]; /* first half: by phases, second half: by heights */
+    struct starts best;
 };
 
 static void
@@ -456,7 +462,7 @@ put(const struct search *w, const struct rc_shape *shape, const double *h)
 static void
 keep(struct start *best, struct start now)
 {
-    for (size_t k = 0; k < STARTS / 2; k++)
+    for (size_t k = 0; k < PEAKS; k++)
         if (now.score > best[k].score) {
             const struct start next = best[k];
             best[k] = now;
@@ -513,14 +519,14 @@ correlate(struct search *w, const struct spline *b, double *room, double turn, s
         }
         if (rc_fourier_backward(&w->pad, w->s, w->v, err) != RC_OK)
             return RC_FAIL;
-        find_peak(w, turn, w->best + (heights ? STARTS / 2 : 0));
+        find_peak(w, turn, heights ? w->best.of_heights : w->best.of_phases);
     }
     return RC_OK;
 }
 
 static enum rc_status
 find_starts(const struct rc_shape *a, const double *ha, const struct rc_shape *b, const double *hb,
-            struct start best[STARTS], struct rc_err *err)
+            struct starts *best, struct rc_err *err)
 {
     RC_ENDS(rc_store_free) struct rc_store own = {0};
     RC_ENDS(spline_free) struct spline spline = {0};
@@ -548,7 +554,7 @@ find_starts(const struct rc_shape *a, const double *ha, const struct rc_shape *b
         if ((a->ny > 1 || k == 0) &&
             correlate(&w, &spline, room, widest_turn * k / TURNS, err) != RC_OK)
             return RC_FAIL;
-    memcpy(best, w.best, sizeof w.best);
+    *best = w.best;
     return RC_OK;
 }
 
@@ -569,23 +575,22 @@ coarsened(const struct rc_shape *from, const double *h, size_t factor, struct rc
     return v;
 }
 
-static const char apart[] = "the two maps do not fit on each other: are they scans of one surface, "
-                            "turned by less than 12 degrees?";
-
-/* Fits all starts on a coarse map; the least spread wins. */
+/* Fits the first starts or the others on a coarse map; the least spread wins. NAN: none fits. */
 static enum rc_status
-try_starts(struct fit *f, const struct start start[STARTS], struct rc_err *err)
+try_starts(struct fit *f, const struct starts *starts, bool others, struct rc_err *err)
 {
-    double q[NUMBERS] = {0}, least = INFINITY;
+    const size_t from = others ? FIRST_PEAKS : 0, to = others ? PEAKS : FIRST_PEAKS;
+    double q[NUMBERS] = {NAN}, least = INFINITY;
 
-    for (int k = 0; k < STARTS; k++) {
+    for (size_t k = 2 * from; k < 2 * to; k++) {
+        const struct start *start = (k % 2 == 0 ? starts->of_phases : starts->of_heights) + k / 2;
         size_t count;
-        if (!(start[k].score > 0))
+        if (!(start->score > 0))
             continue;
         memset(f->q, 0, sizeof f->q);
-        f->q[0] = start[k].shift[0];
-        f->q[1] = start[k].shift[1];
-        f->q[2] = start[k].turn;
+        f->q[0] = start->shift[0];
+        f->q[1] = start->shift[1];
+        f->q[2] = start->turn;
         f->fresh = true;
         if (fit_solve(f, err) != RC_OK)
             return RC_FAIL;
@@ -597,20 +602,20 @@ try_starts(struct fit *f, const struct start start[STARTS], struct rc_err *err)
     }
     f->fresh = false;
     memcpy(f->q, q, sizeof q);
-    return least < INFINITY ? RC_OK : rc_err_set(err, "%s", apart);
+    return RC_OK;
 }
 
-/* Improves q on maps with 1/factor of the nodes; a NAN: there is no q yet. */
+/* Improves q on maps with 1/factor of the nodes; a NAN: there is no q yet, and starts are tried. */
 static enum rc_status
 solve_level(const struct rc_shape *a, const double *ha, const struct rc_shape *b, const double *hb,
-            size_t factor, int threads, double q[NUMBERS], struct rc_err *err)
+            size_t factor, int threads, bool others, double q[NUMBERS], struct rc_err *err)
 {
     struct rc_shape sa, sb;
     RC_OWNED double *va = coarsened(a, ha, factor, &sa);
     RC_OWNED double *vb = coarsened(b, hb, factor, &sb);
     RC_ENDS(spline_free) struct spline spline = {0};
     RC_ENDS(fit_free) struct fit f = {0};
-    struct start start[STARTS] = {{0}};
+    struct starts starts;
     const bool first = isnan(q[0]);
 
     if (va == NULL || vb == NULL)
@@ -619,8 +624,8 @@ solve_level(const struct rc_shape *a, const double *ha, const struct rc_shape *b
         fit_new(&sa, va, &spline, threads, &f, err) != RC_OK)
         return RC_FAIL;
     if (first) {
-        if (find_starts(&sa, va, &sb, vb, start, err) != RC_OK ||
-            try_starts(&f, start, err) != RC_OK)
+        if (find_starts(&sa, va, &sb, vb, &starts, err) != RC_OK ||
+            try_starts(&f, &starts, others, err) != RC_OK)
             return RC_FAIL;
     } else {
         memcpy(f.q, q, sizeof f.q);
@@ -889,9 +894,22 @@ find_likeness(const struct fit *f, const double *change, double *room, double *r
     return RC_OK;
 }
 
+static const char apart[] = "the two maps do not fit on each other: are they scans of one surface, "
+                            "turned by less than 12 degrees?";
+
 static enum rc_status
-align(const struct rc_shape *a, const double *ha, const struct rc_shape *b, const double *hb,
-      int threads, double *out, struct rc_alignment *found, struct rc_err *err)
+do_not_fit(double *likeness, struct rc_err *err)
+{
+    *likeness = INFINITY;
+    return rc_err_set(err, "%s", apart);
+}
+
+/* From the first starts or the others. *likeness: see find_likeness; INFINITY: the maps
+ * do not fit, 0: not known. */
+static enum rc_status
+align_from(const struct rc_shape *a, const double *ha, const struct rc_shape *b, const double *hb,
+           int threads, bool others, double *out, struct rc_alignment *found, double *likeness,
+           struct rc_err *err)
 {
     const size_t n = a->nx * a->ny;
     size_t side = a->nx, factor = 1;
@@ -902,17 +920,21 @@ align(const struct rc_shape *a, const double *ha, const struct rc_shape *b, cons
     RC_OWNED double *room = rc_alloc(3 * n, sizeof *room);
     double q[NUMBERS] = {NAN};
     struct rc_statistics sum;
-    double ratio, pull;
+    double pull;
 
+    *likeness = 0;
     if (skip == NULL || mean == NULL || room == NULL)
         return rc_err_set(err, "out of memory for the alignment of %zu heights", n);
     for (size_t k = 0; k < 3; k++)
         side = (size_t)fmax((double)side, (double)(k == 0 ? a->ny : k == 1 ? b->nx : b->ny));
     while (side > factor * COARSE)
         factor *= 2;
-    for (; factor > 1 || isnan(q[0]); factor = factor > 1 ? factor / 2 : 1)
-        if (solve_level(a, ha, b, hb, factor, threads, q, err) != RC_OK)
+    for (; factor > 1 || isnan(q[0]); factor = factor > 1 ? factor / 2 : 1) {
+        if (solve_level(a, ha, b, hb, factor, threads, others, q, err) != RC_OK)
             return RC_FAIL;
+        if (isnan(q[0]))
+            return do_not_fit(likeness, err);
+    }
     if (spline_new(b, hb, &spline, err) != RC_OK ||
         fit_new(a, ha, &spline, threads, &f, err) != RC_OK)
         return RC_FAIL;
@@ -926,14 +948,15 @@ align(const struct rc_shape *a, const double *ha, const struct rc_shape *b, cons
             break;
     }
     if (find_spread(&f) <= f.numbers)
-        return rc_err_set(err, "%s", apart);
+        return do_not_fit(likeness, err);
     pull = take_pull(&f);
     find_spread(&f);
     find_change(&f, out);
-    if (find_likeness(&f, out, room, &ratio, err) != RC_OK)
+    if (find_likeness(&f, out, room, likeness, err) != RC_OK)
         return RC_FAIL;
-    if (ratio > unlike)
-        return rc_err_set(err, "%s (they differ by %.0f %% of the heights)", apart, 100 * ratio);
+    if (*likeness > unlike)
+        return rc_err_set(err, "%s (they differ by %.0f %% of the heights)", apart,
+                          100 * *likeness);
     *found = (struct rc_alignment){.shift_x = f.q[0],
                                    .shift_y = f.q[1],
                                    .rotation = f.q[2],
@@ -970,6 +993,7 @@ rc_align(const struct rc_shape *a, const double *ha, const struct rc_shape *b, c
     const int team = rc_useful_threads(a, threads);
     struct rc_shape both;
     enum rc_status status;
+    double likeness;
 
     if (rc_add_shape(a, b, &both, err) != RC_OK || check(a, ha, "A", err) != RC_OK ||
         check(b, hb, "B", err) != RC_OK)
@@ -977,7 +1001,9 @@ rc_align(const struct rc_shape *a, const double *ha, const struct rc_shape *b, c
     if ((a->ny == 1) != (b->ny == 1))
         return rc_err_set(err, "one is a profile and the other a map: they cannot be aligned");
     rc_handler_begin();
-    status = align(a, ha, b, hb, team, out, found, err);
+    status = align_from(a, ha, b, hb, team, false, out, found, &likeness, err);
+    if (status != RC_OK && likeness > unlike)
+        status = align_from(a, ha, b, hb, team, true, out, found, &likeness, err);
     rc_handler_end();
     return status;
 }
