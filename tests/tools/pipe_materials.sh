@@ -64,6 +64,11 @@ rc-scene --load 0.5N --body1 100Cr6 --body2 6061-T6 --mu 0.1 --speed 1m/s --repo
 claim "rc-scene: the softer body's hardness, and heat of both" bash -c \
     'grep -q "hardness 107HV (6061-T6)" scene.json && grep -q "conductivity 46.6W/mK,167W/mK (both bodies)" scene.json'
 
+claim "  a material without a conductivity: the heat is missing, with its options" says \
+    'frictional heat \(--mu --speed --conductivity --diffusivity\)' rc-scene --quiet --load 0.5N --body1 cast-iron --body2 steel ball.rcg
+claim "  with data of friction only the conductivity and the diffusivity are" says 'frictional heat \(--conductivity --diffusivity\)' \
+    rc-scene --quiet --load 0.5N --body1 cast-iron --body2 steel --mu 0.1 --speed 1m/s ball.rcg
+
 # ---- a table of the user ----
 
 claim "  no hardness if the softer body may be the one without" bash -c \

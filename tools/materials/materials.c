@@ -357,6 +357,16 @@ tell(struct tool *t, const char *format, ...)
     t->materials = asked.told = text;
 }
 
+/* True for an option that the tool cannot do without. */
+static bool
+is_demanded(const struct tool *t, const char *name)
+{
+    for (size_t k = 0; k < t->option.n; k++)
+        if (t->option.row[k].name != NULL && strcmp(t->option.row[k].name, name) == 0)
+            return t->option.row[k].one_of != NULL;
+    return false;
+}
+
 /* "K1,K2" of both bodies; NULL if one is unknown. */
 static const char *
 of_both(struct tool *t, enum material_property p, const char *one, const char *two)
@@ -380,8 +390,8 @@ fill(struct tool *t, const struct fill *f, const struct material *const m[BODIES
     const bool unknown =
         f->of == SOFTER && ((m[0] != NULL && one == NULL) || (m[1] != NULL && two == NULL));
 
-    if (f->of == BOTH && f->property == MATERIAL_CONDUCTIVITY && text == NULL && m[0] != NULL &&
-        m[1] != NULL && !tool_given(t, f->option))
+    if (f->of == BOTH && text == NULL && m[0] != NULL && m[1] != NULL &&
+        is_demanded(t, f->option) && !tool_given(t, f->option))
         tool_usage(
             t,
             "the table has no %s of %s: give --%s K1,K2 with the values of both bodies, as in "
