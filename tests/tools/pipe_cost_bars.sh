@@ -198,6 +198,16 @@ interrupted() {
 }
 claim "SIGINT ends the study within half a second and leaves no file" interrupted
 
+# ---- an option whose value is optional ----
+
+rc-pick --crop 0,0,32,32 true.rcg -o small.rcg
+rolls() { rc-cost --quiet --noise 1nm --repeats 2 small.rcg -- rc-solve --load 5kN/m --cylinder 1mm --estar 100GPa "$@" | grep -v '^# command'; }
+rolls --periodic=y >joined.txt
+claim "--periodic y is --periodic=y" bash -c "grep -q '^max_pressure .* Pa ' joined.txt && cmp joined.txt - <<<'$(rolls --periodic y)'"
+claim "  --periodic before another option has no value" says '^max_pressure' \
+    rc-cost --quiet --noise 1nm --repeats 2 small.rcg -- rc-solve --periodic --mean-pressure 20MPa --estar 100GPa
+refuses 2 'leave out z' "  and z is no value of it" "rc-cost --noise 1nm small.rcg -- rc-solve --load 1N --estar 100GPa --periodic z"
+
 # ---- the picture of the bars ----
 
 claim "--plot draws the bars" rc-cost --quiet --noise 2nm --resolution --plot bars.svg --report drawn.json -o drawn.txt true.rcg -- rc-solve --periodic --mean-pressure 20MPa,50MPa --estar 100GPa

@@ -100,6 +100,25 @@ takes_argument(const char *option)
            json_real(json_member(option, "optional")) != 1;
 }
 
+/* True if this word is the argument of an option that may have none, as for the programs themselves: one of
+ * its words, a number, or for a text no option. */
+static bool
+is_argument(const char *option, const char *word)
+{
+    const char *const words = json_first(json_member(option, "words"));
+    char *end;
+
+    if (json_real(json_member(option, "optional")) != 1)
+        return false;
+    for (const char *w = words; w != NULL; w = json_next(w))
+        if (json_is(w, word))
+            return true;
+    if (words == NULL && json_is(json_member(option, "type"), "text"))
+        return *word != '-';
+    (void)strtod(word, &end);
+    return words == NULL && end != word;
+}
+
 /* The option of word k, and the number of words that it takes; NULL: an operand or an unknown option. */
 static const char *
 option_at(const struct cost_program *p, const char *const word[], size_t words, size_t k,
@@ -112,9 +131,8 @@ option_at(const struct cost_program *p, const char *const word[], size_t words, 
     if (w[0] != '-' || w[1] == '\0')
         return NULL;
     o = w[1] == '-' ? option_of(p, w + 2, n - 2, false) : option_of(p, w + 1, 1, true);
-    if (o != NULL && w[1] == '-' && w[n] == '\0' && takes_argument(o) && k + 1 < words)
-        *takes = 2;
-    if (o != NULL && w[1] != '-' && w[2] == '\0' && takes_argument(o) && k + 1 < words)
+    if (o != NULL && w[w[1] == '-' ? n : 2] == '\0' && k + 1 < words &&
+        (takes_argument(o) || is_argument(o, word[k + 1])))
         *takes = 2;
     return o;
 }
