@@ -138,8 +138,8 @@ claim "a table of a relaxation modulus is found from the folder of the page" tes
 claim "  its name stands as it was given" bash -c 'grep -q -e "--relaxation table.csv" of-table.html && ! grep -q "$PWD/table.csv" of-table.html'
 claim "  other effects are those before creep" says 'of other effects are those of the contact before creep' said of-table.html
 claim "the first paragraph comes first" test "$(grep -n -m 1 'id="verdict"' creep.html | cut -d : -f 1)" -lt "$(grep -n -m 1 '<h2>' creep.html | cut -d : -f 1)"
-rc-pick --set form= wide.rcg -o bump.rcg
-rc-report --quiet --load 400N --radius 3mm --E1 210GPa --nu1 0.3 --E2 rigid --yield 0.5GPa --travel=-20um,20um --passes 1 -o short.html bump.rcg
+rc-synth wave --amplitude 1e-15 --wavelength 320um --nx 8 --dx 40um -o coarse.rcg
+rc-report --quiet --load 20N --radius 3mm --E1 210GPa --nu1 0.3 --E2 rigid --yield 0.5GPa --travel=0,40um --passes 1 -o short.html coarse.rcg
 claim "an effect short of its accuracy is named" says 'the requested accuracy was not reached under Travel' said short.html
 rc-synth selfaffine --nx 64 --dx 5um --hurst 0.8 --rms-height 20nm --rolloff 100um --short-cut 30um --seed 5 -o fine.rcg
 rc-report --quiet --load 20N --radius 10mm --E1 210GPa --nu1 0.3 --E2 210GPa --nu2 0.3 --mu 0.05 --speed 2m/s --viscosity 0.1Pas --pressure-viscosity 20/GPa -o film.html fine.rcg
