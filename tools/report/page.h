@@ -116,7 +116,11 @@ char *page_end_cell(char *cell);
 /* Finds the cell of a column in the last row of a table, and its unit. */
 bool page_last_cell(struct page *run, const char *file, const char *column, char text[PAGE_CELL],
                     char unit[PAGE_CELL]);
-/* The same as a number; NAN: none. */
+/* Finds the cell of a column in the first row whose cells have these texts: pairs of a column and a text, the
+ * last one of NULL. */
+bool page_cell(struct page *run, const char *file, const char *column, const char *const where[][2],
+               char text[PAGE_CELL]);
+/* page_last_cell as a number; NAN: none. */
 double page_last_number(struct page *run, const char *file, const char *column);
 /* Writes it with its unit. */
 void page_last(struct page *run, const char *file, const char *column);

@@ -24,18 +24,25 @@ page_text(FILE *out, const char *text)
     }
 }
 
+/* True for the file of a command that failed. */
+static bool
+is_empty(FILE *in)
+{
+    const int first = getc(in);
+
+    return first == EOF || ungetc(first, in) == EOF;
+}
+
 void
 page_show_picture(struct page *run, FILE *in, const char *caption, const char *unused)
 {
     FILE *out = run->page.file;
     unsigned char bytes[3];
     char four[5];
-    const int first = getc(in);
 
     (void)unused;
-    if (first == EOF) /* of an effect that was not computed */
+    if (is_empty(in)) /* of an effect that was not computed */
         return;
-    (void)ungetc(first, in);
     fprintf(out, "<figure><img alt=\"%s\" src=\"data:image/png;base64,", caption);
     for (size_t n; (n = fread(bytes, 1, sizeof bytes, in)) > 0;)
         fputs(rc_base64(four, bytes, n), out);
@@ -131,6 +138,46 @@ page_last_cell(struct page *run, const char *file, const char *column, char text
     return at != SIZE_MAX && *text != '\0';
 }
 
+bool
+page_cell(struct page *run, const char *file, const char *column, const char *const where[][2],
+          char text[PAGE_CELL])
+{
+    FILE *in = page_open(run, file);
+    RC_OWNED char *line = NULL;
+    char *head[PAGE_WORDS] = {NULL};
+    RC_OWNED char *names = NULL;
+    size_t room = 0;
+    bool found = false;
+
+    for (size_t row = 0; !found && getline(&line, &room, in) > 0; row++) {
+        char *cell = row == 0 ? (names = strdup(line)) : line, *rest;
+        size_t conditions = 0, met = 0;
+        bool has = false;
+
+        if (cell == NULL)
+            tool_die(&run->t, "out of memory");
+        for (size_t k = 0; k < PAGE_WORDS && *cell != '\0'; k++, cell = rest) {
+            rest = page_end_cell(cell);
+            if (row == 0) {
+                head[k] = cell;
+                cell[strcspn(cell, "/")] = '\0';
+                continue;
+            }
+            for (size_t i = 0; head[k] != NULL && where[i][0] != NULL; i++)
+                met += strcmp(head[k], where[i][0]) == 0 && strcmp(cell, where[i][1]) == 0;
+            if (head[k] != NULL && strcmp(head[k], column) == 0) {
+                has = true;
+                snprintf(text, PAGE_CELL, "%s", cell);
+            }
+        }
+        while (where[conditions][0] != NULL)
+            conditions++;
+        found = row > 0 && has && met == conditions;
+    }
+    fclose(in);
+    return found;
+}
+
 double
 page_last_number(struct page *run, const char *file, const char *column)
 {
@@ -170,7 +217,7 @@ page_show_figures(struct page *run, FILE *in, const char *columns, const char *u
     char word[PAGE_CELL], text[PAGE_CELL], unit[PAGE_CELL];
 
     (void)unused;
-    if (getc(in) == EOF) {
+    if (is_empty(in)) {
         fputs("<p>This was not computed: see the messages under Accuracy.</p>\n", out);
         return;
     }
@@ -257,6 +304,10 @@ page_show_bars(struct page *run, FILE *in, const char *a, const char *b)
     size_t room = 0, at[CELLS] = {0};
 
     (void)a, (void)b;
+    if (is_empty(in)) {
+        fputs("<p>The bars were not computed: see the messages below.</p>\n", out);
+        return;
+    }
     fprintf(out,
             "<p>Noise of %s in the heights, and the grid, change the figures of the last load. In "
             "90 %% of "
@@ -289,7 +340,7 @@ page_show_bars(struct page *run, FILE *in, const char *a, const char *b)
         if (*own[SHARE] == '\0')
             fputs("</td><td>-</td><td>", out);
         else
-            fprintf(out, "</td><td>%.2g %%</td><td>", 100 * strtod(own[SHARE], NULL));
+            fprintf(out, "</td><td>%.3g %%</td><td>", 100 * strtod(own[SHARE], NULL));
         page_text(out, own[DOMINANT]);
         fputs("</td><td>", out);
         page_text(out, own[WHY]);

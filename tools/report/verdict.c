@@ -53,32 +53,19 @@ put_contact(struct page *run)
     fputs(".\n", out);
 }
 
-/* True if any row of a table has this text in a column. */
-static bool
-has_cell(struct page *run, const char *file, const char *column, const char *text)
+/* Errors and bars above this share are named. */
+static const double share = 0.1;
+
+/* Begins the sentence of limits, or separates the next one. */
+static void
+begin_limit(FILE *out, size_t *n)
 {
-    FILE *in = page_open(run, file);
-    RC_OWNED char *line = NULL;
-    size_t room = 0, at = SIZE_MAX;
-    bool found = false;
-
-    for (size_t row = 0; !found && getline(&line, &room, in) > 0; row++) {
-        char *cell = line, *rest;
-
-        for (size_t k = 0; *cell != '\0'; k++, cell = rest) {
-            rest = page_end_cell(cell);
-            if (row == 0 && strcmp(cell, column) == 0)
-                at = k;
-            found = found || (row > 0 && k == at && strcmp(cell, text) == 0);
-        }
-    }
-    fclose(in);
-    return found;
+    fputs((*n)++ == 0 ? "What limits the trust in these figures: " : "; ", out);
 }
 
-/* What limits the trust in the contact, each in some words; `inaccurate`: sections of effects. */
+/* What limits the trust in the contact by the figures of its report, each in some words. */
 static void
-put_limits(struct page *run, const char *inaccurate)
+put_contact_limits(struct page *run, size_t *n)
 {
     static const char loads[] = "loads.tsv";
     const double nodes = page_last_number(run, loads, "contact_nodes"),
@@ -97,7 +84,7 @@ put_limits(struct page *run, const char *inaccurate)
         {nodes >= 100 && patch < 4, "a contact patch has only %.2g nodes, so that the grid decides",
          patch},
         {rc_repeats(page_args.physics.boundary) == 0 && edge > 0.01,
-         "the edge of the map carries %.2g %% of the load, so that a larger map has another result",
+         "the edge of the map carries %.3g %% of the load, so that a larger map has another result",
          100 * edge},
         {slope > 0.3,
          "the RMS slope where the bodies touch is %.2g, beyond the theory of small slopes", slope},
@@ -108,36 +95,145 @@ put_limits(struct page *run, const char *inaccurate)
         {run->assumed, "no elasticity was given, so that the values are those of steel on steel",
          0},
     };
-    FILE *out = run->page.file;
-    size_t n = 0;
 
-    if (*inaccurate != '\0') {
-        fprintf(out,
-                "What limits the trust in these figures: the requested accuracy was not reached "
-                "under %s",
-                inaccurate);
-        n++;
-    }
     for (size_t k = 0; k < sizeof limit / sizeof *limit; k++)
         if (limit[k].holds) {
-            fputs(n++ == 0 ? "What limits the trust in these figures: " : "; ", out);
-            fprintf(out, limit[k].format, limit[k].value);
+            begin_limit(run->page.file, n);
+            fprintf(run->page.file, limit[k].format, limit[k].value);
         }
-    if (n == 0)
-        fputs(page_args.noise.n > 0
-                  ? "The checks of the grid, the edges and the slopes found nothing that limits "
-                    "these figures; the bars under Accuracy are those of the measurement"
-                  : "The checks of the grid, the edges and the slopes found nothing that limits "
-                    "these figures; --noise adds bars for the measurement",
-              out);
-    fputs(".\n", out);
+}
+
+/* The verdict of rc-scene on the grid, but for few nodes, which put_contact_limits names. False: there is
+ * none. */
+static bool
+put_grid_limit(struct page *run, size_t *n)
+{
+    static const char title[] = "  finer grid ";
+    RC_OWNED char *line = NULL;
+    size_t room = 0;
+    bool found = false;
+
+    for (size_t k = 0; k < page_part_count; k++)
+        if (page_parts[k].show == page_show_effects && page_is_wanted(run, &page_parts[k])) {
+            FILE *in = page_open(run, page_parts[k].file);
+            while (!found && getline(&line, &room, in) > 0)
+                found = strncmp(line, title, strlen(title)) == 0;
+            fclose(in);
+        }
+    if (!found)
+        return false;
+    line[strcspn(line, "\n")] = '\0';
+    const char *says = strstr(line, ": "), *percent = strrchr(line, '%');
+    double change = INFINITY; /* "7.6 times" or no number */
+    if (percent != NULL) {
+        while (percent > line && strchr("0123456789. ", percent[-1]) != NULL)
+            percent--;
+        change = strtod(percent, NULL) / 100;
+    }
+    if (strstr(line, " negligible") == NULL && strstr(line, " in contact;") == NULL &&
+        change > share) {
+        const bool known = says != NULL && strncmp(says, ": changes ", 10) == 0;
+        begin_limit(run->page.file, n);
+        fputs(known ? "a finer grid" : "the error by the grid is unknown", run->page.file);
+        page_text(run->page.file, says == NULL ? "" : known ? says + 1 : says);
+    }
+    return true;
+}
+
+/* The largest estimated error of a report, over all rows. 0: it has none. */
+static double
+largest_error(struct page *run, const char *file)
+{
+    static const char ending[] = "_error_estimate";
+    FILE *in = page_open(run, file);
+    RC_OWNED char *line = NULL;
+    bool wanted[PAGE_WORDS] = {false};
+    size_t room = 0;
+    double largest = 0;
+
+    for (size_t row = 0; getline(&line, &room, in) > 0; row++) {
+        char *cell = line, *rest;
+
+        for (size_t k = 0; k < PAGE_WORDS && *cell != '\0'; k++, cell = rest) {
+            rest = page_end_cell(cell);
+            if (row > 0 && wanted[k])
+                largest = fmax(largest, strtod(cell, NULL)); /* without NaN */
+            else if (row == 0 && strlen(cell) > strlen(ending))
+                wanted[k] = strcmp(cell + strlen(cell) - strlen(ending), ending) == 0;
+        }
+    }
+    fclose(in);
+    return largest;
+}
+
+/* The sections whose reports have a large estimated error. */
+static void
+put_errors(struct page *run, size_t *n)
+{
+    const char *heading = "";
+    size_t errors = 0;
+
+    for (size_t k = 0; k < page_part_count; k++) {
+        const struct page_part *part = &page_parts[k];
+        double error;
+
+        if (part->heading != NULL)
+            heading = part->heading;
+        if ((part->show != page_show_figures && part->show != page_show_table) ||
+            !page_is_wanted(run, part) || !((error = largest_error(run, part->file)) > share))
+            continue;
+        if (errors++ == 0)
+            begin_limit(run->page.file, n);
+        fprintf(run->page.file, "%s %.3g %% under %s", errors == 1 ? "the estimated error is" : ",",
+                100 * error, heading);
+    }
+}
+
+/* The bars of the figures of this paragraph. False: they were asked for and are not there. */
+static bool
+put_bars(struct page *run, size_t *n)
+{
+    static const struct {
+        const char *name, *title;
+    } figure[] = {{"max_pressure", "largest pressure"}, {"contact_area", "contact area"}};
+    static const char bars[] = "bars.tsv";
+    char text[PAGE_CELL];
+    size_t large = 0;
+
+    if (page_args.noise.n == 0)
+        return true;
+    for (size_t k = 0; k < sizeof figure / sizeof *figure; k++) {
+        const char *const row[][2] = {
+            {"what", "figure"}, {"case", run->last}, {"name", figure[k].name}, {NULL}};
+        if (!page_cell(run, bars, "bar_relative", row, text))
+            return false;
+        const double bar = strtod(text, NULL);
+        if (bar <= share)
+            continue;
+        if (large++ == 0)
+            begin_limit(run->page.file, n);
+        else
+            fputs(", ", run->page.file);
+        if (!isnan(bar))
+            fprintf(run->page.file, "the bar of the %s is %.3g %%", figure[k].title, 100 * bar);
+        else {
+            fprintf(run->page.file, "the bar of the %s is unknown", figure[k].title);
+            if (page_cell(run, bars, "why", row, text) && strcmp(text, "NaN") != 0) {
+                fputs(": ", run->page.file);
+                page_text(run->page.file, text);
+            }
+        }
+    }
+    return true;
 }
 
 /* The sections of effects with a row that is not converged, as "Travel, Wear". */
 static const char *
 name_inaccurate(struct page *run, char text[PAGE_CELL])
 {
+    static const char *const short_of[][2] = {{"converged", "false"}, {NULL}};
     const char *heading = "";
+    char cell[PAGE_CELL];
     size_t n = 0;
 
     text[0] = '\0';
@@ -147,17 +243,47 @@ name_inaccurate(struct page *run, char text[PAGE_CELL])
         if (part->heading != NULL)
             heading = part->heading;
         if (part->needs != NULL && part->command == NULL && page_is_wanted(run, part) &&
-            has_cell(run, part->file, "converged", "false") && n < PAGE_CELL)
+            page_cell(run, part->file, "converged", short_of, cell) && n < PAGE_CELL)
             n += (size_t)snprintf(text + n, PAGE_CELL - n, "%s%s", n > 0 ? ", " : "", heading);
     }
     return text;
+}
+
+/* What limits the trust in the contact and in the effects. */
+static void
+put_limits(struct page *run)
+{
+    char inaccurate[PAGE_CELL];
+    FILE *out = run->page.file;
+    size_t n = 0;
+    bool judged, bars;
+
+    if (*name_inaccurate(run, inaccurate) != '\0') {
+        begin_limit(out, &n);
+        fprintf(out, "the requested accuracy was not reached under %s", inaccurate);
+    }
+    put_contact_limits(run, &n);
+    judged = put_grid_limit(run, &n);
+    put_errors(run, &n);
+    if (!(bars = put_bars(run, &n))) {
+        begin_limit(out, &n);
+        fputs("the bars of the measurement were not computed", out);
+    }
+    if (n == 0)
+        fprintf(out,
+                "The checks of the edges and the slopes found nothing that limits these figures, "
+                "and no estimated error%s is above %.0f %%; %s",
+                judged ? " or change by a finer grid" : "", 100 * share,
+                page_args.noise.n > 0 ? "the bars under Accuracy are those of the measurement"
+                                      : "--noise adds bars for the measurement");
+    fputs(".\n", out);
 }
 
 void
 page_show_verdict(struct page *run, FILE *in, const char *a, const char *b)
 {
     FILE *out = run->page.file;
-    char text[PAGE_CELL], unit[PAGE_CELL], inaccurate[PAGE_CELL];
+    char text[PAGE_CELL], unit[PAGE_CELL];
 
     (void)in, (void)a, (void)b;
     fputs("<p id=\"verdict\">", out);
@@ -177,6 +303,6 @@ page_show_verdict(struct page *run, FILE *in, const char *a, const char *b)
             page_value(out, text, unit);
         fprintf(out, "%s\n", at == NULL ? "" : at + 2);
     }
-    put_limits(run, name_inaccurate(run, inaccurate));
+    put_limits(run);
     fputs("</p>\n", out);
 }
