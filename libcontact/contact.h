@@ -1523,7 +1523,7 @@ struct rc_fatigue_limits {
     double bending, torsion, yield;
 };
 /* RC_FAIL when `wanted`, bits of enum rc_criterion, is empty, a needed limit is not above 0, or torsion over
- * bending is outside the range of a criterion. */
+ * bending is above 1, as for no material, or outside the range of a criterion. */
 RC_API enum rc_status rc_fatigue_check_limits(unsigned wanted,
                                               const struct rc_fatigue_limits *limits,
                                               struct rc_err *err);

@@ -82,6 +82,12 @@ rc_fatigue_check_limits(unsigned wanted, const struct rc_fatigue_limits *l, stru
                           "endurance limits of %g Pa in bending and %g Pa in torsion: both must be "
                           "above 0",
                           l->bending, l->torsion);
+    /* the largest normal stress (Rankine) has the ratio 1, all other criteria a smaller one */
+    if (limits && ratio > 1)
+        return rc_err_set(err,
+                          "endurance limits of %g Pa in bending and %g Pa in torsion: no material "
+                          "has a larger one in torsion; the ratio is 0.5 to 1",
+                          l->bending, l->torsion);
     for (int c = 0; c < RC_SHAKEDOWN; c++)
         if (wanted >> c & 1 && !(ratio > ranges[c].low && ratio < ranges[c].high))
             return rc_err_set(

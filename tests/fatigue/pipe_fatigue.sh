@@ -164,6 +164,13 @@ claim "  a body that has yielded" warns 'give the file to --residual' bash -c "r
 refuses 2 'give both endurance limits' "one limit" "rc-fatigue --bending-limit 600MPa --pass x --depths 5um -o x.rcg pressed.rcg"
 refuses 2 'Dang Van needs a ratio above 0.5' "limits outside a criterion" "rc-fatigue --bending-limit 600MPa --torsion-limit 300MPa --criteria dangvan --pass x --depths 5um -o x.rcg pressed.rcg"
 refuses 2 'Papadopoulos needs a ratio above 0.577 and below 0.8' "  of Papadopoulos" "rc-fatigue --bending-limit 600MPa --torsion-limit 500MPa --criteria papadopoulos --pass x --depths 5um -o x.rcg pressed.rcg"
+refuses 2 '4.3e.08 Pa in bending and 7e.08 Pa in torsion: no material .* were the two exchanged' "  that were exchanged" \
+    "rc-fatigue --bending-limit 430MPa --torsion-limit 700MPa --criteria dangvan --pass x --depths 5um -o x.rcg pressed.rcg"
+refuses 2 'no material .* is a unit wrong' "  with the unit of one" "rc-fatigue --bending-limit 700MPa --torsion-limit 430GPa --pass x --depths 5um -o x.rcg pressed.rcg"
+refuses 2 'Crossland needs .* is a unit wrong' "  of the other one" "rc-fatigue --bending-limit 700GPa --torsion-limit 430MPa --pass x --depths 5um -o x.rcg pressed.rcg"
+refuses 2 'no material' "  of a table" "rc-fatigue --limits <(printf 'depth bending torsion\n0 430MPa 700MPa\n') --pass x --depths 5um -o x.rcg pressed.rcg"
+claim "limits in GPa cause a warning" warns 'an endurance limit of 700 GPa is above that of any material' \
+    rc-fatigue --bending-limit 700GPa --torsion-limit 430GPa --pass x --depths 5um -o x.rcg pressed.rcg
 refuses 2 'shakedown needs' "shakedown without a yield stress" "$pass --criteria shakedown --depths 5um -o x.rcg pressed.rcg"
 refuses 2 '--criteria shakedown has no effect without --pass' "  of positions" "rc-fatigue --yield 1GPa --criteria shakedown --depths 5um -o x.rcg pressed.rcg"
 refuses 2 'give --depths' "no depths" "$pass -o x.rcg pressed.rcg"

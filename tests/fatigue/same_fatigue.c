@@ -542,9 +542,14 @@ refusals(void **state)
     refused_limits(1U << RC_DANG_VAN, 1, 0.5, 0, "Dang Van needs a ratio above 0.5");
     refused_limits(1U << RC_CROSSLAND, 1, 0.57, 0, "Crossland needs a ratio above 0.577");
     refused_limits(1U << RC_PAPADOPOULOS, 1, 0.8, 0, "above 0.577 and below 0.8");
+    refused_limits(1U << RC_DANG_VAN, 430e6, 700e6, 0, "no material has a larger one in torsion");
+    refused_limits(1U << RC_CROSSLAND, 1, 1.0001, 0, "no material has a larger one in torsion");
     refused_limits(1U << RC_FINDLEY, 1, 1, 0, "below 1");
     refused_limits(1U << RC_PLANE_TURN, 1, 1, 0, "Findley");
     refused_limits(1U << RC_SHAKEDOWN, 0, 0, 0, "yield stress 0 Pa");
+    assert_int_equal(rc_fatigue_check_limits(1U << RC_CROSSLAND | 1U << RC_DANG_VAN,
+                                             &(struct rc_fatigue_limits){1, 1, 0}, &err),
+                     RC_OK);
     assert_int_equal(
         rc_fatigue_check_limits(1U << RC_AMPLITUDE, &(struct rc_fatigue_limits){0}, &err), RC_OK);
     assert_int_equal(rc_fatigue_check(&shape, &good, &err), RC_OK);

@@ -58,6 +58,17 @@ needs_limits(unsigned wanted)
     return (wanted & (1U << RC_SHAKEDOWN | 1U << RC_AMPLITUDE)) != wanted;
 }
 
+/* What is probably wrong with refused limits. */
+static const char *
+likely_cause(const struct rc_fatigue_limits *l)
+{
+    const double ratio = l->torsion / l->bending;
+
+    if (ratio > 1 && ratio <= 2)
+        return "were the two exchanged?";
+    return ratio > 2 || (ratio > 0 && ratio < 0.1) ? "is a unit wrong?" : "see --criteria";
+}
+
 void
 fatigue_limits_read(struct tool *t, const struct fatigue_limits_asked *asked, unsigned wanted,
                     struct fatigue_limits *l)
@@ -89,22 +100,28 @@ fatigue_limits_read(struct tool *t, const struct fatigue_limits_asked *asked, un
     }
     for (size_t k = 0; k < l->n; k++)
         if (rc_fatigue_check_limits(wanted, &l->at[k], &t->err) != RC_OK)
-            tool_usage(t, "%s: see --criteria", t->err.text);
+            tool_usage(t, "%s: %s", t->err.text, likely_cause(&l->at[k]));
 }
 
-/* 650 instead of 650MPa: no material bears ten thousand times its limit. */
+/* 650 or 650GPa instead of 650MPa: no material bears ten thousand times its limit, and none has an endurance
+ * limit of 10 GPa. */
 static void
 warn_of_units(struct tool *t, const struct rc_grid *p, const struct fatigue_limits *l)
 {
-    const double part = 1e-4;
-    double least = INFINITY, most = 0;
+    const double part = 1e-4, strongest = 10e9;
+    double least = INFINITY, most = 0, endurance = 0;
 
     for (size_t k = 0; k < l->n; k++) {
         const double of[] = {l->at[k].bending, l->at[k].torsion, l->at[k].yield};
         for (size_t i = 0; i < sizeof of / sizeof *of; i++)
             if (of[i] > 0)
                 least = fmin(least, of[i]);
+        endurance = fmax(endurance, fmax(l->at[k].bending, l->at[k].torsion));
     }
+    if (endurance > strongest)
+        tool_warn(t,
+                  "%s: an endurance limit of %s is above that of any material: is its unit right?",
+                  tool_where(t, p), shown_in_unit(endurance, "Pa"));
     for (size_t k = 0; k < rc_grid_nodes(p); k++)
         most = fmax(most, p->v[k]);
     most = ranks_most(t, most);
