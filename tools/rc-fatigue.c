@@ -552,6 +552,43 @@ never_unloads(const struct run *run)
     return rc_wraps(boundary, run->problem.pass == 'y' ? RC_Y : RC_X);
 }
 
+/* The case that a history begins with. */
+static const char *
+case_of(struct run *run)
+{
+    static char text[WHERE];
+    char *frame;
+
+    snprintf(text, sizeof text, "%s", tool_where(&run->t, run->position[0].p));
+    if ((frame = strstr(text, ", frame ")) != NULL) /* the last one that was read */
+        *frame = '\0';
+    return text;
+}
+
+static void
+warn_of_sampling(struct run *run, const char *criterion, const struct rc_fatigue_place *at)
+{
+    static const char what[] = "a large sampling error";
+    struct tool *t = &run->t;
+    const char *where = case_of(run);
+
+    if (run->step > 0)
+        tool_warn_first(t, what,
+                        "%s: %s: its largest value is at the depth %s, and the states of a history "
+                        "are up to %s apart: its sampling error is %.2g: take a finer map or more "
+                        "positions, or leave out depths above it",
+                        where, criterion, shown_in_unit(at->depth, "m"),
+                        shown_in_unit(run->step, "m"), at->sampling_error);
+    else
+        tool_warn_first(
+            t, what,
+            "%s: %s: its largest value is at the depth %s, and the history "
+            "has %zu case%s: its sampling error is %.2g: take a finer map or more loads, or "
+            "leave out depths above it",
+            where, criterion, shown_in_unit(at->depth, "m"), run->positions,
+            run->positions == 1 ? "" : "s", at->sampling_error);
+}
+
 static void
 judge(struct run *run, const struct rc_fatigue *f)
 {
@@ -559,32 +596,31 @@ judge(struct run *run, const struct rc_fatigue *f)
     const struct rc_fatigue_figures *r = rc_fatigue_result(f);
     const struct rc_fatigue_place *at = r->largest;
     struct tool *t = &run->t;
+    const char *where = case_of(run);
 
     for (int c = 0; c <= RC_CRITERIA; c++)
         if (wanted(c) && at[c].sampling_error > coarse) {
-            tool_warn(
-                t,
-                "%s: its largest value is at the depth %s, and the states of a history are up "
-                "to %s apart: its sampling error is %.2g: take a finer map or more positions, "
-                "or leave out depths above it",
-                rc_criterion_names[c], shown_in_unit(at[c].depth, "m"),
-                shown_in_unit(run->step, "m"), at[c].sampling_error);
+            warn_of_sampling(run, rc_criterion_names[c], &at[c]);
             break;
         }
     if (never_unloads(run) && needs_endurance())
-        tool_warn(t,
-                  "%s the points never unload: the amplitudes and the indices of "
-                  "Crossland, Papadopoulos and Findley are smaller than in a single contact",
-                  rc_has_mean(run->options.boundary) ? "the map repeats along the travel, and"
-                                                     : "on a periodic map");
+        tool_warn_first(t, "the points never unload",
+                        "%s: %s the points never unload: the amplitudes and the indices of "
+                        "Crossland, Papadopoulos and Findley are smaller than in a single contact",
+                        where,
+                        rc_has_mean(run->options.boundary) ? "the map repeats along the travel, and"
+                                                           : "on a periodic map");
     if (wanted(RC_DANG_VAN) && run->problem.full && r->dangvan_hydrostatic < 0)
-        tool_warn(t, "the instant that decides for Dang Van is under hydrostatic pressure, which "
-                     "lowers the index as far as the limits allow: compare --dangvan cut");
+        tool_warn_first(t, "hydrostatic pressure lowers Dang Van's index",
+                        "%s: the instant that decides for Dang Van is under hydrostatic pressure, "
+                        "which lowers the index as far as the limits allow: compare --dangvan cut",
+                        where);
     if (wanted(RC_SHAKEDOWN) && at[RC_SHAKEDOWN].value > 1)
-        tool_warn(t,
-                  "the index of shakedown is %.3g: the body yields in every cycle, and criteria of "
-                  "elastic cycles do not hold",
-                  at[RC_SHAKEDOWN].value);
+        tool_warn_first(
+            t, "an index of shakedown above 1",
+            "%s: the index of shakedown is %.3g: the body yields in every cycle, and criteria of "
+            "elastic cycles do not hold",
+            where, at[RC_SHAKEDOWN].value);
 }
 
 /* ---- a history ---- */
@@ -684,6 +720,11 @@ do_history(struct run *run)
     double *by_depth[RC_CRITERIA + 1];
 
     fatigue_limits_check(t, first, &run->limits, &run->options.body);
+    if (args.pass == NULL && !travels(run) && run->positions > 1)
+        tool_warn(t,
+                  "%s: the %zu cases are taken as the states of one history, of a contact that "
+                  "stays in its place; --pass x judges each case as a contact that passes",
+                  t->input.source, run->positions);
     set_depths(run);
     set_problem(run);
     if (args.dry_run) {

@@ -96,8 +96,31 @@ tool_warn(struct tool *t, const char *format, ...)
 }
 
 void
+tool_warn_first(struct tool *t, const char *what, const char *format, ...)
+{
+    char text[1024];
+    size_t k = 0;
+
+    while (k < t->firsts.n && strcmp(t->firsts.what[k], what) != 0)
+        k++;
+    if (k < t->firsts.n && !t->verbose) {
+        t->firsts.others[k]++;
+        return;
+    }
+    if (k == t->firsts.n && k < WARNING_KINDS)
+        t->firsts.what[t->firsts.n++] = what;
+    WRITE(text, format);
+    tool_warn(t, "%s", text);
+}
+
+void
 tool_count_warnings(struct tool *t)
 {
+    for (size_t k = 0; k < t->firsts.n; k++)
+        if (t->firsts.others[k] > 0)
+            tool_warn(t, "%zu other case%s too: %s", t->firsts.others[k],
+                      t->firsts.others[k] == 1 ? "" : "s", t->firsts.what[k]);
+    t->firsts.n = 0;
     for (size_t k = 0; k < t->repeats.n; k++) {
         const struct repeat *r = &t->repeats.kind[k];
         char text[2 * WARNING_TEXT];

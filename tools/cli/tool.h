@@ -257,6 +257,10 @@ struct tool {
         } kind[WARNING_KINDS];
         size_t n;
     } repeats;
+    struct { /* warnings of the first case, see tool_warn_first */
+        const char *what[WARNING_KINDS];
+        size_t others[WARNING_KINDS], n;
+    } firsts;
     int exit_status;
     struct rc_err err; /* of the call that tool_must or tool_made checks */
 };
@@ -397,6 +401,10 @@ void tool_fail(struct tool *tool, const char *format, ...) __attribute__((format
  * --verbose prints each. */
 void tool_warn(struct tool *tool, const char *format, ...) __attribute__((format(printf, 2, 3)));
 void tool_count_warnings(struct tool *tool);
+/* A warning of a case. Of further cases with the same `what` only the number is printed, at the end:
+ * "2 other cases too: WHAT". --verbose prints each. */
+void tool_warn_first(struct tool *tool, const char *what, const char *format, ...)
+    __attribute__((format(printf, 3, 4)));
 /* Prints a note, only with --verbose. */
 void tool_note(struct tool *tool, const char *format, ...) __attribute__((format(printf, 2, 3)));
 /* A result in one line, for a person: at a terminal, or with --verbose. */

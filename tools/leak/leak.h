@@ -22,8 +22,6 @@ struct leak_case {
 
 /* Warnings about the accuracy of a flow, each for the first case that causes it. */
 void leak_judge(struct tool *tool, const struct leak_case *c);
-/* After the last case: how many others cause them. */
-void leak_count_warnings(struct tool *tool);
 /* The effects of the case: computed, or why not. */
 const struct effect_state *leak_effects(const struct leak_case *c);
 void leak_report(struct report *report, const struct leak_case *c);

@@ -2,9 +2,6 @@
 #include "leak.h"
 
 #include <math.h>
-#include <stdarg.h>
-#include <stdio.h>
-#include <string.h>
 
 /* The flow if each square of the map had one such critical constriction (Persson and Yang, J. Phys.: Condens.
  * Matter 20, 2008, 315011). */
@@ -100,45 +97,6 @@ enum {
     THROAT = 3 /* nodes across the constriction; with fewer the error may be a third */
 };
 
-/* The kinds of warnings that were printed, and how many further cases cause them. */
-enum {
-    KINDS = 8
-};
-static struct {
-    const char *what;
-    size_t others;
-} warned[KINDS];
-
-/* Prints a warning of the first case that causes it, with --verbose of each; counts the others. */
-__attribute__((format(printf, 3, 4))) static void
-warn_first(struct tool *t, const char *what, const char *format, ...)
-{
-    char text[1024];
-    size_t k = 0;
-    va_list args;
-
-    while (k < KINDS - 1 && warned[k].what != NULL && strcmp(warned[k].what, what) != 0)
-        k++;
-    if (warned[k].what != NULL && !t->verbose) {
-        warned[k].others++;
-        return;
-    }
-    warned[k].what = what;
-    va_start(args, format);
-    vsnprintf(text, sizeof text, format, args);
-    va_end(args);
-    tool_warn(t, "%s", text);
-}
-
-void
-leak_count_warnings(struct tool *t)
-{
-    for (size_t k = 0; k < KINDS && warned[k].what != NULL; k++)
-        if (warned[k].others > 0)
-            tool_warn(t, "%zu other case%s too: %s", warned[k].others,
-                      warned[k].others == 1 ? "" : "s", warned[k].what);
-}
-
 void
 leak_judge(struct tool *t, const struct leak_case *c)
 {
@@ -146,38 +104,42 @@ leak_judge(struct tool *t, const struct leak_case *c)
     const char *where = tool_where(t, c->gap);
 
     if (!c->pressed)
-        warn_first(
+        tool_warn_first(
             t, "no pressure frame",
             "%s: without a pressure frame fluid flows wherever the gap is above 0, also in the "
             "contact, where gaps are only rounding: write both with rc-solve --output "
             "pressure,gap",
             where);
     if (f->percolates != f->percolates_diagonal)
-        warn_first(t, "a path through corners of cells",
-                   "%s: the only remaining path runs through cell corners; this grid cannot decide "
-                   "whether it leaks: take a finer one",
-                   where);
+        tool_warn_first(
+            t, "a path through corners of cells",
+            "%s: the only remaining path runs through cell corners; this grid cannot decide "
+            "whether it leaks: take a finer one",
+            where);
     if (!f->percolates)
         return;
     if (f->throat_nodes < THROAT)
-        warn_first(t, "a narrow critical constriction",
-                   "%s: the critical constriction, at x = %g m, y = %g m, is %zu node%s wide, and "
-                   "with fewer than %d the error of the flow may be a third: take a finer grid",
-                   where, f->critical_x, f->critical_y, f->throat_nodes,
-                   f->throat_nodes == 1 ? "" : "s", THROAT);
+        tool_warn_first(
+            t, "a narrow critical constriction",
+            "%s: the critical constriction, at x = %g m, y = %g m, is %zu node%s wide, and "
+            "with fewer than %d the error of the flow may be a third: take a finer grid",
+            where, f->critical_x, f->critical_y, f->throat_nodes, f->throat_nodes == 1 ? "" : "s",
+            THROAT);
     if (f->error > rough)
-        warn_first(t, "the error of the grid",
-                   "%s: the estimated error of the grid is %.0f %% of the flow: take a finer one",
-                   where, 100 * f->error);
+        tool_warn_first(
+            t, "the error of the grid",
+            "%s: the estimated error of the grid is %.0f %% of the flow: take a finer one", where,
+            100 * f->error);
     if (f->slope > steep)
-        warn_first(t, "the slope of the gap",
-                   "%s: the RMS slope of the gap is %.2g where fluid flows, but the theory of thin "
-                   "films needs a slope below %g",
-                   where, f->slope, steep);
+        tool_warn_first(
+            t, "the slope of the gap",
+            "%s: the RMS slope of the gap is %.2g where fluid flows, but the theory of thin "
+            "films needs a slope below %g",
+            where, f->slope, steep);
     if (c->drop > lifts * c->mean)
-        warn_first(t, "a large pressure drop",
-                   "%s: the pressure drop, %g Pa, is more than a tenth of the mean contact "
-                   "pressure, %g Pa: "
-                   "fluid would lift the bodies, which is not computed",
-                   where, c->drop, c->mean);
+        tool_warn_first(t, "a large pressure drop",
+                        "%s: the pressure drop, %g Pa, is more than a tenth of the mean contact "
+                        "pressure, %g Pa: "
+                        "fluid would lift the bodies, which is not computed",
+                        where, c->drop, c->mean);
 }
