@@ -325,16 +325,31 @@ study(struct tool *t, struct cost_case *c)
         cost_show_table(c, t->output.file);
 }
 
+/* The word of "--"; without it that of a program, whose options are not those of rc-cost; else argc. */
+static int
+end_of_options(int argc, char **argv)
+{
+    int end = 1, program = 1;
+
+    while (end < argc && strcmp(argv[end], "--") != 0)
+        end++;
+    while (program < end &&
+           (strncmp(argv[program], "rc-", 3) != 0 ||
+            argv[program][strspn(argv[program], "abcdefghijklmnopqrstuvwxyz-")] != '\0'))
+        program++;
+    return end < argc ? end : program;
+}
+
 int
 main(int argc, char **argv)
 {
     struct tool *t = &run.t;
     struct cost_case *c = &run.c;
-    int end = 1;
+    const int end = end_of_options(argc, argv);
 
-    while (end < argc && strcmp(argv[end], "--") != 0)
-        end++;
     tool_start(t, &info, end, argv, &args);
+    if (end < argc && strcmp(argv[end], "--") != 0)
+        tool_usage(t, "the command follows after --, as in rc-cost FILE -- %s ...", argv[end]);
     if (end + 1 >= argc)
         tool_usage(t, "a command is missing: rc-cost FILE -- rc-solve --load 1N --estar 1GPa");
     ending_demand_picture(t, "--plot", args.plot);

@@ -149,6 +149,7 @@ refused() {
 }
 refused '--error does not work with --budget' "--budget 1s --error 1e-3 rough.rcg -- $contact"
 refused 'a command is missing' "rough.rcg"
+refused 'the command follows after --, as in rc-cost FILE -- rc-solve' "rough.rcg $contact"
 refused "'sh' is not a program of this family: no shell runs it" "rough.rcg -- sh -c true"
 refused "'/bin/rc-solve' is not a program" "rough.rcg -- /bin/rc-solve"
 refused "'rc-nosuch' is not a program of this family: it cannot be run" "rough.rcg -- rc-nosuch"
