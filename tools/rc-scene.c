@@ -450,7 +450,8 @@ print_change(const struct line *l, FILE *out)
     else if (most == 0)
         fputs(": changes nothing", out);
     else if (l->effect.basis != RC_SCENE_EXACT && l->effect.nodes < 20)
-        fprintf(out, ": %zu nodes in contact; refine the grid first", l->effect.nodes);
+        fprintf(out, ": %zu node%s in contact; refine the grid first", l->effect.nodes,
+                l->effect.nodes == 1 ? "" : "s");
     else if (l->figure == RC_SCENE_PULL_OFF || strcmp(name, "rolling") == 0)
         print_force(l, out);
     else if (l->figure == RC_SCENE_FATIGUE)
@@ -503,6 +504,28 @@ print_warnings(struct run *run, const struct rc_grid *g, const struct rc_contact
                   "elastic",
                   tool_where(&run->t, g), shown_in_unit(c->max_pressure, "Pa"),
                   c->max_pressure / estar);
+}
+
+/* A stress of the material without its unit, as 300 for 300MPa, is far below the pressure of the contact. */
+static void
+warn_of_units(struct run *run, const struct rc_grid *g, const struct rc_contact *c)
+{
+    const double part = 1e-4;
+    const struct {
+        const char *name;
+        double value;
+    } limit[] = {{"hardness", run->data.hardness},
+                 {"yield", run->data.yield},
+                 {"bending-limit", run->data.bending},
+                 {"torsion-limit", run->data.torsion}};
+
+    for (size_t k = 0; k < sizeof limit / sizeof *limit; k++)
+        if (limit[k].value > 0 && limit[k].value < part * c->max_pressure)
+            tool_warn(&run->t,
+                      "%s: --%s, %s, is below a ten-thousandth of the largest pressure, %s: give "
+                      "its unit, as in 300MPa",
+                      tool_where(&run->t, g), limit[k].name, shown_in_unit(limit[k].value, "Pa"),
+                      shown_in_unit(c->max_pressure, "Pa"));
 }
 
 /* The verdicts in the order of the table: what limits the others, then effects that are called for, the
@@ -571,7 +594,7 @@ print_table(struct run *run, const struct rc_grid *g, const struct rc_contact *c
         if (!line[k]->commanded || line[k]->decided)
             continue;
         fputs("      ", out);
-        scene_show(&line[k]->command, file, out);
+        scene_show(&line[k]->command, line[k]->effect.name, file, out);
         if (!isnan(line[k]->seconds))
             fprintf(out, "   (about %.2g s)", line[k]->seconds);
         fputc('\n', out);
@@ -754,6 +777,7 @@ do_load(struct run *run, const struct rc_grid *g, size_t step)
 
     contact = *rc_scene_contact(s);
     print_warnings(run, g, &contact, rc_scene_pressure(s), args.physics.surface_estar);
+    warn_of_units(run, g, &contact);
     scene_notes(t, g, &args.given,
                 &(struct scene_notes){.contact = &contact,
                                       .pair = &problem.pair,

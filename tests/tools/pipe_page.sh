@@ -79,7 +79,7 @@ sed -n '/<h2>Effects/,/<h2>Accuracy/p' steel.html >effects.html
 p0=$(awk 'BEGIN { pi = atan2(0, -1); print (6 * 20 * (210e9 / 1.82) ^ 2 / (pi ^ 3 * 9e-6)) ^ (1 / 3) }')
 near "$(sed -n 's/.*<th>hardness<.*calls for it: changes the largest pressure by \([0-9.]*\) %.*/\1/p' effects.html)" \
     "$(awk -v p="$p0" 'BEGIN { print 100 * (1 - 1.5e9 / p) }')" 0.02 "  of the last load: the hardness lowers the largest pressure to 1.5 GPa"
-claim "  with the command that computes it" grep -q '<pre>rc-solve --load 20N .*--hardness 1.5GPa surface.rcg</pre>' effects.html
+claim "  with the command that computes it" grep -q '<pre>rc-solve --load 20N .*--hardness 1.5GPa surface.rcg -o scene-hardness.rcg</pre>' effects.html
 claim "  like bodies do not feel friction" grep -q 'friction of dissimilar bodies</th><td>negligible: changes nothing' effects.html
 claim "  and the data that other effects need" grep -q 'Data are missing for: .*partial slip (--tangential)' effects.html
 claim "  rc-solve does not get them" bash -c '! grep "^rc-solve.*--yield" steel.html | grep -v "<pre>"'

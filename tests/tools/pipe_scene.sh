@@ -96,6 +96,8 @@ rc-synth selfaffine --nx 64 --dx 1um --hurst 0.8 --rms-height 0.3um --rolloff 20
 claim "a rough block: the largest pressure is at its edge" warns "no property of the surface" rc-scene --mean-pressure 1GPa --estar 100GPa rough.rcg -o table.txt
 claim "data that are missing are named" grep -q "wear (--coefficient --distance)" table.txt
 
+rc-synth sphere --radius 7.5mm --nx 31 --dx 50um -o lone.rcg
+
 # ---- fatigue, leak, warnings ----
 
 # a pass of a ball: the largest Mises stress is 0.62 p0, its amplitude at least half of it over sqrt 3
@@ -119,6 +121,13 @@ claim "thermal expansion: a warning" warns "thermal expansion may change the con
     --diffusivity 12mm2/s,12mm2/s --expansion 12e-6 ball.rcg -o x.txt
 claim "a periodic map has no edge" bash -c "! rc-scene --periodic --mean-pressure 0.5GPa $steel rough.rcg -o x.txt 2>&1 | grep -q edge"
 claim "noise: a warning" warns "the noise of the scan is 1[.0-9]* % of the approach" rc-scene --load 240N $steel --noise 0.1um ball.rcg -o x.txt
+
+for limit in hardness yield; do
+    claim "--$limit without its unit: a warning" warns "--$limit, 300 Pa, is below a ten-thousandth of the largest pressure, 2.2[0-9]* GPa: give its unit, as in 300MPa" \
+        rc-scene --load 240N $steel --$limit 300 ball.rcg -o x.txt
+done
+claim "  not of 300 MPa" bash -c "! rc-scene --load 240N $steel --yield 300MPa ball.rcg -o x.txt 2>&1 | grep -q 'give its unit'"
+claim "one node is not several" says ': 1 node in contact; refine the grid first' rc-scene --quiet --load 1mN $steel --tangential 0.1mN --mu 0.3 lone.rcg
 
 # ---- an interval has one unit ----
 
@@ -165,6 +174,10 @@ commands() {
 everything="--mean-pressure 0.2GPa $all --tangential 0.5N --speed 1m/s --conductivity 45W/mK,45W/mK --diffusivity 12mm2/s,12mm2/s --time 1ms
     --bending-limit 700MPa --torsion-limit 450MPa --pressure-drop 1MPa --hardness 3GPa --yield 1GPa --thickness 10um --creep 1e-4,0"
 claim "each command of a scene with all effects runs" commands $everything
+claim "  and writes a file with the name of the effect" bash -c 'for effect in wear heat fatigue; do rc-info scene-$effect.rcg >/dev/null || exit 1; done'
+rc-scene --quiet --load 240N --body1 100Cr6 --body2 6061-T6 --mu 0.1 --speed 1m/s ball.rcg >typed.txt
+claim "a hardness has the number of its table" grep -q -- '--hardness 107HV ball.rcg -o scene-hardness.rcg' typed.txt
+claim "  and other values their units" grep -q 'rc-heat --mu 0.1 --speed 1m/s --conductivity 46.6W/mK,167W/mK --diffusivity 12.6mm2/s,69mm2/s -o scene-heat.rcg' typed.txt
 claim "  with a coat" commands $everything --layer 1um,100GPa,0.3
 claim "  which rc-heat refuses: no command, and the reason" grep -q '^      no tool computes it: rc-heat: its body 1 has layers' table.txt
 claim "  with a viscosity the leak has a flow" bash -c "rc-scene --quiet --periodic $(echo $everything) --viscosity 1mPas rough.rcg | grep -q 'rc-leak --pressure-drop 1MPa --viscosity'"

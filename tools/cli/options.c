@@ -411,10 +411,8 @@ set_list(struct tool *t, const struct opt *o, struct numbers *list, const char *
 {
     free(list->v);
     *list = (struct numbers){0};
-    t->option.list[o - t->option.row] = NULL;
     if (o->word != NULL && strcmp(text, o->word) == 0)
         return;
-    t->option.list[o - t->option.row] = text;
     if ((o->per_metre ? unit_forces(text, list, &t->err)
          : o->whole   ? unit_whole_numbers(text, list, &t->err)
                       : unit_numbers(text, o->unit, list, &t->err)) != RC_OK)
@@ -459,6 +457,13 @@ set_value(struct tool *t, const struct opt *o, void *at, const char *text)
         add_step(t, o, at, text);
         break;
     }
+}
+
+static void
+set_row(struct tool *t, size_t k, const char *text)
+{
+    t->option.text[k] = text;
+    set_value(t, &t->option.row[k], tool_value(t, &t->option.row[k]), text);
 }
 
 /* ---- the command line ---- */
@@ -612,9 +617,9 @@ warn_of_commas(struct tool *t)
     for (size_t k = 0; k < t->option.n; k++) {
         const struct opt *o = &t->option.row[k];
         const char *unit = unit_name(o->unit), *blank = *unit == '\0' ? "" : " ";
-        const char *text = t->option.list[k], *comma;
+        const char *text = t->option.text[k], *comma;
         const struct numbers *list;
-        if (text == NULL || o->whole || !unit_decimal_comma(text))
+        if (o->type != OPT_NUMBERS || text == NULL || o->whole || !unit_decimal_comma(text))
             continue;
         list = tool_value(t, o);
         comma = strchr(text, ',');
@@ -705,8 +710,7 @@ options_read(struct tool *t, int argc, char **argv)
             if (text != NULL || !t->option.row[what - OWN].optional ||
                 t->option.row[what - OWN].type == OPT_CHOICE ||
                 t->option.row[what - OWN].type == OPT_STEP)
-                set_value(t, &t->option.row[what - OWN], tool_value(t, &t->option.row[what - OWN]),
-                          text);
+                set_row(t, (size_t)(what - OWN), text);
         } else {
             bad_option(t, what, argv, table);
         }
@@ -733,6 +737,6 @@ tool_set_option(struct tool *t, const char *name, const char *text)
     for (size_t k = 0; k < t->option.n; k++)
         if (strcmp(t->option.row[k].name, name) == 0) {
             t->option.given[k] = true;
-            set_value(t, &t->option.row[k], tool_value(t, &t->option.row[k]), text);
+            set_row(t, k, text);
         }
 }

@@ -192,7 +192,7 @@ struct tool {
         struct opt row[TOOL_OPTIONS]; /* the tool's own rows, with groups expanded           */
         size_t n;
         bool given[TOOL_OPTIONS];       /* one entry for each row                            */
-        const char *list[TOOL_OPTIONS]; /* the text of OPT_NUMBERS on the line, for a warning */
+        const char *text[TOOL_OPTIONS]; /* the value as typed, or of a material; NULL: none  */
     } option;
     struct {               /* memory                                                           */
         size_t beside;     /* bytes of code and stacks, which the allocator does not count */

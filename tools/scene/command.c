@@ -2,6 +2,7 @@
 /* Commands that compute an effect: what they need, their forecasts and their results. */
 #include "scene.h"
 
+#include <ctype.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -106,6 +107,22 @@ scene_number_in_unit(double value, enum unit unit, char text[64])
     return text;
 }
 
+/* The value of an option: 210GPa for 2.1e11 Pa, else as it was typed. */
+static const char *
+value_of(struct tool *t, size_t k, char pretty[64])
+{
+    const struct opt *o = &t->option.row[k];
+    const char *typed = t->option.text[k];
+    const double *v = tool_value(t, o);
+
+    if (o->type == OPT_NUMBER && !isinf(*v)) {
+        const char *value = scene_number_in_unit(*v, o->unit, pretty);
+        const bool plain = isdigit((unsigned char)value[strlen(value) - 1]) != 0;
+        return plain && typed != NULL ? typed : value;
+    }
+    return o->type == OPT_NUMBERS && typed != NULL ? typed : tool_result_value(t, k);
+}
+
 /* Adds an option of rc-scene, if it was given, as `--name value`. */
 static void
 add_option(struct tool *t, const char *name, const char **word, char (*text)[96], size_t *n)
@@ -127,9 +144,7 @@ add_option(struct tool *t, const char *name, const char **word, char (*text)[96]
             }
             continue;
         }
-        value = o->type == OPT_NUMBER && !isinf(*(double *)tool_value(t, o))
-                    ? scene_number_in_unit(*(double *)tool_value(t, o), o->unit, pretty)
-                    : tool_result_value(t, k);
+        value = value_of(t, k, pretty);
         if (o->optional && value[0] != '\0' && strcmp(value, "yes") != 0)
             snprintf(text[*n], sizeof *text, "--%s=%s", name, value);
         else
@@ -226,7 +241,7 @@ scene_command(struct tool *t, const char *effect, const char *const load[2], con
 }
 
 void
-scene_show(const struct scene_command *c, const char *file, FILE *out)
+scene_show(const struct scene_command *c, const char *effect, const char *file, FILE *out)
 {
     for (size_t p = 0; p < c->programs; p++) {
         fputs(p > 0 ? " | " : "", out);
@@ -239,6 +254,8 @@ scene_show(const struct scene_command *c, const char *file, FILE *out)
             shown_shell_word(out, file);
         }
     }
+    /* the name is not that of a file of the user, as wear.rcg may be */
+    fprintf(out, " -o scene-%s.rcg", effect);
 }
 
 /* ---- runs ---- */

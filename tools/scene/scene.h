@@ -53,8 +53,10 @@ const char *scene_number_in_unit(double value, enum unit unit, char text[64]);
  * `with`: names of options of effects that are accepted before. False: no program computes this effect. */
 bool scene_command(struct tool *tool, const char *effect, const char *const load[2],
                    const char *body, const char *with, struct scene_command *command);
-/* Prints the command as a shell reads it, with the file as its input. */
-void scene_show(const struct scene_command *command, const char *file, FILE *out);
+/* Prints the command as a shell reads it, with the file as its input, and as its output one with the name of
+ * the effect. */
+void scene_show(const struct scene_command *command, const char *effect, const char *file,
+                FILE *out);
 
 /* The figures that a command reports, for the comparison with the elastic contact; NAN: none. */
 struct scene_found {
