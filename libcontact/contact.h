@@ -661,8 +661,11 @@ struct rc_adhesion_state {
     double stability;
     /* stability > 0, to the accuracy of the iteration */
     bool stable;
-    /* under this load the bodies separate, and no stable state is left */
+    /* The bodies are apart, without force or pressure: no stable state carries this load, or they separated
+     * earlier and the load is 0, where they stay apart (converged) */
     bool separated;
+    /* they separated under an earlier load, and this one does not press them together */
+    bool was_separated;
     /* Number of points between the last state and this one where the path of stable states
      * ended. Found by the curvatures during the iteration; several in a row may count as one */
     size_t jumps;

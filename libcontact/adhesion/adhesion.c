@@ -216,6 +216,8 @@ struct rc_adhesion_solver {
     size_t jumps;
     bool converged;
     bool separated;
+    bool
+        stays; /* the bodies separated earlier, and the present load does not press them together */
     bool fresh; /* the figures belong to the present state */
     struct rc_adhesion_state figures;
     struct retraction pull;
@@ -668,6 +670,7 @@ set(struct rc_adhesion_solver *a, enum rc_gap_control control, double given)
     a->jumps = 0;
     a->way = (struct way){.steady = a->way.steady};
     a->converged = a->separated = a->fresh = false;
+    a->stays = a->past.separated && control == RC_GAP_LOAD && given <= 0;
     a->stage = STAGE_NEW;
     a->asked.held = true;
 }
@@ -959,6 +962,41 @@ go_further(struct rc_adhesion_solver *a)
     return RC_MORE;
 }
 
+/* The state of separated bodies: undeformed, so far apart that the attraction is negligible. Its pressure is
+ * 0, where the iteration ended with one that belongs to no state. */
+static void
+lay_apart(struct rc_adhesion_solver *a)
+{
+    struct rc_gap *g = &a->gap;
+    const double clearance = RC_GAP_PARTED * g->problem.law.range,
+                 convolutions = g->run.convolutions;
+    const size_t iterations = g->run.iterations, eigen_steps = g->mode.steps;
+    const bool mean = rc_has_mean(a->whole->boundary);
+
+    rc_gap_apart(g, clearance);
+    rc_gap_begin(g, g->set.control, mean ? -clearance : clearance - a->mean_h, false);
+    g->run.convolutions = convolutions;
+    g->run.iterations = iterations;
+    g->mode.steps = eigen_steps;
+    memset(g->maps.au, 0, g->problem.n * sizeof *g->maps.au); /* without rounding */
+    a->stability.judged = 0;
+    a->separated = a->past.separated = true;
+    a->way.steady = false;
+    a->stage = STAGE_DONE;
+}
+
+/* Separated bodies stay apart until a load presses them together. Under a tensile load they have no stable
+ * state, because the attraction falls with the gap. */
+static enum rc_status
+stay_apart(struct rc_adhesion_solver *a)
+{
+    lay_apart(a);
+    a->gap.run.iterations = a->gap.mode.steps = 0;
+    a->gap.run.convolutions = 0;
+    a->converged = a->asked.given == 0;
+    return a->converged ? RC_OK : RC_SHORT;
+}
+
 /* Ends a part of the way. It has a jump if it has lost more energy than a path without jumps can lose; if it
  * has lost less, but not much less, halves of it decide. */
 static enum rc_status
@@ -970,8 +1008,10 @@ finish(struct rc_adhesion_solver *a, bool converged)
     a->stage = STAGE_DONE;
     a->gap.frozen.on = false;
     a->converged = a->way.steady = converged;
+    a->past.separated = a->separated;
     if (a->separated) {
         a->jumps += a->past.begun;
+        lay_apart(a);
     } else if (a->way.known && converged) {
         double most, lost = loss(a, &most);
         bool divides = a->way.parts < PARTS && !a->pull.on;
@@ -1152,6 +1192,8 @@ step_state(struct rc_adhesion_solver *a)
             end_coarse(a);
         return RC_MORE;
     }
+    if (a->stage == STAGE_NEW && a->stays)
+        return stay_apart(a);
     if (a->stage == STAGE_NEW)
         begin(a);
     return a->stage == STAGE_DOWN    ? down(a)
@@ -1220,9 +1262,10 @@ rc_adhesion_solver_pull_off(struct rc_adhesion_solver *a, struct rc_err *err)
     p->iterations = p->eigen_steps = p->jumps = 0;
     p->convolutions = 0;
     rc_retraction_begin(
-        &p->search, &(struct rc_retraction_law){.range = a->gap.problem.law.range,
-                                                .parted = 20 * a->gap.problem.law.range - a->mean_h,
-                                                .lines = is_strip(a)});
+        &p->search,
+        &(struct rc_retraction_law){.range = a->gap.problem.law.range,
+                                    .parted = RC_GAP_PARTED * a->gap.problem.law.range - a->mean_h,
+                                    .lines = is_strip(a)});
     p->start = rc_gap_shift(&a->gap);
     set_shift(a, p->start);
     return RC_OK;
@@ -1430,14 +1473,18 @@ find_figures(struct rc_adhesion_solver *a)
     f->gap_error = sums[MOST_GAP_CHANGE] * a->whole->length;
     f->approach = rc_gap_shift(g) * a->whole->length;
     f->stability = a->stability.judged > 0 ? softest(&a->gap.mode, &a->stability) : NAN;
-    f->stable = a->stability.judged > 0 && softest(&a->gap.mode, &a->stability) > 0;
+    f->stable = a->separated ? a->converged
+                             : a->stability.judged > 0 && softest(&a->gap.mode, &a->stability) > 0;
     f->separated = a->separated;
+    f->was_separated = a->stays;
     f->jumps = a->jumps;
     f->iterations = a->way.iterations + g->run.iterations;
     f->eigen_steps = a->way.eigen_steps + g->mode.steps;
     f->convolutions = g->run.convolutions;
-    f->pressure_error = isinf(g->told.error) ? NAN : estimate(a);
-    f->inherited_error = inherited_error(&a->gap.told, &a->past);
+    f->pressure_error = a->separated && a->converged ? 0 /* the pressure is 0 by definition */
+                        : isinf(g->told.error)       ? NAN
+                                                     : estimate(a);
+    f->inherited_error = a->separated ? 0 : inherited_error(&a->gap.told, &a->past);
     f->converged = a->converged;
     a->fresh = true;
 }
@@ -1449,7 +1496,7 @@ rc_adhesion_solver_result(struct rc_adhesion_solver *a)
         end_coarse(a);
         rc_gap_look(&a->gap);
     }
-    if (!a->fresh && a->gap.run.iterations > 0)
+    if (!a->fresh && (a->gap.run.iterations > 0 || a->separated))
         find_figures(a);
     return &a->figures;
 }

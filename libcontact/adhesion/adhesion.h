@@ -17,6 +17,7 @@ struct rc_adhesion_solver_past {
     double dents[2]; /* error of their dents relative to the pressures; this error times the sum of
                         the pressures */
     bool begun;      /* there was a state */
+    bool separated;  /* the bodies are apart in the last one */
 };
 struct rc_adhesion_solver_past *rc_adhesion_solver_past(struct rc_adhesion_solver *a);
 double rc_adhesion_solver_approach(const struct rc_adhesion_solver *a);

@@ -975,7 +975,7 @@ rc_gap_move(struct rc_gap *g)
     g->run.parting = g->set.control == RC_GAP_LOAD && g->set.given < 0 && g->way.mean > 0;
     if (g->run.parting) {
         rc_sums_rows(&g->sums, nearest_row, g, sums);
-        g->run.parting = -sums[MOST] > 20 * g->problem.law.range;
+        g->run.parting = -sums[MOST] > RC_GAP_PARTED * g->problem.law.range;
     }
 }
 

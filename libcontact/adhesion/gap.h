@@ -32,7 +32,8 @@ enum {
     RC_GAP_SUMS = 16,
     RC_GAP_FLOATS = 9, /* maps of the softest mode */
     RC_GAP_AZ = 5,     /* the map of A z; the two maps before it use the memory of `step` */
-    RC_GAP_LINE = 512  /* most nodes of a row in one call of a law */
+    RC_GAP_LINE = 512, /* most nodes of a row in one call of a law */
+    RC_GAP_PARTED = 20 /* ranges between bodies that have separated */
 };
 
 /* Sums of a step that is clipped at the bounds: clipped nodes, x after the step, open nodes after it. */

@@ -267,7 +267,7 @@ static void
 state(struct rc_model *m, struct rc_state *s)
 {
     struct adhesion *a = (struct adhesion *)m;
-    struct rc_adhesion_solver_past past = {{0, 0}, false};
+    struct rc_adhesion_solver_past past = {{0, 0}, false, false};
     bool started = a->started, dented = a->dent != NULL,
          anew = m->moved && started &&
                 (a->pulls || goes_on(a) || rc_adhesion_solver_result(a->path)->separated);
@@ -285,7 +285,7 @@ state(struct rc_model *m, struct rc_state *s)
             read_start(a, s);
         return;
     }
-    RC_STATE_FLAGS(s, &started, &past.begun, &dented);
+    RC_STATE_FLAGS(s, &started, &past.begun, &past.separated, &dented);
     RC_STATE_NUMBERS(s, &approach, &past.dents[0], &past.dents[1]);
     if (rc_state_refused(s))
         return;

@@ -225,6 +225,18 @@ parting(void **state)
     assert_int_equal(adhesion_run(a), RC_SHORT);
     f = rc_adhesion_solver_result(a);
     assert_true(f->separated && !f->converged && f->contact_nodes == 0);
+    assert_true(f->load == 0 && f->max_pressure == 0 && f->jumps == 1 && !f->was_separated);
+    /* separated bodies carry no tension, also at a load above pull-off, and stay apart at load 0 */
+    assert_int_equal(rc_adhesion_solver_set_load(a, 0.5 * lowest, &adhesion_err), RC_OK);
+    assert_int_equal(adhesion_run(a), RC_SHORT);
+    f = rc_adhesion_solver_result(a);
+    assert_true(f->separated && f->was_separated && !f->converged && f->jumps == 0);
+    assert_true(f->load == 0 && f->iterations == 0);
+    f = adhesion_to_load(a, 0);
+    assert_true(f->separated && f->converged && f->stable && f->load == 0 && f->iterations == 0);
+    rc_adhesion_solver_pressure(a, p);
+    for (size_t k = 0; k < s.shape.nx * s.shape.ny; k++)
+        assert_true(p[k] == 0);
     /* and the path continues from there */
     f = adhesion_to_load(a, 0.1 * s.load);
     assert_true(f->converged && f->contact_nodes > 0);
