@@ -77,6 +77,27 @@ claim "without --adhesion its figures are null, with the reason" bash -c '
     rc-solve --quiet --estar 2MPa --load 1mN --report none.json ball.rcg -o none.rcg
     grep -q "\"adhesion\": \"left out: no --adhesion\"" none.json && grep -q "\"adhesion_work\": null" none.json'
 
+# ---- the range that the grid sets ----
+
+# silicon on silica, 0.3 nm: Tabor 0.09 and DMT, 2 pi w R = 6.28 nN; the grid's range of 14 pm: JKR, 4.71 nN
+rc-synth sphere --nx 128 --dx 0.1nm --radius 20nm -o fine.rcg
+glass="--body1 silicon --body2 fused-silica --load 5nN"
+rc-solve $glass --adhesion 50mJ/m2 --pull-off --report own.tsv fine.rcg -o x.rcg 2>own.said
+rc-solve $glass --adhesion 50mJ/m2,exponential,0.3nm --pull-off --report real.tsv fine.rcg -o x.rcg 2>real.said
+near "$(column adhesion_range 1 own.tsv)" 1.43e-11 0.01 "the default range is in the report"
+near "$(column tabor 1 real.tsv)" 0.09 0.02 "Tabor's number at a real range"
+between -6.283e-9 "$(column pull_off_load 2 real.tsv)" -5.97e-9 "  with the pull-off of DMT theory, nearly"
+between -5.1e-9 "$(column pull_off_load 2 own.tsv)" -4.7e-9 "  and not at the default range, with that of JKR theory"
+claim "  a warning names the default range, its reason, and atoms" grep -q \
+    'the range of adhesion, 14[0-9.]* pm, the default for this grid (a cohesive length of 2 nodes), is below the spacing of atoms: .* as --adhesion 50mJ/m2,exponential,0.3nm$' own.said
+claim "  a real range causes none" bash -c '! grep -q "range of adhesion" real.said'
+claim "  a range given below that of atoms causes one too" warns "the range of adhesion, 50 pm, is below the spacing of atoms" rc-solve $glass --adhesion 50mJ/m2,exponential,50pm fine.rcg -o x.rcg
+claim "  so does the law jkr, without another spacing" bash -c "rc-solve $glass --adhesion 50mJ/m2,jkr fine.rcg -o x.rcg 2>said; grep -q 'below the spacing of atoms' said && ! grep -q 'take a spacing' said"
+claim "a default range with Tabor's number below 3 causes a warning" warns "the range of adhesion, 387[0-9.]* nm, the default for this grid .* changes loads and areas, because Tabor's number is 2.2, below 3: .* take a spacing of 1.[0-9]* um" rc-solve --estar 2MPa --adhesion 50mJ/m2 --load 0 ball.rcg -o x.rcg
+claim "  at larger numbers a note has it" bash -c "rc-solve --verbose --estar 0.2MPa --adhesion 50mJ/m2 --load 0 ball.rcg -o x.rcg 2>said; grep -q 'the range of adhesion is .* um, the default for this grid (a cohesive length of 2 nodes), as none is given' said"
+claim "a work without unit causes a warning with the unit" bash -c "rc-solve $glass --adhesion 50 fine.rcg -o x.rcg 2>said; grep -q 'the work of adhesion, 50 J/m2, is far above that of clean surfaces, about 0.01 to 10 J/m2: was the unit forgotten, as in --adhesion 50mJ/m2' said && ! grep -q 'is the range right' said"
+claim "  that of a tape, with its unit, causes none" bash -c "rc-solve --estar 200MPa --radius 1m --adhesion 100J/m2,jkr --load 0 ball.rcg -o x.rcg 2>said; ! grep -q 'work of adhesion' said"
+
 # ---- loads ----
 
 $soft --adhesion 50mJ/m2,jkr --load 0.2mN,0,-0.1mN --report l.tsv ball.rcg -o l.rcg
@@ -85,6 +106,19 @@ $soft --adhesion 50mJ/m2,jkr --load 0.2mN,-0.5mN --report s.tsv ball.rcg -o s.rc
 status=$?
 claim "a load below pull-off separates the bodies, with exit status 3" test "$status $(column separated 2 s.tsv)" = "3 yes"
 claim "  a message says so" bash -c "rc-solve --estar 2MPa --adhesion 50mJ/m2,jkr --load 0.2mN,-0.5mN ball.rcg -o s.rcg 2>said; grep -q 'the bodies have separated, because no state carries this load' said"
+rc-solve --verbose --estar 2MPa --adhesion 50mJ/m2,jkr --load=0,-0.5mN,-0.1mN,0,0.1mN --report s.tsv ball.rcg -o s.rcg 2>said
+status=$?
+claim "separated bodies stay apart under a tensile load above pull-off and at 0, until a load presses them" \
+    test "$status $(for k in 1 2 3 4 5; do column separated $k s.tsv; column converged $k s.tsv; done | tr '\n' ' ')" = \
+    "3 no true yes false yes false yes true no true "
+claim "  their force is 0, in the report, in the note and in the frames" bash -c '
+    test "$(rc-info --json s.rcg | grep -c "\"load\": 0,")" -ge 3 && ! grep "load -0.5 mN: force" said' 
+claim "  the message of the later load has its reason" bash -c "grep -q 'load -100 uN: the bodies separated at an earlier load, and separated bodies carry no tensile load: list the loads' said && ! grep -q 'load -100 uN: .*no state carries' said && ! grep -q 'load 0 N: not converged' said"
+for row in 2 3 4; do
+    claim "  row $row has load 0" test "$(column load $row s.tsv)" = 0
+done
+$soft --adhesion 50mJ/m2,jkr --load 0.1mN --report one.tsv ball.rcg -o one.rcg
+near "$(column contact_area 5 s.tsv)" "$(column contact_area 1 one.tsv)" 0.02 "  a later contact is that of fresh bodies"
 
 # ---- a cylinder: the map repeats along its axis ----
 

@@ -6,6 +6,7 @@
 #include "solve.h"
 
 #include <math.h>
+#include <stdlib.h>
 #include <string.h>
 
 static const double resolved = 1.5;   /* nodes in the cohesive length: with fewer the grid pins
@@ -15,6 +16,12 @@ static const double of_lines = 2;  /* times as many where whole lines of nodes s
 static const double within = 0.01; /* of the range: closer heights are those of the ball */
 static const double faint = 0.01;  /* fraction of the largest traction */
 static const double too_strong = 0.1; /* fraction of E*: above it a solid is not linear elastic */
+/* m, work over strength: that of cohesion between atoms at their spacing, 0.165 nm and more (Israelachvili,
+ * Intermolecular and Surface Forces, 2011, chapter 13), where the law of Lennard-Jones has 0.97 of it */
+static const double atomic = 0.1e-9;
+static const double jkr_tabor =
+    3; /* Tabor's numbers from here on follow JKR theory to some per cent */
+static const double most_work = 10; /* J/m2: diamond, cleaved, has 11 */
 
 static struct {
     const char *law; /* words of the command line, or NULL */
@@ -174,6 +181,25 @@ warn_of_grid(struct run *run, const char *where)
               shown_in_unit_to(range, s->range * sqrt(enough / s->cohesive_nodes), "m"));
 }
 
+/* Work above that of any surfaces is that of a forgotten unit, or of an adhesive that dissipates. */
+static void
+warn_of_work(struct run *run, const char *where)
+{
+    char *end;
+    const double given = strtod(args.law, &end);
+    const bool bare = *end == '\0' || *end == ',';
+
+    if (own.law.problem.work > most_work &&
+        (bare || own.scales.strength > too_strong * run->physics->surface_estar))
+        tool_warn(
+            &run->d.t,
+            "%s: the work of adhesion, %s, is far above that of clean surfaces, about 0.01 to "
+            "10 J/m2%s%s%s",
+            where, shown_in_unit(own.law.problem.work, "J/m2"),
+            bare ? ": was the unit forgotten, as in --adhesion " : "", bare ? rc_number(given) : "",
+            bare ? "mJ/m2" : ": is it right?");
+}
+
 /* Tabor's number for the ball, or for the cylinder of --cylinder, on these bodies. */
 static double
 tabor(const struct run *run)
@@ -185,23 +211,89 @@ tabor(const struct run *run)
            own.scales.range;
 }
 
+static bool
+grid_sets_range(void)
+{
+    return !(own.law.problem.range > 0);
+}
+
+static bool
+below_atoms(void)
+{
+    return own.law.problem.work / own.scales.strength < atomic;
+}
+
+/* Says which range the grid has set. A range that it sets shall not matter, as with Tabor's numbers of 3 and
+ * more; the law jkr has a warning of its own. */
+static void
+warn_of_range(struct run *run, const char *where)
+{
+    const bool set = grid_sets_range();
+    const double is = tabor(run);
+    const int work = (int)strcspn(args.law, ",");
+    char range[SHOWN_NUMBER], text[SHOWN_NUMBER + 160] = "";
+
+    shown_in_unit_to(range, own.scales.range, "m");
+    if (set)
+        snprintf(text, sizeof text,
+                 ", the default for this grid (a cohesive length of %.2g nodes),",
+                 own.scales.cohesive_nodes);
+    if (below_atoms())
+        tool_warn(
+            &run->d.t,
+            "%s: the range of adhesion, %s%s is below the spacing of atoms: real attraction "
+            "reaches 0.1 to 0.4 nm or more, so that real bodies are closer to DMT theory than "
+            "this contact: give the range of the surfaces, as --adhesion "
+            "%.*s,exponential,0.3nm",
+            where, range, set ? text : ",", work, args.law);
+    else if (set && strcmp(own.scales.law, "jkr") != 0 && is < jkr_tabor)
+        tool_warn(&run->d.t,
+                  "%s: the range of adhesion, %s%s changes loads and areas, because Tabor's number "
+                  "is %.2g, below 3: give the range of the surfaces, or take a spacing of %s",
+                  where, range, text, is,
+                  shown_in_unit(fmax(run->g->dx, run->g->dy) * pow(is / jkr_tabor, 2), "m"));
+    else if (set)
+        tool_note(&run->d.t, "%s: the range of adhesion is %s%s as none is given", where, range,
+                  text);
+}
+
 /* Warns if Tabor's number is below 3. The law jkr takes the shortest range that the grid resolves, and JKR
  * theory holds for Tabor's numbers of 3 and more. */
 static void
 warn_of_jkr(struct run *run, const char *where)
 {
     const struct rc_grid *g = run->g;
-    const double enough_tabor = 3, is = tabor(run);
+    const double is = tabor(run);
     char range[SHOWN_NUMBER];
 
-    if (strcmp(own.scales.law, "jkr") != 0 || !(is < enough_tabor))
+    if (strcmp(own.scales.law, "jkr") != 0 || !(is < jkr_tabor) || below_atoms())
         return;
     /* the range grows with the square root of the spacing */
     tool_warn(&run->d.t,
               "%s: Tabor's number is %.2g, below 3: the range, %s, is too long for JKR theory, and "
               "loads and areas may differ from it by some per cent: take a spacing of %s",
               where, is, shown_in_unit_to(range, own.scales.range, "m"),
-              shown_in_unit(fmax(g->dx, g->dy) * pow(is / enough_tabor, 2), "m"));
+              shown_in_unit(fmax(g->dx, g->dy) * pow(is / jkr_tabor, 2), "m"));
+}
+
+/* A path keeps the contact down to pull-off only if its loads fall. */
+static void
+warn_of_separation(struct run *run, const char *where, const struct rc_adhesion_state *f)
+{
+    if (f->converged) /* at load 0 they rest apart */
+        return;
+    if (f->was_separated)
+        course_warn(
+            &run->d.course, "bodies that separated at an earlier load",
+            "%s: the bodies separated at an earlier load, and separated bodies carry no tensile "
+            "load: list the loads from the largest to the smallest, as 0,-1nN,-2nN, so that the "
+            "contact lasts down to pull-off",
+            where);
+    else
+        tool_warn(&run->d.t,
+                  "%s: the bodies have separated, because no state carries this load: take "
+                  "--approach to pass the pull-off, or --pull-off to find its load",
+                  where);
 }
 
 static void
@@ -210,10 +302,7 @@ warn_of_state(struct run *run, const char *where, const struct rc_adhesion_state
     const double estar = run->physics->surface_estar;
 
     if (f->separated)
-        tool_warn(&run->d.t,
-                  "%s: the bodies have separated, because no state carries this load: take "
-                  "--approach to pass the pull-off, or --pull-off to find its load",
-                  where);
+        warn_of_separation(run, where, f);
     else if (!f->stable && f->converged)
         course_warn(&run->d.course, "the state is not stable", "%s: the state is not stable",
                     where);
@@ -231,7 +320,7 @@ warn_of_state(struct run *run, const char *where, const struct rc_adhesion_state
             "%s: the traction at the edge of the map is %.2g %% of the largest: the bodies attract "
             "each other beyond the map too, where their heights are unknown: take a larger map",
             where, 100 * f->edge_traction);
-    if (own.scales.strength > too_strong * estar)
+    if (own.scales.strength > too_strong * estar && !(own.law.problem.work > most_work))
         course_warn(&run->d.course, "a traction at which a solid is not linear elastic",
                     "%s: the largest traction, %s, is %.2g of E*: beyond %g a solid is not linear "
                     "elastic: is the range right?",
@@ -248,6 +337,14 @@ tell(struct run *run, const char *where, const struct rc_adhesion_state *f, bool
                   where, shown_in_unit(f->pull_off_load, "N"),
                   shown_in_unit(f->pull_off_spread, "N"), shown_in_unit(f->pull_off_approach, "m"),
                   f->states, f->convolutions, tool_now() - run->d.is.began);
+    if (f->separated) {
+        tool_note(&run->d.t,
+                  "%s: the bodies are apart and exert no force; %zu %s, %zu iterations, %.3g "
+                  "convolutions, %.2g s",
+                  where, f->jumps, f->jumps == 1 ? "jump" : "jumps", f->iterations, f->convolutions,
+                  tool_now() - run->d.is.began);
+        return;
+    }
     tool_note(
         &run->d.t,
         "%s: force %s, of which %s attracts, contact area %s (%.3g %% of the map, %zu nodes), "
@@ -267,6 +364,8 @@ judge(struct run *run, const char *where, const struct solution *s)
 
     tell(run, where, f, own.pulling);
     if (run->step == 0 && !own.pulling) {
+        warn_of_work(run, where);
+        warn_of_range(run, where);
         warn_of_grid(run, where);
         warn_of_jkr(run, where);
     }
@@ -394,11 +493,11 @@ state(const struct run *run)
     char along_x[SHOWN_NUMBER];
     size_t n;
 
-    n = (size_t)snprintf(text, sizeof text,
-                         "on: %s, %s over %s: at most %s, cohesive length %.2g nodes",
-                         own.scales.law, shown_in_unit(own.law.problem.work, "J/m2"),
-                         shown_in_unit(own.scales.range, "m"),
-                         shown_in_unit(own.scales.strength, "Pa"), own.scales.cohesive_nodes);
+    n = (size_t)snprintf(
+        text, sizeof text, "on: %s, %s over %s%s: at most %s, cohesive length %.2g nodes",
+        own.scales.law, shown_in_unit(own.law.problem.work, "J/m2"),
+        shown_in_unit(own.scales.range, "m"), grid_sets_range() ? " (set by the grid)" : "",
+        shown_in_unit(own.scales.strength, "Pa"), own.scales.cohesive_nodes);
     if (!isnan(own.ball.radius))
         describe_ball(text + n, sizeof text - n, run);
     else if (!isnan(own.ball.along[0]))
