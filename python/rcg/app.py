@@ -47,6 +47,8 @@ HIDDEN = tools.HIDDEN | {'checkpoint', 'resume', 'interval', 'keep-going', 'psd-
 STEPS = ('rc-import', 'rc-add')  # beside the tools that read and write streams
 SECOND = {'name': 'second', 'argument': 'FILE', 'result': True,
           'help': 'the scan to compare with, a file on this page, read with the options of the first step'}
+SPIKES = {'name': 'spikes', 'argument': 'T', 'result': True,
+          'help': 'first drop spikes of both scans that stand alone by T deviations, with rc-detrend --spikes'}
 MAKERS = ('rc-render', 'rc-info', 'rc-export', 'rc-report', 'rc-scene', 'rc-cost')
 OF_SURFACE = ('rc-report', 'rc-scene', 'rc-cost')  # about the surface that is pressed
 REPORTS = ('rc-scene', 'rc-cost')  # their report is the result
@@ -78,7 +80,7 @@ def tables():
             report = any(o['name'] == 'report' for o in row['options'])
             if name == 'rc-add':  # its operand B
                 plain = {key: type(value)() for key, value in options[0].items()}
-                options.insert(0, dict(plain, **SECOND))
+                options[:0] = [dict(plain, **SECOND), dict(plain, **SPIKES)]
             found[name] = dict(row, options=options, step=step, report=step and report)
     return found
 
@@ -131,13 +133,18 @@ class Step:
             raise Refused('%s is not a step of this page' % tool)
         stem = '%d-%s' % (number, tool[3:])
         self.tool, self.output = tool, stem + '.rcg'
-        sources, self.before = [source], []  # before: the command that reads a second file
+        sources, self.before = [source], []  # before: the commands that prepare the scans of a comparison
         if tool == 'rc-add':
-            second, options = self.second(options, files), [option for option in options if option[0] != 'second']
+            second, spikes = self.second(options, files), [option for option in options if option[0] == 'spikes']
+            options = [option for option in options if option[0] not in ('second', 'spikes')]
             read = '%d-second.rcg' % number
             sources.append(second['shown'] if second['stream'] else read)
             if not second['stream']:
-                self.before = ['rc-import'] + words_of('rc-import', reading, files) + ['-o', read, second['shown']]
+                self.before.append(['rc-import'] + words_of('rc-import', reading, files) + ['-o', read, second['shown']])
+            for k, name in enumerate(('first', 'second') if spikes else ()):
+                clean = '%d-%s-clean.rcg' % (number, name)
+                self.before.append(['rc-detrend'] + words_of('rc-detrend', spikes, files) + ['-o', clean, sources[k]])
+                sources[k] = clean
         reports = tables()[tool]['report'] and (tool != 'rc-add' or any(name == 'align' for name, _ in options))
         self.report = stem + '.tsv' if reports else None
         report = ['--report', self.report] if self.report else []
@@ -156,7 +163,7 @@ class Step:
         return file
 
     def text(self):
-        return ' && '.join(shlex.join(words) for words in (self.before, self.command) if words)
+        return ' && '.join(shlex.join(words) for words in self.before + [self.command])
 
 
 def steps_of(file, asked, files):
@@ -232,7 +239,7 @@ class Run:
             step.progress, step.doing = said['progress'], said['text']
 
         began, step.state, status, step.words = time.monotonic(), 'running', 0, ''
-        for command in filter(None, (step.before, step.command)):
+        for command in step.before + [step.command]:
             status, words = self.desk.execute(command, self.folder, started, progress)
             step.words += words
             if status not in (0, 3):

@@ -16,7 +16,7 @@ mkdir -p "$folder/shots" pasted
 cp "$RC_SOURCE/sample_surfaces/rough-steel.x3p" "$folder"
 head -c 3000 "$folder/rough-steel.x3p" >"$folder/broken.x3p"
 rc-synth selfaffine --nx 2048 --dx 1um --hurst 0.8 --rms-slope 0.05 --rolloff 500um --short-cut 8um --seed 1 | rc-export --format x3p -o "$folder/big.x3p"
-"$python" - "$folder/node.rcg" "$folder/spike.rcg" <<'END'
+"$python" - "$folder/node.rcg" "$folder/spike.rcg" "$folder" <<'END'
 import sys, numpy, rcg
 pressure = numpy.zeros((2048, 2048))
 pressure[1234, 567] = 1e9
@@ -25,6 +25,12 @@ rcg.write(sys.argv[1], rcg.frame('pressure', pressure, dx=1e-6))
 height = 1e-6 * numpy.sin(numpy.arange(10000)).reshape(100, 100)
 height[40, 60] = 1e-3
 rcg.write(sys.argv[2], rcg.frame('height', height, dx=1e-6))
+whole = rcg.synth('selfaffine', nx=220, dx='1um', hurst=0.8, rms_height='0.5um', rolloff='60um', short_cut='6um', seed=3).height
+worn = whole[33:193, 25:185].copy()
+worn[60:90, 40:80] -= 1e-6
+worn[20, 20] += 1e-4
+for name, values in (('new', whole[30:190, 30:190]), ('worn', worn)):
+    rcg.export(rcg.frame('height', values, '1um'), sys.argv[3] + '/%s.x3p' % name)
 END
 "$python" -m rcg.app --no-browser >address &
 app=$!

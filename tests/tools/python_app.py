@@ -323,6 +323,31 @@ def compare():
     with open('scans/4-add.rcg', 'rb') as file:
         assert file.read() == ask('file', dict(place, of='stream'))[2]
     assert [head['channel'] for head in found('frames', place)] == ['height']
+    # spikes of both scans are dropped before
+    spiky = [values.copy() for values in (whole[30:190, 30:190], whole[33:193, 25:185] - scar + 4e-6)]
+    spiky[0][20:150:16, 17::23] += 9e-6
+    spiky[1][30:150:16, 9::19] -= 9e-6
+    for name, values in zip(('new2', 'worn2'), spiky):
+        rcg.export(rcg.frame('height', values, '1um'), 'scans/%s.x3p' % name)
+    uploaded('scans/new2.x3p')
+    asked[3]['options'] = [['second', 'new2.x3p'], ['spikes', '5'], ['subtract', True], ['align', True]]
+    run = ended(found('steps', body={'file': uploaded('scans/worn2.x3p'), 'steps': asked, 'start': True})['run'])
+    assert run['state'] == 'done', run
+    command = run['steps'][3]['command']
+    assert command == ('rc-import -o 4-second.rcg new2.x3p && rc-detrend --spikes 5 -o 4-first-clean.rcg 1-import.rcg && '
+                       'rc-detrend --spikes 5 -o 4-second-clean.rcg 4-second.rcg && rc-add --subtract --align '
+                       '--report 4-add.tsv -o 4-add.rcg 4-first-clean.rcg 4-second-clean.rcg'), command
+    place = {'run': run['number'], 'step': 3}
+    heads, row = [line.split('\t') for line in ask('file', dict(place, of='report'))[2].decode().splitlines()]
+    cleaned = dict(zip((head.split('/')[0] for head in heads), row))
+    subprocess.run('rc-import -o 1-import.rcg worn2.x3p && ' + command, shell=True, check=True, cwd='scans')
+    with open('scans/4-add.rcg', 'rb') as file:
+        changed = file.read()
+        assert changed == ask('file', dict(place, of='stream'))[2]
+    change = rcg.read('scans/4-add.rcg')[0].values
+    assert numpy.nanmax(abs(change)) < 5e-6, numpy.nanmax(abs(change))  # of spikes of 9e-6 m
+    there = -scar[~numpy.isnan(change)].sum() * 1e-12  # the nodes of spikes are missing
+    assert abs(float(cleaned['volume']) - there) <= float(cleaned['volume_error']) < 0.05 * abs(there), (cleaned, there)
     # without alignment there is no report; a stream is read as it is; a run takes its results again
     with open('scans/1-import.rcg', 'rb') as file:
         stream = found('upload', {'name': 'first.rcg'}, file.read())['name']

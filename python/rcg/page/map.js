@@ -41,6 +41,21 @@ function clipped(values, low, high) {
   return part(0.995) - part(0.005) < (high - low) / 2 && part(0.995) > part(0.005) ? [part(0.005), part(0.995)] : [low, high];
 }
 
+function extremes(values) {
+  let low = Infinity, high = -Infinity;
+  for (const v of values) {
+    if (v < low) low = v;
+    if (v > high) high = v;
+  }
+  return low > high ? [0, 0] : [low, high];
+}
+// Round numbers from low to high, three to eight of them.
+function rounds(low, high) {
+  const ten = 10 ** Math.floor(Math.log10((high - low) / 3)), count = step => Math.floor(high / step) - Math.ceil(low / step) + 1;
+  const step = [5, 2, 1, 0.5].map(n => n * ten).find(wide => count(wide) >= 3);
+  return Array.from({length: step ? count(step) : 0}, (_, k) => +((Math.ceil(low / step) + k) * step).toPrecision(12));
+}
+
 class MapView {
   constructor(canvas, tell) {
     Object.assign(this, {canvas, tell, frame: null, pointer: null});
@@ -72,12 +87,7 @@ class MapView {
   async show(frame, keep, colours) {
     const levels = [frame], same = ['nx', 'ny', 'dx', 'dy'].every(k => this.frame?.[k] === frame[k]);
     while (Math.max(levels.at(-1).nx, levels.at(-1).ny) > 32) levels.push(halved(levels.at(-1), KEEP[keep]));
-    let low = Infinity, high = -Infinity;
-    for (const v of frame.values) {
-      if (v < low) low = v;
-      if (v > high) high = v;
-    }
-    if (low > high) low = high = 0;
+    const [low, high] = extremes(frame.values);
     const [from, to] = keep === 'mean' ? clipped(frame.values, low, high) : [low, high];
     Object.assign(this, {frame, keep, levels, least: low, most: high, low: from, high: to, table: await colours(from, to)});
     if (same) this.draw(); else this.fit();
@@ -163,9 +173,10 @@ class MapView {
     Object.assign(g, {font: '13px ' + fontFamily, fillStyle: color, textBaseline: 'middle'});
     g.fillRect(left, top + height + 16, long, 4);
     g.fillText(shown(length, frame.dunit), left + long + 8, top + height + 18);
-    for (const part of [0, 0.25, 0.5, 0.75, 1]) {
-      const text = shown(low + part * (high - low), frame.unit, 3);
-      g.fillText(text, bar + 24, top + 7 + (1 - part) * (height - 14));
+    for (const mark of high > low ? rounds(low, high) : [low]) {
+      const y = top + (high > low ? (high - mark) / (high - low) : 0.5) * height;
+      g.fillRect(bar + 16, y - 0.5, 5, 1);
+      g.fillText(mark === 0 ? '0' : shown(mark, frame.unit, 4), bar + 24, Math.min(Math.max(y, top + 7), top + height - 7));
     }
     const image = g.createImageData(1, 256), ramp = new OffscreenCanvas(1, 256);
     new Uint32Array(image.data.buffer).set(this.table.slice(0, 256).reverse());

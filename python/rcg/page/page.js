@@ -38,6 +38,7 @@ const TITLES = {
   hardness: 'Hardness', conductivity: 'Thermal conductivities', diffusivity: 'Thermal diffusivities',
   'bending-limit': 'Endurance limit in bending', 'torsion-limit': 'Endurance limit in torsion', speed: 'Sliding speed', pass: 'Passes along', view: 'Direction of view', cut: 'Cut at',
   second: 'Second scan', subtract: 'Subtract it', align: 'Shift and turn it onto the first',
+  'rc-detrend cylinder': 'Remove cylinder', 'rc-add spikes': 'Remove spikes of both scans above',
   psd: 'Power spectrum', areal: 'Areal parameters', output: 'Frames to write', mean: 'Mean',
 };
 // What the page says of the states of steps and of runs.
@@ -45,7 +46,7 @@ const STATES = {running: 'running', short: 'accuracy not reached', failed: 'fail
 const WORDS = {waiting: 'Waiting for other runs …', done: 'Done.', stopped: 'Cancelled.',
   short: 'Done, but a tool stopped short of the requested accuracy: see its message.'};
 let tables, most, file = null, steps = [], runs = [], run = null, seen = '', frames = [], frame, view = 'Map';
-let shows = 0, ids = 0;
+let shows = 0, ids = 0, added = null; // added: the tool of a step whose result is shown when it has run
 
 function make(tag, more = {}, ...inside) {
   const element = Object.assign(document.createElement(tag), more);
@@ -74,7 +75,11 @@ function command(textContent) {
   return make('div', {className: 'command'}, make('code', {textContent}), copy);
 }
 function choice(title, words, act) {
-  const options = words.map(word => new Option(...[word].flat()));
+  // each a word, or [text, word, whether it cannot be chosen]
+  const options = words.map(word => {
+    const [text, value = text, disabled = false] = [word].flat();
+    return Object.assign(new Option(text, value), {disabled});
+  });
   const select = make('select', {'aria-label': title, onchange: () => act(select.value)},
     new Option(title + ' …', ''), ...options);
   return select;
@@ -89,23 +94,35 @@ const excludes = (row, name) => row.against.some(rule => !rule.words.length && p
 const clash = (rows, a, b) => a !== b && rows.some(row => row.name === a && excludes(row, b) || row.name === b && excludes(row, a) ||
   row.one_of.some(rule => plain(rule).includes(a) && plain(rule).includes(b)));
 // Words for people: the title of an option, and its help with the words that it takes.
-const named = name => TITLES[name] ?? name[0].toUpperCase() + name.slice(1).replaceAll('-', ' ');
+const named = (name, tool) => TITLES[`${tool} ${name}`] ?? TITLES[name] ??
+  name[0].toUpperCase() + name.slice(1).replaceAll('-', ' ');
 // A message of a tool names options as a shell has them: the form has titles.
 const spoken = (words, tool) => words.replace(/--([a-zA-Z][a-zA-Z0-9-]*)/g, (whole, name) =>
-  (tables[tool]?.options.some(row => row.name === name) ? `“${named(name)}” (${whole})` : whole));
+  (tables[tool]?.options.some(row => row.name === name) ? `“${named(name, tool)}” (${whole})` : whole));
 const helped = ({help, words}) => help.replaceAll('%s', words.join(', '));
 const given = options => options.filter(([, value]) => value !== '' && value !== false);
 // changed() follows a new value, redo() another number of the options [[name, value], ...].
 function form(tool, options, changed, redo) {
   const rows = tables[tool].options, row = name => rows.find(other => other.name === name);
-  const free = rows.filter(({name, repeats}) =>
-    options.every(([other]) => (repeats || name !== other) && !clash(rows, name, other)));
+  const others = rows.filter(({name, repeats}) => repeats || options.every(([other]) => name !== other));
+  // What an option excludes or needs stands beside its title; what is excluded cannot be chosen.
+  const hidden = name => options.map(([other]) => other).filter(other => clash(rows, name, other));
+  const lacks = ({needs}) => needs.filter(rule => !rule.words.length).map(plain)
+    .find(names => names.length && !options.some(([other]) => names.includes(other)));
+  const titles = names => names.map(other => `“${named(other, tool)}”`);
+  const offer = one => {
+    const barred = hidden(one.name), wants = lacks(one) ?? [], shut = wants.filter(name => hidden(name).length);
+    const by = barred.length ? barred : shut.length && shut.length === wants.length ? hidden(shut[0]) : [];
+    const why = barred.length ? `not with ${titles(barred).join(', ')}`
+      : wants.length ? `needs ${titles(wants).join(' or ')}${by.length ? `, which does not go with ${titles(by).join(', ')}` : ''}` : '';
+    return [`${named(one.name, tool)}${why && ` (${why})`}: ${helped(one)}`, one.name, by.length > 0];
+  };
   const drop = option => { options.splice(options.indexOf(option), 1); redo(); };
   const enter = name => { options.push([name, isFlag(row(name)) || '']); redo(); };
-  return make('div', {}, ...options.map(option => formRow(row(option[0]), option, changed, drop)),
-    choice(tool === 'known' ? 'Add what you know' : 'Add an option of ' + tool, free.map(one => [`${named(one.name)}: ${helped(one)}`, one.name]), enter));
+  return make('div', {}, ...options.map(option => formRow(tool, row(option[0]), option, changed, drop)),
+    choice(tool === 'known' ? 'Add what you know' : 'Add an option of ' + tool, others.map(offer), enter));
 }
-function formRow(row, option, changed, drop) {
+function formRow(tool, row, option, changed, drop) {
   const {name, words, units, rules} = row, key = isFlag(row) ? 'checked' : 'value', id = 'field' + ++ids;
   const chosen = row.only_words && row.type === 'choice', type = isFlag(row) ? 'checkbox' : 'text';
   const offers = chosen || !words.length ? [] : [make('datalist', {id: id + 'words'}, ...words.map(word => new Option(word)))];
@@ -116,16 +133,16 @@ function formRow(row, option, changed, drop) {
   field[key] = option[1];
   field.oninput = () => { option[1] = field[key]; changed(); };
   // A file of this machine becomes one of the page; the steps stay those of the first scan.
-  const chooser = row.argument !== 'FILE' ? [] : [make('input', {type: 'file', 'aria-label': 'Choose a file: ' + named(name),
+  const chooser = row.argument !== 'FILE' ? [] : [make('input', {type: 'file', 'aria-label': 'Choose a file: ' + named(name, tool),
     onchange: trying(async () => {
       field.value = option[1] = (await sent(chooser[0].files[0])).name;
       tell(`${option[1]} is on this page now.`);
       changed();
     })})];
   const unit = units.length ? ` Units: ${units.join(', ')}; without a unit it is ${row.unit}.` : '';
-  const label = make('label', {htmlFor: id, textContent: named(name)});
+  const label = make('label', {htmlFor: id, textContent: named(name, tool)});
   return make('div', {className: 'option', 'data-name': name}, label, field, ...offers,
-    button('✕', () => drop(option), {'aria-label': 'Remove ' + named(name)}), ...chooser,
+    button('✕', () => drop(option), {'aria-label': 'Remove ' + named(name, tool)}), ...chooser,
     hint(`--${name}: ${helped(row)}${rules && '; ' + rules}.${unit}`));
 }
 
@@ -195,6 +212,7 @@ function states() {
     step.state.textContent = step.command ? ended : 'not used';
     if (step.shown === step.command + words) continue; // a selection of the text stays
     step.shown = step.command + words;
+    if (state === 'failed') step.card.open = true; // its options may mend it
     step.line.replaceChildren(...(step.command ? [command(step.command)] : []),
       make('p', {className: 'said', textContent: spoken(words, step.tool)}));
   }
@@ -255,7 +273,12 @@ const collect = trying(async () => {
   $('channel').replaceChildren(...frames.map((f, k) => new Option(f.name, k)));
   const last = ['pressure', 'height', frames.at(-1)?.channel].map(name => f => f.channel === name);
   const places = [f => f.name === kept, ...last].map(test => frames.findLastIndex(test));
-  $('channel').value = places.find(k => k >= 0);
+  const own = added === null ? -1 : frames.findIndex(f => run.steps[f.step].tool === added);
+  $('channel').value = own >= 0 ? own : places.find(k => k >= 0);
+  if (own >= 0) {
+    added = null;
+    $('channel').dataset.kept = frames[own].name;
+  }
   if (frames.length) show();
 });
 
@@ -272,19 +295,38 @@ const show = trying(async () => {
   $('look').hidden = $('sliders').hidden = view === 'Map';
   $('stage').classList.add('busy');
   downloads();
-  await (view === 'Map' ? showMap : showMade)(frame, valid);
-  if (!valid()) return; // after an error the old picture stays pale
+  try {
+    await (view === 'Map' ? showMap : showMade)(frame, valid);
+  } catch (e) {
+    if (!valid()) return;
+    $('map').hidden = $('picture').hidden = true; // they are those of another view
+    $('numbers').hidden = false;
+    $('numbers').replaceChildren(make('p', {className: 'failed', textContent: e.message}));
+    $('at').textContent = '';
+    $('stage').classList.remove('busy');
+    throw e;
+  }
+  if (!valid()) return;
   document.body.dataset.shown = `${run.number} ${view} ${frame.channel}`;
   $('stage').classList.remove('busy');
 });
+const keeps = channel => (channel === 'gap' ? 'smallest' : /height|displacement/.test(channel) ? 'mean' : 'largest');
+async function valuesOf(f) {
+  const bytes = await (await ask('values', {...place(), frame: f.n})).arrayBuffer();
+  return f.type === 'f32' ? new Float32Array(bytes) : new Float64Array(bytes);
+}
+// Whether a few heights would take most of the colours, as spikes do.
+async function spiky(f) {
+  if (keeps(f.channel) !== 'mean' || f.nx * f.ny > 1 << 25) return false;
+  const values = await valuesOf(f), [low, high] = extremes(values), [from, to] = clipped(values, low, high);
+  return from > low || to < high;
+}
 async function showMap(f, valid) {
-  const {channel, unit} = f, size = `${f.nx} × ${f.ny} nodes`;
-  const keep = channel === 'gap' ? 'smallest' : /height|displacement/.test(channel) ? 'mean' : 'largest';
+  const {channel, unit} = f, size = `${f.nx} × ${f.ny} nodes`, keep = keeps(channel);
   if (f.nx * f.ny > 1 << 25)
     throw new Error(`The map has ${size}, the page draws at most 33 million: choose Figure, or resample it.`);
-  const bytes = await (await ask('values', {...place(), frame: f.n})).arrayBuffer();
+  const values = await valuesOf(f);
   if (!valid()) return;
-  const values = f.type === 'f32' ? new Float32Array(bytes) : new Float64Array(bytes);
   await map.show({...f, values}, keep, async (low, high) => {
     const answer = await ask('colours', {channel, unit, low, high});
     const g = make('canvas', {width: 257, height: 1}).getContext('2d');
@@ -292,6 +334,8 @@ async function showMap(f, valid) {
     return new Uint32Array(g.getImageData(0, 0, 257, 1).data.buffer);
   });
   const clips = map.low > map.least || map.high < map.most;
+  f.clips = clips;
+  downloads(); // its pictures have the same colours
   $('at').textContent = `${size}, ${shown(map.least, unit)} to ${shown(map.most, unit)}` +
     (clips ? `; colours from ${shown(map.low, unit, 3)} to ${shown(map.high, unit, 3)}. ` : '. ') +
     'Wheel or + and − zoom, drag or arrow keys move, 0 shows all.';
@@ -308,10 +352,11 @@ function crop() {
   tell('The step “Crop” has this part of the map now. Run the steps to use it.');
 }
 // The frame and the view as options of a tool.
-function framed(options) {
+function framed(options, colours = true) { // colours: those of a picture
   const has = name => options.some(option => option[0] === name);
   const more = has('curve') ? [] : ['channel', 'case', 'depth'].filter(name => frame[name] && !has(name));
-  return [...more.map(name => [name, frame[name]]), ...given(options)];
+  const clips = colours && frame.clips && /Map|Figure|Relief/.test(view) && !has('clip') && !has('range') ? [['clip', true]] : [];
+  return [...more.map(name => [name, frame[name]]), ...clips, ...given(options)];
 }
 const made = (tool, options, name) => ask('made', {...place(), tool, options: JSON.stringify(options), name});
 async function showMade(f, valid) {
@@ -319,15 +364,22 @@ async function showMade(f, valid) {
   const redo = () => { clearTimeout(show.later); show.later = setTimeout(show, 300); };
   const again = () => { document.activeElement.blur(); show(); };
   const areal = f.channel === 'height' ? [['areal', true]] : [];
+  if (/Figure|Relief/.test(view)) f.clips ??= await spiky(f);
+  if (!valid()) return;
   const words = numbers ? [...areal, ...given(options)] : framed(options);
   const free = id => !$(id).contains(document.activeElement);
   if (free('sliders')) $('sliders').replaceChildren(...sliders(f, options[0], redo));
   if (free('look')) $('look').replaceChildren(make('div'), form(tool, options, redo, again));
+  const curve = !numbers && given(options).find(([name]) => name === 'curve')?.[1], one = run.steps[f.step];
+  const table = (numbers || curve) && one.report ? await ask('file', {...place(), of: 'report'}) : null;
+  const report = await table?.text() ?? '', lines = report.trim().split('\n').map(line => line.split('\t'));
+  const heads = lines[0].map(head => head.split('/')[0]), lacking = curve === VIEWS.Curves[0][1] && table &&
+    curve.split(/[:,]/).filter(name => !heads.includes(name));
+  if (lacking?.length && valid())
+    throw new Error(`The report of ${one.tool} has no ${lacking.map(name => name.replaceAll('_', ' ')).join(' and no ')}: ` +
+      'choose the result of a contact with several loads, or columns of this report in the option “Curve”: ' + heads.join(', ') + '.');
   const answer = await made(tool, words, numbers ? 'numbers.txt' : 'figure.png'), blob = await answer.blob();
   const header = name => decodeURIComponent(answer.headers.get(name)), text = numbers && await blob.text();
-  const curve = !numbers && given(options).find(([name]) => name === 'curve')?.[1];
-  const table = (numbers || curve) && run.steps[f.step].report ? await ask('file', {...place(), of: 'report'}) : null;
-  const report = await table?.text() ?? '', lines = report.trim().split('\n').map(line => line.split('\t'));
   if (!valid()) return;
   $('numbers').hidden = !numbers && !(curve && lines.length === 2);
   $('picture').hidden = !$('numbers').hidden;
@@ -358,7 +410,8 @@ function sliders(f, option, redo) {
 }
 // The figures of the first table, if the report has them.
 const FIRST = ['load', 'mean_pressure', 'contact_area', 'contact_fraction', 'max_pressure', 'approach', 'mean_gap',
-  'nodes_per_patch', 'pressure_error_estimate', 'converged'];
+  'nodes_per_patch', 'pressure_error_estimate', 'converged', 'volume', 'volume_error', 'shift_x', 'shift_y', 'rotation',
+  'residual', 'overlap', 'changed'];
 // A report has a column for each figure, the page a line. Curves take the same names.
 function showNumbers([heads, ...rows], textContent) {
   const lines = heads.map((head, k) => [head.split('/'), rows.map(row => row[k])]);
@@ -402,7 +455,7 @@ function downloads() {
   $('save').replaceChildren('Save: ', link(output, 'stream'), ...(report ? [link(report, 'report')] : []),
     ...all.map(([text, ...what]) => button(text, () => save(...what), {name: what[2]})),
     choice('Other format', formats,
-      format => save('rc-export', framed([['format', format]]), `${frame.channel}.${format}`)));
+      format => save('rc-export', framed([['format', format]], false), `${frame.channel}.${format}`)));
 }
 
 // ---- effects: the verdicts of rc-scene on the contact, and buttons that add an effect to the steps ----
@@ -415,7 +468,14 @@ function drawKnown() {
   tables.known = {options: rows.filter(({name}, k) => k >= first || name === 'layer' || name === 'hardness')};
   $('known').replaceChildren(form('known', known, () => {}, drawKnown));
 }
-const judge = trying(async () => {
+// A study below the result: its message stands where its table would.
+const studying = (id, act) => trying(async () => {
+  try { await act(); } catch (e) {
+    $(id).replaceChildren(make('p', {className: 'said failed', textContent: e.message}));
+    throw e;
+  }
+});
+const judge = studying('verdicts', async () => {
   if (!pressed()) throw new Error('Add the step “Press” first: the verdicts are about its contact.');
   const own = given(known), names = own.map(([name]) => name);
   const words = [...given(pressed().options).filter(([name]) => judged(name) && !names.includes(name)), ...own];
@@ -443,24 +503,32 @@ function optionsOf([tool, ...words]) {
   return found.filter(([name]) => row(name)).map(([name, value]) =>
     [name, value ?? (isFlag(row(name)) ? true : row(name).words[0])]);
 }
-// Gives the step of each tool the options of the command. The contact keeps its loads.
-function addEffect({command, title: what}) {
+// Gives the step of each tool the options of the effect, in place of those that exclude them. The contact keeps its
+// loads, bodies and shapes; only effects that replace body 1 bring bodies of their own.
+const OF_CONTACT = /^(load|mean-pressure|approach|estar|E[12]|nu[12]|radius|cylinder|periodic|datum)$/;
+const OF_BODIES = /^(estar|E[12]|nu[12]|body[12])$/;
+function addEffect({effect, command, title: what}) {
   const at = command.indexOf('|'), all = at < 0 ? [command] : [command.slice(0, at), command.slice(at + 1)];
+  const bodies = /^(thin|relaxation|sliding)$/.test(effect), lost = [];
   for (const words of all) {
-    const options = optionsOf(words), has = name => options.some(option => option[0] === name), [tool] = words;
-    const loads = name => /^(load|mean-pressure|approach)$/.test(name);
+    const [tool] = words, rows = tables[tool].options;
     const step = steps.find(other => other.tool === tool) ?? (steps.push({tool, options: []}), steps.at(-1));
-    const kept = step.options.filter(([name]) => loads(name) || !has(name) && !(tool === 'rc-solve' && judged(name)));
-    step.options = [...kept, ...options.filter(([name]) => !loads(name) || tool !== 'rc-solve')];
+    const own = ([name]) => tool !== 'rc-solve' || !OF_CONTACT.test(name) || bodies && OF_BODIES.test(name);
+    const options = optionsOf(words).filter(own), has = name => options.some(option => option[0] === name);
+    const barred = name => options.some(option => clash(rows, option[0], name));
+    const stays = ([name]) => !has(name) && !barred(name) && !(bodies && tool === 'rc-solve' && OF_BODIES.test(name));
+    lost.push(...step.options.filter(([name]) => barred(name) && !has(name)).map(([name]) => `“${named(name, tool)}”`));
+    step.options = [...step.options.filter(stays), ...options];
     step.open = true;
+    added = tool;
   }
   drawSteps();
-  tell(`The steps have this effect now: ${what}. Run the steps to see it.`);
+  tell(`The steps have this effect now: ${what}. ${lost.length ? `It replaces ${lost.join(', ')}. ` : ''}Run the steps to see it.`);
 }
 
 // ---- accuracy: the bars of rc-cost, for the noise and the resolution of the scan ----
 
-const measure = trying(async () => {
+const measure = studying('bars', async () => {
   if (!pressed()) throw new Error('Add the step “Press” first: the bars are those of its contact.');
   const noise = $('noise').value.trim(), words = [...(noise ? [['noise', noise]] : []), ['resolution', true]];
   tell('rc-cost solves the contact again with other noise and resolution …');
@@ -524,7 +592,7 @@ for (const name of ['dragover', 'dragleave', 'drop']) document.addEventListener(
   if (name === 'drop') upload(e.dataTransfer.files[0]);
 });
 $('add').onchange = () => {
-  add($('add').value, steps.length);
+  add(added = $('add').value, steps.length);
   $('add').value = '';
   drawSteps();
   steps.at(-1).card.querySelector('input')?.focus();
