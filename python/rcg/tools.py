@@ -8,6 +8,7 @@ import contextlib
 import json
 import keyword
 import os
+import re
 import subprocess
 import sys
 import tempfile
@@ -436,7 +437,7 @@ class Result:
 
     Channels are attributes: result.pressure is a 2-D array in SI, or a 3-D one where there are several
     cases or depths. report is a dict in SI, with arrays where there are several cases; its figures are
-    attributes too. cases is a list with a Result for each case.
+    attributes too. cases is a list with a Result for each case. Iteration gives the frames, and len() their number.
     """
 
     def __init__(self, tool, command, output=b'', frames=None, lines=(), warnings_=()):
@@ -452,6 +453,15 @@ class Result:
         if self._frames is None:
             self._frames, self._output = _frames_of(self.tool, self._output), None
         return self._frames
+
+    def __iter__(self):
+        return iter(self.frames)
+
+    def __len__(self):
+        return len(self.frames)
+
+    def __bool__(self):
+        return True  # also without frames, as that of rc-info
 
     def stream(self):
         """The grid stream for the next tool: the bytes of the tool, until the frames are read and may change."""
@@ -690,8 +700,33 @@ def _warn(text, tool):
     warnings.warn(ToolWarning(text, tool), stacklevel=level)
 
 
+OPTION = re.compile(r'rc-[a-z]+(?: --?[A-Za-z]\S*)+|--([A-Za-z][A-Za-z0-9-]*)(?:(?:=| )(\w(?:[^\s,;:()]|,(?=\S))*))?')
+
+
+def _as_keywords(words, tool):
+    """A message of a tool with its options as keywords: --dx is dx=, --tilt free is tilt='free'."""
+    try:
+        rows = {row['name']: (name, row) for name, row in options_of(tool).items()}
+    except Error:
+        return words
+
+    def spoken(match):
+        name, value = match.groups()
+        if name not in rows:  # that of another tool, or of rc-cost's command
+            return match.group()
+        keyword_, row = rows[name]
+        if value is None or value == row['argument']:
+            return keyword_ + '=' + (value or '')
+        if not (value[0].isdigit() or value in row['words']):
+            return keyword_ + '=' + match.group()[len('--' + name):]
+        return '%s=%r' % (keyword_, value)
+
+    return OPTION.sub(spoken, words)
+
+
 def _settled(status, words, result):
     """The result, unless the tool failed; its warnings become warnings of Python."""
+    words = _as_keywords(words, result.tool)
     said = [w[len(result.tool) + 2:] if w.startswith(result.tool + ': ') else w for w in words.splitlines()]
     if status not in (0, 3):
         raise Error(words or '%s ended with status %d' % (result.tool, status), status)

@@ -370,6 +370,22 @@ def functions(name):
     stress = rcg.stress(untouched, nu=0.3, depths='0:3um:3', components=['mises', 'szz'])
     assert rcg.dumps(stress.frames) == stressed and stress.mises.shape == (6, 47, 33)
     assert [len(case.frames) for case in stress.cases] == [6, 6]
+    # iteration gives the frames; a result without frames is true
+    assert len(stress) == 12 and [f.channel for f in stress] == [f.channel for f in stress.frames] and len(rcg.info(ball)) == 0 and rcg.info(ball)
+    # messages name options as keywords; those of other tools stay
+    assert str(raised(rcg.Error, rcg.solve, ball, load='1N', estar='1K')).startswith("rc-solve: estar='1K': unknown unit 'K'")
+    text = raised(rcg.Error, rcg.solve, ball, load='1N', estar='1GPa', at='1um,0')
+    assert '--' not in str(text) and "tilt='free'" in str(text), text
+    said = rcg.tools._as_keywords('take --adhesion 50mJ/m2,exponential,0.3nm, --dx and --dy, rc-pick --set load=1', 'rc-solve')
+    assert said == "take adhesion='50mJ/m2,exponential,0.3nm', --dx and --dy, rc-pick --set load=1", said
+    # units of the maps that a user gives, and of those that tools write
+    for channel, unit in (('heat', 'W/m2'), ('wear-coefficient', '1/Pa'), ('traction-x', 'Pa'), ('temperature-1', 'K'), ('contact', '1')):
+        assert rcg.frame(channel, [[0.0, 1.0]], '1um').unit == unit, channel
+    pressed = rcg.solve(ball, load='0.5N', estar='114GPa', quiet=True)
+    for result in (rcg.slip(pressed, mu=0.3, nu=0.3, tangential='0.1N', quiet=True), rcg.solve(ball, load='0.5N', estar='114GPa', adhesion='1J/m2,exponential,1um', output=['adhesion', 'contact'], quiet=True),
+                   rcg.leak(rcg.solve(ball, load='0.5N', estar='114GPa', quiet=True), viscosity='1mPas', pressure_drop='1kPa', quiet=True)):
+        for f in result:
+            assert f.unit == rcg.stream.UNITS.get(f.channel, f.unit), f
     assert rcg.dumps(rcg.synth('sphere', nx=33, ny=47, dx='1.1um', dy='1.29um', radius='2.385mm').frames) == content(name)
     again = rcg.solve(ball.height, dx=(1.1e-6, 1.29e-6), **wanted)
     assert (again.pressure == result.pressure).all() and again.pressure.shape == (2, 47, 33)
