@@ -81,3 +81,27 @@ rc-stress --quiet --nu 0.3 --depths 1um --components mises short.rcg -o stress.r
 claim "stresses of the result end with 3" test $? = 3
 mv stress.rcg short.rcg
 claim "stresses of the result have the stamp too" eval 'draw --width 400 short && pixels "red(@short) > 100"'
+
+# ---- a difference of two scans, and rolling ----
+
+title_of() { rc-render -o title.svg "$@" && sed -n 's/.*<title>\(.*\)<\/title>.*/\1/p' title.svg; }
+rc-synth selfaffine --nx 64 --dx 1um --hurst 0.8 --rms-height 0.5um --rolloff 30um --short-cut 4um --seed 1 -o before.rcg
+rc-pick --mirror x before.rcg -o after.rcg
+rc-add --quiet after.rcg before.rcg -o sum.rcg
+rc-add --quiet --subtract after.rcg before.rcg -o change.rcg
+rc-detrend --plane change.rcg -o level.rcg
+rc-add --quiet --subtract --align before.rcg before.rcg -o aligned.rcg
+rc-add --quiet before.rcg change.rcg -o onto.rcg
+for name in change level aligned; do
+    claim "a difference of two scans is a change of height: $name" test "$(title_of $name.rcg)" = "Change of height"
+done
+claim "  the bar of colours says so" says '>Change of height' cat title.svg
+for name in before sum onto; do
+    claim "  other heights are heights: $name" test "$(title_of $name.rcg)" = Height
+done
+rc-synth sphere --nx 32 --dx 5um --radius 5mm | rc-solve --quiet --load 1N --estar 100GPa --output pressure |
+    rc-slip --quiet --mu 0.3 --nu 0.3 --creep 0.1%:0.2%:2,0 --steady -o roll.rcg
+claim "the line under a traction of rolling has the creepage" bash -c \
+    'rc-render --channel traction-x --case 1 -o roll.svg roll.rcg && grep -q "creepage along x 0.1 %" roll.svg && ! grep -q "creepage along y" roll.svg && ! grep -q "spin " roll.svg'
+claim "  two maps have the creepage of each" bash -c \
+    'rc-render --channel traction-x --case 1,2 -o roll.svg roll.rcg && grep -q "creepage along x 0.1 %" roll.svg && grep -q "creepage along x 0.2 %" roll.svg'

@@ -61,6 +61,25 @@ static const struct channel channels[] = {
 /* A channel counts as one-sided if the values beyond 0 are at most this fraction of the largest magnitude. */
 #define ONE_SIDED 1e-3
 
+/* True for the difference of two measurements: rc-add --align writes keys, and the history has the command. The
+ * history of its second file stands in parentheses. */
+static bool
+is_change(const struct rc_grid *g)
+{
+    const char *step = rc_grid_get(g, "history"), *end, *option;
+    bool is = rc_grid_get(g, "align.shift_x") != NULL;
+
+    for (; step != NULL; step = *end == '\0' ? NULL : end + 3) {
+        if ((end = strstr(step, " | ")) == NULL)
+            end = step + strlen(step);
+        if (strncmp(step, "rc-add ", 7) != 0)
+            continue;
+        option = strstr(step, " --subtract ");
+        is = option != NULL && option < end && option < step + strcspn(step, "(");
+    }
+    return is;
+}
+
 struct channel
 channel_of(const struct rc_grid *g, const struct survey *s)
 {
@@ -76,6 +95,8 @@ channel_of(const struct rc_grid *g, const struct survey *s)
             c.colormap = "magma"; /* diverging colours are for values on both sides of 0 */
             c.from_zero = s->max >= -s->min;
             c.to_zero = !c.from_zero;
+        } else if (strcmp(c.name, "height") == 0 && is_change(g)) {
+            c.title = "Change of height";
         } else if (strcmp(c.name, "pressure") == 0 && both) {
             c.title = "Net pressure, tension negative"; /* bodies that attract each other */
             c.colormap = "bluered";

@@ -57,20 +57,34 @@ say_part(struct subtitle *w, double part)
     subtitle_add(w, text, " % of the map");
 }
 
-/* Names of keys with the units of their numbers; texts have none. A state identifies a case. */
+/* Names of keys with the units of their numbers; texts have none. A state identifies a case.*/
 static const struct {
     const char *key, *name, *unit;
     bool state;
-} pieces[] = {
-    {"source", "", NULL, false},          {"case", "case ", NULL, false},
-    {"load", "load ", "N", true},         {"distance", "distance ", "m", true},
-    {"time", "time ", "s", true},         {"speed", "speed ", "m/s", true},
-    {"position", "position ", "m", true}, {"section", "section ", NULL, false},
-    {"depth", "depth ", "m", false},      {"material", "", NULL, false}}; /* a separate word */
+} pieces[] = {{"source", "", NULL, false},
+              {"case", "case ", NULL, false},
+              {"load", "load ", "N", true},
+              {"distance", "distance ", "m", true},
+              {"time", "time ", "s", true},
+              {"speed", "speed ", "m/s", true},
+              {"position", "position ", "m", true},
+              {"creep_x", "creepage along x ", "%", true},
+              {"creep_y", "creepage along y ", "%", true},
+              {"spin", "spin ", "rad/m", true},
+              {"section", "section ", NULL, false},
+              {"depth", "depth ", "m", false},
+              {"material", "", NULL, false}}; /* a separate word */
 
 enum {
     PIECES = sizeof pieces / sizeof *pieces
 };
+
+/* Most rolling has creepage along x alone: the others are left out where they are 0. */
+static bool
+is_creepage(const char *key)
+{
+    return strncmp(key, "creep_", 6) == 0 || strcmp(key, "spin") == 0;
+}
 
 bool
 subtitle_same(struct rc_grid *const *grid, size_t n, const char *key)
@@ -83,6 +97,15 @@ subtitle_same(struct rc_grid *const *grid, size_t n, const char *key)
             return false;
     }
     return true;
+}
+
+static const char *
+piece_number(char text[TICKS_TEXT], double value, size_t p)
+{
+    if (strcmp(pieces[p].unit, "%") != 0)
+        return scale_value_to(text, value, pieces[p].unit);
+    snprintf(text, TICKS_TEXT, "%.4g %%", 100 * value);
+    return text;
 }
 
 static const char *
@@ -101,7 +124,7 @@ piece_text(char text[TICKS_TEXT], const struct rc_grid *g, size_t p)
         return text;
     }
     if (pieces[p].unit != NULL && rc_grid_number(g, pieces[p].key, &number))
-        return scale_value_to(text, number, pieces[p].unit);
+        return piece_number(text, number, p);
     return name;
 }
 
@@ -109,16 +132,16 @@ piece_text(char text[TICKS_TEXT], const struct rc_grid *g, size_t p)
 static bool
 piece_same(struct rc_grid *const *grid, size_t n, size_t p)
 {
-    char first[TICKS_TEXT];
+    char first[TICKS_TEXT], other[TICKS_TEXT];
     double number;
 
     if (pieces[p].unit == NULL || !rc_grid_number(grid[0], pieces[p].key, &number))
         return subtitle_same(grid, n, pieces[p].key) &&
                (strcmp(pieces[p].key, "section") != 0 || subtitle_same(grid, n, "at"));
-    scale_value_to(first, number, pieces[p].unit);
+    piece_number(first, number, p);
     for (size_t k = 1; k < n; k++)
         if (!rc_grid_number(grid[k], pieces[p].key, &number) ||
-            strcmp(first, scale_value(number, pieces[p].unit)) != 0)
+            strcmp(first, piece_number(other, number, p)) != 0)
             return false;
     return true;
 }
@@ -144,10 +167,13 @@ void
 subtitle_common(struct subtitle *w, struct rc_grid *const *grid, size_t n, bool largest)
 {
     char text[TICKS_TEXT], line[sizeof w->text];
+    double number;
 
     for (size_t p = 0; p < PIECES; p++) {
         if (rc_grid_get(grid[0], pieces[p].key) == NULL || !piece_same(grid, n, p) ||
-            (w->titled && strcmp(pieces[p].key, "section") == 0))
+            (w->titled && strcmp(pieces[p].key, "section") == 0) ||
+            (is_creepage(pieces[p].key) && rc_grid_number(grid[0], pieces[p].key, &number) &&
+             number == 0))
             continue;
         snprintf(line, sizeof line, "%s%s", piece_text(text, grid[0], p),
                  largest && strcmp(pieces[p].key, "depth") == 0 ? " (where it is largest)" : "");
