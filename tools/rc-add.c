@@ -304,8 +304,9 @@ add(struct tool *t, struct rc_grid *a, struct second *second)
 
 static const double in_degrees = 57.29577951308232;
 
-/* What is worth a warning: a shift that is not known to this part of a node. */
-static const double uncertain = 0.1;
+/* What is worth a warning: a shift that is not known to this part of a node, and this part of the overlap
+ * without heights. */
+static const double uncertain = 0.1, many_missing = 0.1;
 
 static void
 tell(struct tool *t, const struct rc_grid *a, const struct rc_alignment *is)
@@ -313,11 +314,18 @@ tell(struct tool *t, const struct rc_grid *a, const struct rc_alignment *is)
     const char *where = tool_where(t, a);
 
     tool_tell(t,
-              "%s: B is shifted by %.3f and %.3f nodes and turned by %.4f degrees; %.3g %% of the "
-              "overlap has changed, the rest differs by %s; volume %s mm3 +- %.2g mm3 (95 %%)",
+              "%s: B is shifted by %.3f and %.3f nodes and turned by %.4f degrees; the overlap is "
+              "%.3g %% of A, and %.2g %% of it is missing; %.3g %% of the measured part has "
+              "changed, the rest differs by %s; volume %s mm3 +- %.2g mm3 (95 %%)",
               where, is->shift_x / a->dx, is->shift_y / a->dy, is->rotation * in_degrees,
-              100 * is->changed, shown_in_unit(is->residual, "m"),
-              shown_number(is->volume * 1e9, 4, ""), is->volume_error * 1e9);
+              100 * is->overlap, 100 * is->missing, 100 * is->changed,
+              shown_in_unit(is->residual, "m"), shown_number(is->volume * 1e9, 4, ""),
+              is->volume_error * 1e9);
+    if (is->missing > many_missing)
+        tool_warn(t,
+                  "%s: %.0f %% of the overlap is missing in A or B: the volume there is estimated "
+                  "from the changes around it; rc-pick --crop leaves out parts without heights",
+                  where, 100 * is->missing);
     if (!(is->shift_error < uncertain * fmin(a->dx, a->dy)))
         tool_warn(
             t,
@@ -348,6 +356,7 @@ report_alignment(const struct rc_grid *a, const struct rc_alignment *is)
     report_number(r, "volume_error", is->volume_error, "m3");
     report_number(r, "overlap", is->overlap, NULL);
     report_number(r, "changed", is->changed, NULL);
+    report_number(r, "missing", is->missing, NULL);
     report_finish_row(r);
 }
 

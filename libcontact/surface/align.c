@@ -7,9 +7,9 @@
  * shift, a rotation, two tilts and an offset are fitted on finer and finer maps. The weights of the residuals
  * are Tukey's biweights, and are renewed until they agree with the residuals. Wear lies on one side: the fit
  * starts at the most frequent residual, and its spread is that of the side with the smaller residuals.
- * Between its nodes B is the cubic spline through them. On the finest maps, nodes of patches whose mean has
- * changed are left out, so that the rims of a groove do not pull the offset. The pull of the others is found
- * by a second reach.
+ * Between its nodes B is the cubic spline through them, and through its holes, filled smoothly. On the
+ * finest maps, nodes of patches whose mean has changed are left out, so that the rims of a groove do not
+ * pull the offset. The pull of the others is found by a second reach.
  */
 #include "libcontact/common.h"
 
@@ -47,8 +47,8 @@ static const double reach = 4.685; /* residuals, in standard deviations, that lo
 
 struct spline {
     struct rc_shape shape;
-    double *c;           /* coefficients                                                   */
-    unsigned char *hole; /* 1: one of the nodes around the cell right and below is missing */
+    double *c;           /* coefficients         */
+    unsigned char *hole; /* 1: a node is missing */
 };
 
 static void
@@ -87,12 +87,9 @@ spline_new(const struct rc_shape *shape, const double *h, struct spline *s, stru
         .shape = *shape, .c = rc_alloc(nx * ny, sizeof *s->c), .hole = rc_calloc(nx * ny, 1)};
     if (s->c == NULL || s->hole == NULL)
         return rc_err_set(err, "out of memory for a spline of %zu x %zu nodes", nx, ny);
-    for (size_t j = 0; j < ny; j++)
-        for (size_t i = 0; i < nx; i++)
-            if (isnan(h[j * nx + i]))
-                for (size_t b = j < 2 ? 0 : j - 2; b <= j + 1 && b < ny; b++)
-                    for (size_t a = i < 2 ? 0 : i - 2; a <= i + 1 && a < nx; a++)
-                        s->hole[b * nx + a] = 1;
+    for (size_t k = 0; k < nx * ny; k++)
+        if (isnan(h[k]))
+            s->hole[k] = 1;
     memcpy(s->c, h, nx * ny * sizeof *h);
     if (rc_inpaint(shape, s->c, &filled, err) != RC_OK)
         return RC_FAIL;
@@ -103,29 +100,34 @@ spline_new(const struct rc_shape *shape, const double *h, struct spline *s, stru
     return RC_OK;
 }
 
-/* Four places and weights along one side, and the derivatives of the weights. False: beyond the map. */
+static const double beyond =
+    1e-3; /* nodes beyond the map that count as its edge: the error of a shift */
+
+/* Four places and weights along one side, and the derivatives of the weights; x lies `part` of a node beyond
+ * the second place. False: beyond the map. */
 static bool
-along_side(double x, size_t n, size_t *first, size_t place[4], double weight[4], double slope[4])
+along_side(double x, size_t n, double *part, size_t place[4], double weight[4], double slope[4])
 {
-    const double last = (double)(n - 1), rim = 1e-3; /* nodes: the error of a shift */
+    const double last = (double)(n - 1);
+    size_t first;
     double t;
 
-    if (!(x >= -rim && x <= last + rim))
+    if (!(x >= -beyond && x <= last + beyond))
         return false;
     x = fmin(fmax(x, 0), last);
     if (n == 1) {
         memset(place, 0, 4 * sizeof *place);
         memset(slope, 0, 4 * sizeof *slope);
         memcpy(weight, (const double[]){1, 0, 0, 0}, 4 * sizeof *weight);
-        *first = 0;
+        *part = 0;
         return true;
     }
-    *first = x < last ? (size_t)x : n - 2;
-    t = x - (double)*first;
-    place[0] = *first == 0 ? 1 : *first - 1;
-    place[1] = *first;
-    place[2] = *first + 1;
-    place[3] = *first + 2 == n ? n - 2 : *first + 2;
+    first = x < last ? (size_t)x : n - 2;
+    *part = t = x - (double)first;
+    place[0] = first == 0 ? 1 : first - 1;
+    place[1] = first;
+    place[2] = first + 1;
+    place[3] = first + 2 == n ? n - 2 : first + 2;
     weight[0] = (1 - t) * (1 - t) * (1 - t) / 6;
     weight[1] = (4 - 6 * t * t + 3 * t * t * t) / 6;
     weight[3] = t * t * t / 6;
@@ -137,17 +139,25 @@ along_side(double x, size_t n, size_t *first, size_t place[4], double weight[4],
     return true;
 }
 
-/* Height and gradient at a place (m from the middle). False: beyond the map, or beside a missing node. */
+/* Height and gradient at a place (m from the middle). False: beyond the map, or missing: of the four nodes
+ * around, missing ones have more than a quarter of the weight of linear interpolation. A single missing node
+ * takes 1.6 places of another grid. */
 static bool
 spline_at(const struct spline *s, double x, double y, double *h, double gradient[2])
 {
+    const double most = 0.25;
     const size_t nx = s->shape.nx, ny = s->shape.ny;
-    size_t i, j, px[4], py[4];
-    double wx[4], wy[4], sx[4], sy[4];
+    size_t px[4], py[4];
+    double wx[4], wy[4], sx[4], sy[4], t, u, missing = 0;
 
-    if (!along_side(x / s->shape.dx + (double)(nx - 1) / 2, nx, &i, px, wx, sx) ||
-        !along_side(y / s->shape.dy + (double)(ny - 1) / 2, ny, &j, py, wy, sy) ||
-        s->hole[j * nx + i])
+    if (!along_side(x / s->shape.dx + (double)(nx - 1) / 2, nx, &t, px, wx, sx) ||
+        !along_side(y / s->shape.dy + (double)(ny - 1) / 2, ny, &u, py, wy, sy))
+        return false;
+    for (int b = 1; b <= 2; b++)
+        for (int a = 1; a <= 2; a++)
+            if (s->hole[py[b] * nx + px[a]])
+                missing += (a == 1 ? 1 - t : t) * (b == 1 ? 1 - u : u);
+    if (missing > most)
         return false;
     *h = gradient[0] = gradient[1] = 0;
     for (int b = 0; b < 4; b++) {
@@ -194,6 +204,14 @@ set_place(const struct fit *f, size_t k, double *x, double *y)
 /* The order of the numbers in `q`; a profile has no shift along y, rotation and tilt along y. */
 static const size_t order[NUMBERS] = {0, 3, 4, 1, 2, 5};
 
+/* A place on A, from the middle of B. */
+static void
+set_on_b(const double q[NUMBERS], double x, double y, double *u, double *v)
+{
+    *u = cos(q[2]) * (x - q[0]) - sin(q[2]) * (y - q[1]);
+    *v = sin(q[2]) * (x - q[0]) + cos(q[2]) * (y - q[1]);
+}
+
 /* A - B at node k, and the derivatives of B there by all numbers (not NULL). NAN where one is missing. */
 static double
 difference(const struct fit *f, const double q[NUMBERS], size_t k, double *by)
@@ -204,8 +222,7 @@ difference(const struct fit *f, const double q[NUMBERS], size_t k, double *by)
     if (isnan(f->a[k]))
         return NAN;
     set_place(f, k, &x, &y);
-    u = c * (x - q[0]) - s * (y - q[1]);
-    v = s * (x - q[0]) + c * (y - q[1]);
+    set_on_b(q, x, y, &u, &v);
     if (!spline_at(f->b, u, v, &h, g))
         return NAN;
     if (by != NULL) {
@@ -759,6 +776,111 @@ take_pull(struct fit *f)
     return pull;
 }
 
+/* ---- holes ---- */
+
+/* Nodes of A on B where a height of A or B is missing. */
+struct holes {
+    size_t nodes;
+    double sum, square; /* m: sum of the change there; m^2: square of its uncertainty of 95 % */
+};
+
+static bool
+lies_on_b(const struct fit *f, size_t k)
+{
+    const struct rc_shape *b = &f->b->shape;
+    double x, y, u, v;
+
+    set_place(f, k, &x, &y);
+    set_on_b(f->q, x, y, &u, &v);
+    return fabs(u) / b->dx <= (double)(b->nx - 1) / 2 + beyond &&
+           fabs(v) / b->dy <= (double)(b->ny - 1) / 2 + beyond;
+}
+
+/* Mean square of the known changes around a box, less `mean`. */
+static double
+square_around(const struct rc_shape *s, const double *change, const size_t low[2],
+              const size_t high[2], double mean)
+{
+    const size_t width = high[0] - low[0] + 1, height = high[1] - low[1] + 1;
+    size_t margin = 2 + (width < height ? width : height) / 2, n = 0;
+    double sum = 0;
+
+    for (; n == 0; margin *= 2) /* one change at least is known */
+        for (size_t j = low[1] < margin ? 0 : low[1] - margin; j <= high[1] + margin && j < s->ny;
+             j++)
+            for (size_t i = low[0] < margin ? 0 : low[0] - margin;
+                 i <= high[0] + margin && i < s->nx; i++) {
+                const double r = change[j * s->nx + i];
+                sum += isnan(r) ? 0 : (r - mean) * (r - mean);
+                n += isnan(r) ? 0 : 1;
+            }
+    return sum / (double)n;
+}
+
+/* Adds the hole with node k, whose nodes are joined by their sides. The uncertainty of its mean change is the
+ * spread of the known changes around it: in 55 pairs of scans with holes the error of their sum was 0.2 of
+ * that on average, and at most 0.64. */
+static void
+add_hole(const struct fit *f, const double *change, const double *filled, unsigned char *missing,
+         size_t *queue, size_t k, struct holes *holes)
+{
+    const size_t nx = f->shape.nx, ny = f->shape.ny;
+    size_t low[2] = {k % nx, k / nx}, high[2] = {k % nx, k / nx}, n = 0;
+    double sum = 0;
+
+    queue[n++] = k;
+    missing[k] = 0;
+    for (size_t done = 0; done < n; done++) {
+        const size_t at = queue[done], i = at % nx, j = at / nx;
+        const bool there[] = {i > 0, i + 1 < nx, j > 0, j + 1 < ny};
+        const size_t next[] = {at - 1, at + 1, at - nx, at + nx};
+        sum += filled[at];
+        low[0] = i < low[0] ? i : low[0];
+        high[0] = i > high[0] ? i : high[0];
+        low[1] = j < low[1] ? j : low[1];
+        high[1] = j > high[1] ? j : high[1];
+        for (int q = 0; q < 4; q++)
+            if (there[q] && missing[next[q]]) {
+                missing[next[q]] = 0;
+                queue[n++] = next[q];
+            }
+    }
+    holes->nodes += n;
+    holes->sum += sum;
+    holes->square +=
+        (double)n * (double)n * square_around(&f->shape, change, low, high, sum / (double)n);
+}
+
+/* The change in the holes is the solution of Laplace's equation between the known changes around them. */
+static enum rc_status
+fill_holes(const struct fit *f, const double *change, struct holes *holes, struct rc_err *err)
+{
+    const size_t n = f->shape.nx * f->shape.ny;
+    RC_OWNED unsigned char *missing = rc_calloc(n, 1);
+    RC_OWNED double *filled = NULL;
+    RC_OWNED size_t *queue = NULL;
+    size_t all = 0, count;
+
+    *holes = (struct holes){0};
+    if (missing == NULL)
+        return rc_err_set(err, "out of memory for the holes of %zu heights", n);
+    for (size_t k = 0; k < n; k++)
+        all += missing[k] = isnan(change[k]) && lies_on_b(f, k) ? 1 : 0;
+    if (all == 0)
+        return RC_OK;
+    filled = rc_alloc(n, sizeof *filled);
+    queue = rc_alloc(all, sizeof *queue);
+    if (filled == NULL || queue == NULL)
+        return rc_err_set(err, "out of memory for the holes of %zu heights", n);
+    memcpy(filled, change, n * sizeof *filled);
+    if (rc_inpaint(&f->shape, filled, &count, err) != RC_OK)
+        return RC_FAIL;
+    for (size_t k = 0; k < n; k++)
+        if (missing[k])
+            add_hole(f, change, filled, missing, queue, k, holes);
+    return RC_OK;
+}
+
 /* ---- uncertainty ---- */
 
 /* Ratio of the variance of sums over blocks to that of independent nodes: how many neighbours err alike. */
@@ -789,7 +911,8 @@ correlated_nodes(const struct fit *f, const double *change)
 }
 
 /* With the residuals r and the derivatives G of B the numbers err by N^-1 sum psi(r) G, N = sum psi'(r) G G'.
- * The volume is the sum of r, which changes by -(sum G)' of that, and by the level that was taken away. */
+ * The volume is the sum of r, which changes by -(sum G)' of that, and by the level that was taken away. In
+ * the holes G has its mean, and the error of the change that is filled in is added. */
 static enum rc_status
 find_errors(const struct fit *f, const double *change, double level, struct rc_alignment *found,
             struct rc_err *err)
@@ -803,8 +926,11 @@ find_errors(const struct fit *f, const double *change, double level, struct rc_a
     double slope = 0, weights = 0, sum = 0, changed = 0, there = 0, volume = 0, pulls[NUMBERS];
     gsl_matrix_view m = gsl_matrix_view_array(normal, p, p);
     gsl_vector_view right = gsl_vector_view_array(all, p);
-    double by[NUMBERS];
+    double by[NUMBERS], part;
+    struct holes holes;
 
+    if (fill_holes(f, change, &holes, err) != RC_OK)
+        return RC_FAIL;
     for (size_t k = 0; k < n; k++) {
         const double r = change[k], u = r / (reach * f->spread);
         const double w = k % f->step != 0 || f->skip[k] ? 0 : rc_biweight(u, 1);
@@ -830,6 +956,9 @@ find_errors(const struct fit *f, const double *change, double level, struct rc_a
                           "the unchanged part of the maps does not determine the alignment: it "
                           "is flat, or equal along a line");
     slope = fmax(slope, 0.1 * weights) / weights;
+    part = there / (there + (double)holes.nodes);
+    for (size_t i = 0; i < p; i++)
+        all[i] /= part;
     gsl_linalg_cholesky_svx(&m.matrix, &right.vector); /* now N^-1 sum G */
     for (size_t k = 0; k < n; k++) {
         const double r = change[k];
@@ -860,10 +989,13 @@ find_errors(const struct fit *f, const double *change, double level, struct rc_a
     found->shift_error = p == NUMBERS ? hypot(by[0], by[1]) : by[0];
     found->rotation_error = p == NUMBERS ? by[2] : 0;
     found->changed = changed / there;
+    found->volume += holes.sum * f->shape.dx * f->shape.dy;
     found->volume_error =
-        (bar_of_volume * (1 + found->changed) * sqrt(sum * volume) + fabs(level) * there) *
+        (hypot(bar_of_volume * (1 + found->changed) * sqrt(sum * volume), sqrt(holes.square)) +
+         fabs(level) * there / part) *
         f->shape.dx * f->shape.dy;
-    found->overlap = there / (double)n;
+    found->overlap = there / part / (double)n;
+    found->missing = 1 - part;
     return RC_OK;
 }
 

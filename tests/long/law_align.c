@@ -3,8 +3,31 @@
  * volume within its bar. */
 #include "tests/surface/scans.h"
 
+enum kind {
+    GROOVE,
+    HONED,
+    HOLED,
+    HONED_HOLED
+};
+
+static struct scans
+make_case(enum kind kind, struct surface *s)
+{
+    struct scans c;
+
+    if (kind == HONED || kind == HONED_HOLED)
+        c = worn_scans(150, 130, s);
+    else
+        c = random_scans(150, 130);
+    if (kind == HOLED || kind == HONED_HOLED)
+        add_shares(&c);
+    if (kind == GROOVE || kind == HOLED)
+        make_surface(s, 1);
+    return c;
+}
+
 static void
-campaign(bool worn)
+campaign(enum kind kind)
 {
     enum {
         CASES = 100
@@ -14,11 +37,8 @@ campaign(bool worn)
 
     srand(91);
     for (int k = 0; k < CASES; k++) {
-        const struct scans c = worn ? worn_scans(150, 130, &s) : random_scans(150, 130);
-        struct errors e;
-        if (!worn)
-            make_surface(&s, 1);
-        e = align_scans(&s, &c);
+        const struct scans c = make_case(kind, &s);
+        const struct errors e = align_scans(&s, &c);
         shifts += e.shift < 0.02;
         turns += e.turn < 0.01;
         volumes += fabs(e.volume) < e.bar;
@@ -42,14 +62,28 @@ static void
 test_groove(void **state)
 {
     (void)state;
-    campaign(false);
+    campaign(GROOVE);
 }
 
 static void
 test_honed(void **state)
 {
     (void)state;
-    campaign(true);
+    campaign(HONED);
+}
+
+static void
+test_holed(void **state)
+{
+    (void)state;
+    campaign(HOLED);
+}
+
+static void
+test_honed_holed(void **state)
+{
+    (void)state;
+    campaign(HONED_HOLED);
 }
 
 int
@@ -58,6 +92,8 @@ main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_groove),
         cmocka_unit_test(test_honed),
+        cmocka_unit_test(test_holed),
+        cmocka_unit_test(test_honed_holed),
     };
 
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -97,9 +97,10 @@ struct scans {
     double tilt_x, tilt_y, offset; /* of A over B */
     double noise;                  /* m, of each scan */
     double groove, width;          /* m: depth of a groove in A, and its half width */
-    double share, cut; /* of the nodes of A that lose their tops, and the height (m) above */
-    double lay;        /* 1: no lay */
-    int holes;         /* in each scan */
+    double share, cut;    /* of the nodes of A that lose their tops, and the height (m) above */
+    double lay;           /* 1: no lay */
+    int holes;            /* in each scan */
+    double missing, size; /* part of each scan in holes more, and their largest radius, nodes */
 };
 
 static inline void
@@ -111,6 +112,26 @@ punch_holes(const struct rc_shape *s, int holes, double *h)
         for (size_t k = 0; k < s->nx * s->ny; k++)
             if (hypot((double)(k % s->nx) - i, (double)(k / s->nx) - j) < r)
                 h[k] = NAN;
+    }
+}
+
+/* Holes of radii up to `size`, or single nodes, until this part of the map is missing. */
+static inline void
+punch_share(const struct rc_shape *s, double part, double size, double *h)
+{
+    const double nodes = (double)(s->nx * s->ny);
+    double missing = 0;
+
+    while (missing < part * nodes) {
+        const double i = uniform(0, (double)s->nx), j = uniform(0, (double)s->ny),
+                     r = uniform(0, size);
+        const size_t at = (size_t)j * s->nx + (size_t)i;
+        for (size_t k = 0; k < s->nx * s->ny; k++)
+            if ((k == at || hypot((double)(k % s->nx) - i, (double)(k / s->nx) - j) < r) &&
+                !isnan(h[k])) {
+                h[k] = NAN;
+                missing++;
+            }
     }
 }
 
@@ -171,6 +192,8 @@ scan_both(const struct surface *s, const struct scans *c, double *a, double *b)
         }
     punch_holes(&c->a, c->holes, a);
     punch_holes(&c->b, c->holes, b);
+    punch_share(&c->a, c->missing, c->size, a);
+    punch_share(&c->b, c->missing, c->size, b);
 }
 
 /* A case of the campaign. */
@@ -194,6 +217,15 @@ random_scans(size_t nx, size_t ny)
     return c;
 }
 
+/* 0.1 to 10 % of each scan in holes, instead of other holes: single nodes, or radii up to 5 nodes. */
+static inline void
+add_shares(struct scans *c)
+{
+    c->holes = 0;
+    c->missing = 0.001 * exp(uniform(0, log(100)));
+    c->size = rand() % 2 ? 0 : uniform(1, 5);
+}
+
 /* A honed surface that has lost the tops of 30 to 50 % of its nodes, up to several micrometres. */
 static inline struct scans
 worn_scans(size_t nx, size_t ny, struct surface *s)
@@ -212,10 +244,21 @@ worn_scans(size_t nx, size_t ny, struct surface *s)
 struct errors {
     double shift, turn;       /* nodes, degrees */
     double volume, bar, worn; /* m^3: error, its bar, the volume itself */
+    double on_b, missing;     /* nodes of A on B, and those without a change */
     struct rc_alignment found;
 };
 
-/* Aligns the scans; the volume counts the nodes that are measured in both. A refusal has infinite errors. */
+static inline bool
+lies_on_b(const struct scans *c, double x, double y)
+{
+    const double u = cos(c->turn) * (x - c->shift_x) - sin(c->turn) * (y - c->shift_y),
+                 v = sin(c->turn) * (x - c->shift_x) + cos(c->turn) * (y - c->shift_y);
+
+    return fabs(u) <= place(c->b.nx - 1, c->b.nx, c->b.dx) * (1 + 1e-9) &&
+           fabs(v) <= place(c->b.ny - 1, c->b.ny, c->b.dy) * (1 + 1e-9);
+}
+
+/* Aligns the scans; the volume counts all nodes of A that lie on B. A refusal has infinite errors. */
 static inline struct errors
 align_scans(const struct surface *s, const struct scans *c)
 {
@@ -232,11 +275,15 @@ align_scans(const struct surface *s, const struct scans *c)
         free(out);
         return (struct errors){.shift = INFINITY, .turn = INFINITY, .volume = INFINITY};
     }
-    for (size_t k = 0; k < c->a.nx * c->a.ny; k++)
-        if (!isnan(out[k]))
-            e.worn -= worn_depth(s, c, place(k % c->a.nx, c->a.nx, c->a.dx),
-                                 place(k / c->a.nx, c->a.ny, c->a.dy)) *
-                      c->a.dx * c->a.dy;
+    for (size_t k = 0; k < c->a.nx * c->a.ny; k++) {
+        const double x = place(k % c->a.nx, c->a.nx, c->a.dx),
+                     y = place(k / c->a.nx, c->a.ny, c->a.dy);
+        if (!lies_on_b(c, x, y))
+            continue;
+        e.on_b++;
+        e.missing += isnan(out[k]);
+        e.worn -= worn_depth(s, c, x, y) * c->a.dx * c->a.dy;
+    }
     e.shift = hypot((found.shift_x - c->shift_x) / c->a.dx, (found.shift_y - c->shift_y) / c->a.dy);
     e.turn = fabs(found.rotation - c->turn) * 180 / exact_pi;
     e.volume = found.volume - e.worn;

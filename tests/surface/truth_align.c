@@ -43,6 +43,33 @@ test_worn(void **state)
     assert_true(e.found.residual < 1.1 * sqrt(2) * c.noise);
 }
 
+/* Holes of single nodes and of radii up to 5 nodes: the volume is that of the whole overlap, and a single
+ * missing node of B takes 1.6 nodes of the result on average. Six of the cases of tests/long/law_align.c. */
+static void
+test_holes(void **state)
+{
+    struct surface s;
+
+    (void)state;
+    srand(91);
+    for (int k = 0; k < 6; k++) {
+        struct scans c = random_scans(150, 130);
+        struct errors e;
+        add_shares(&c);
+        make_surface(&s, 1);
+        e = align_scans(&s, &c);
+        if (!(e.shift < 0.02 && e.turn < 0.01 && fabs(e.volume) < e.bar))
+            fail_msg("case %d: shift off by %g nodes, rotation by %g degrees, volume by %g of %g "
+                     "m3, its bar is %g",
+                     k, e.shift, e.turn, e.volume, e.worn, e.bar);
+        assert_true(fabs(e.found.missing - e.missing / e.on_b) < 1e-3);
+        assert_true(fabs(e.found.overlap * (double)(c.a.nx * c.a.ny) / e.on_b - 1) < 1e-3);
+        if (c.size == 0) /* by chance the overlap has some holes more */
+            assert_true(e.found.missing <
+                        1.1 * (1 + 1.61) * c.missing + 8 * sqrt(c.missing / e.on_b));
+    }
+}
+
 /* Without noise and wear only the spline is left. */
 static void
 test_clean(void **state)
@@ -123,9 +150,9 @@ int
 main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_random),   cmocka_unit_test(test_worn),
-        cmocka_unit_test(test_clean),    cmocka_unit_test(test_profile),
-        cmocka_unit_test(test_refusals),
+        cmocka_unit_test(test_random), cmocka_unit_test(test_worn),
+        cmocka_unit_test(test_clean),  cmocka_unit_test(test_profile),
+        cmocka_unit_test(test_holes),  cmocka_unit_test(test_refusals),
     };
 
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -81,6 +81,14 @@ claim "frames have the alignment as keys" bash -c 'rc-info change.rcg >keys.txt 
 claim "one line tells it" warns 'B is shifted by -5.000 and -7.000 nodes and turned by -?0.0000 degrees; .*volume .* mm3 .- .* mm3 .95 %.$' \
     rc-add --subtract --align --verbose later.rcg new.rcg -o c.rcg
 claim "a table has a row" bash -c 'rc-add --subtract --align --report align.tsv later.rcg new.rcg -o c.rcg && [ $(wc -l <align.tsv) = 2 ] && says "volume_error/m3" cat align.tsv'
+# holed RADIUS: later.rcg with a round hole in its middle
+holed() { rc-export --format xyz later.rcg | awk -v r="$1" '!/^#/ { if ($1 ^ 2 + $2 ^ 2 < r ^ 2) $3 = "NaN" } { print }' | rc-import --format xyz --xy-unit m --z-unit m - -o holed.rcg; }
+holed 3e-6
+claim "a small hole is counted" warns 'the overlap is 86.8 % of A, and 0.4 % of it is missing; .*volume' rc-add --subtract --align --verbose holed.rcg new.rcg -o c.rcg
+claim "  without a warning" bash -c 'rc-add --subtract --align --report align.json holed.rcg new.rcg -o c.rcg 2>err && [ ! -s err ]'
+near "$(field missing align.json)" "$(awk 'BEGIN { print 32 / (93 * 86) }')" 1e-5 "  with its share of the overlap"
+holed 20e-6
+claim "  a large one has a warning" warns '16 % of the overlap is missing in A or B: the volume there is estimated' rc-add --subtract --align holed.rcg new.rcg -o c.rcg
 refuses 2 '--align has no effect without --subtract' "no alignment of a sum" "rc-add --align later.rcg new.rcg"
 refuses 1 'an alignment needs 16 a side' "too small a map" "rc-pick --crop 0,0,12,12 new.rcg | rc-add --subtract --align later.rcg -"
 unrelated() { for seed in 6 7 8; do rc-synth selfaffine --nx 96 --dx 1um --hurst 0.7 --rms-height 0.3um --seed $seed -o other.rcg
