@@ -482,6 +482,9 @@ main(int argc, char **argv)
 
         measure(&t, g, &statistics, &counts);
         touch = touching(&t, g, &counts, &beside);
+        if (is_height(g) && strcmp(g->unit, "m") == 0)
+            tool_judge_slope(&t, tool_where(&t, g), statistics.rms_slope,
+                             "if a unit is wrong, import the file again with --z-unit");
         info_compute(&args.wanted, &t, g, touch, &figures);
         info_report(&args.wanted.out, &args.wanted, &figures, &statistics);
         if (args.spread)

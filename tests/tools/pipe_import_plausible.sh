@@ -41,8 +41,16 @@ claim "a given unit causes none" bash -c '! rc-import --z-unit um tall.txt 2>&1 
 saw() { # HEIGHT: teeth of this height in um, 2 um apart
     printf '# Width: 8 um\n# Height: 6 um\n# Value units: um\n0 %s 0 %s\n%s 0 %s 0\n0 %s 0 %s\n' "$1" "$1" "$1" "$1" "$1" "$1"
 }
+export -f saw
 saw 7 >steep.txt
 claim "an RMS slope of 3.5 causes a warning" warns 'the RMS slope is 3.5 \(74 degrees\), which is implausible' rc-import steep.txt
+sed 's/ um/ mm/' steep.txt | grep -v '^#' >bare.txt
+claim "  with a unit that was given too" \
+    warns '^rc-import: bare.txt: the RMS slope is 3.5e\+03 \(90 degrees\), which is implausible: are --z-unit and the spacing right\?$' \
+    rc-import --dx 2um --z-unit mm bare.txt
+claim "  in one line" test "$(rc-import --dx 2um --z-unit mm bare.txt 2>&1 >steep.rcg | wc -l)" = 1
+claim "  rc-info warns too" warns 'bare.txt, case 1, frame 1 \(height\): the RMS slope is [0-9.e+]* \(90 degrees\), which is implausible: if a unit is wrong, import' rc-info steep.rcg
+claim "  and not of the right unit" bash -c 'saw 1 | grep -v "^#" | rc-import --dx 2um --z-unit um - 2>err | rc-info 2>>err >out && [ ! -s err ]'
 saw 5 >flat.txt
 claim "one of 2.5 causes none" quiet rc-import flat.txt
 printf 'x [m] z [um]\n0 1\n1 2\n2 3\n' >long.txt

@@ -587,6 +587,17 @@ tool_demand_measured(struct tool *t, const struct rc_grid *g)
                     count, first % g->nx, first / g->nx);
 }
 
+bool
+tool_judge_slope(struct tool *t, const char *where, double slope, const char *remedy)
+{
+    static const double steep = 3; /* 72 degrees on average */
+
+    if (slope > steep)
+        tool_warn(t, "%s: the RMS slope is %.3g (%.0f degrees), which is implausible: %s", where,
+                  slope, atan(slope) * 180 / 3.14159265358979323846, remedy);
+    return slope > steep;
+}
+
 void
 tool_demand_finite(struct tool *t, const struct rc_grid *g, const char *remedy)
 {

@@ -445,6 +445,9 @@ void tool_demand_none(struct tool *tool, const struct rc_grid *grid, size_t coun
 /* Ends the tool if a height is infinite; NaN is a point without a measurement. By rows: of the rows read so
  * far. */
 void tool_demand_measured(struct tool *tool, const struct rc_grid *grid);
+/* Warns of an RMS slope of heights that is implausible, because a unit may be wrong; `remedy` is the advice.
+ * True: it has. */
+bool tool_judge_slope(struct tool *tool, const char *where, double slope, const char *remedy);
 /* Ends the tool before the work if the file of an option (NULL: none) cannot be written. */
 void tool_demand_writable(struct tool *tool, const char *option, const char *name);
 /* Sets the budget of the allocator: the limit of --memory, or the memory of the machine if it is less. */

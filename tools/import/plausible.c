@@ -7,8 +7,7 @@
 
 static const double longest = 1, shortest = 10e-9, /* m, of a side */
     coarse =
-        1e-3,  /* m: a spacing above it, with heights that span more, are those of a file in mm */
-    steep = 3; /* RMS slope in x: 72 degrees on average */
+        1e-3; /* m: a spacing above it, with heights that span more, are those of a file in mm */
 
 /* Range of the heights. */
 static double
@@ -79,11 +78,13 @@ import_judge(struct tool *t, const struct rc_grid *g, const struct rc_wish *wish
                   "implausible: if the unit is wrong, give --z-unit for the heights, or --dx for "
                   "the spacing",
                   t->input.source, span, fmax(x, y));
-    else if (isnan(wish->z_unit) && strcmp(g->unit, "m") == 0 && slope_of(g) > steep)
-        tool_warn(t,
-                  "%s: the RMS slope is %.3g (%.0f degrees), which is implausible: if a unit is "
-                  "wrong, give --z-unit for the heights, or --dx for the spacing",
-                  t->input.source, slope_of(g), atan(slope_of(g)) * 180 / 3.14159265358979323846);
+    else if (strcmp(g->unit, "m") == 0 &&
+             tool_judge_slope(t, t->input.source, slope_of(g),
+                              isnan(wish->z_unit)
+                                  ? "if a unit is wrong, give --z-unit for the heights, or --dx "
+                                    "for the spacing"
+                                  : "are --z-unit and the spacing right?"))
+        return;
     else if (isnan(wish->dx) && isnan(wish->z_unit) && fmax(x, y) <= longest)
         judge_millimetres(t, g, unit, span);
 }
