@@ -171,6 +171,7 @@ claim "a length below rounding is 0" bash -c '[ "$(sed -n "/<h2>Creep/,/<h2>Effe
 claim "a section whose tool refuses the problem says so, and the page is written" bash -c '
     rc-report --quiet --load 20N --estar 100GPa --mu 0.3 --tangential 30N -o refused.html steel.rcg 2>refused.txt; [ $? = 0 ] && [ -s refused.txt ] &&
     grep -A 1 "<h2>Friction" refused.html | grep -q "This was not computed"'
+claim "  in the first paragraph too" says 'trust in these figures: .*not computed: Friction' said refused.html
 
 rc-synth sphere --nx 33 --dx 1um --radius 1mm -o ball.rcg
 rc-report --quiet --load 0.1N --estar 114GPa -o ball.html ball.rcg

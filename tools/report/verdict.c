@@ -227,13 +227,32 @@ put_bars(struct page *run, size_t *n)
     return true;
 }
 
-/* The sections of effects with a row that is not converged, as "Travel, Wear". */
-static const char *
-name_inaccurate(struct page *run, char text[PAGE_CELL])
+static bool
+is_inaccurate(struct page *run, const char *file)
 {
     static const char *const short_of[][2] = {{"converged", "false"}, {NULL}};
-    const char *heading = "";
     char cell[PAGE_CELL];
+
+    return page_cell(run, file, "converged", short_of, cell);
+}
+
+/* The tool has failed. */
+static bool
+is_missing(struct page *run, const char *file)
+{
+    FILE *in = page_open(run, file);
+    const bool empty = getc(in) == EOF;
+
+    fclose(in);
+    return empty;
+}
+
+/* The sections of effects whose report is such, as "Travel, Wear". */
+static const char *
+name_sections(struct page *run, bool (*is_such)(struct page *run, const char *file),
+              char text[PAGE_CELL])
+{
+    const char *heading = "";
     size_t n = 0;
 
     text[0] = '\0';
@@ -243,7 +262,7 @@ name_inaccurate(struct page *run, char text[PAGE_CELL])
         if (part->heading != NULL)
             heading = part->heading;
         if (part->needs != NULL && part->command == NULL && page_is_wanted(run, part) &&
-            page_cell(run, part->file, "converged", short_of, cell) && n < PAGE_CELL)
+            n < PAGE_CELL && is_such(run, part->file))
             n += (size_t)snprintf(text + n, PAGE_CELL - n, "%s%s", n > 0 ? ", " : "", heading);
     }
     return text;
@@ -253,14 +272,18 @@ name_inaccurate(struct page *run, char text[PAGE_CELL])
 static void
 put_limits(struct page *run)
 {
-    char inaccurate[PAGE_CELL];
+    char sections[PAGE_CELL];
     FILE *out = run->page.file;
     size_t n = 0;
     bool judged, bars;
 
-    if (*name_inaccurate(run, inaccurate) != '\0') {
+    if (*name_sections(run, is_inaccurate, sections) != '\0') {
         begin_limit(out, &n);
-        fprintf(out, "the requested accuracy was not reached under %s", inaccurate);
+        fprintf(out, "the requested accuracy was not reached under %s", sections);
+    }
+    if (*name_sections(run, is_missing, sections) != '\0') {
+        begin_limit(out, &n);
+        fprintf(out, "not computed: %s", sections);
     }
     put_contact_limits(run, &n);
     judged = put_grid_limit(run, &n);
