@@ -107,6 +107,7 @@ struct run {
     double coat;                /* m: least thickness left of the top layer before wear; 0: none */
     double left;                /* m: the same at the present point; below 0: worn through */
     double relief;              /* m: from the lowest to the highest node before wear */
+    double area, depth, spread; /* of --until, at the last point                      */
     size_t written;             /* steps at the last row of --steps      */
     double slid;                /* m: distance of that row               */
     const struct numbers *list; /* of distances or cycles                              */
@@ -576,6 +577,9 @@ judge(struct drive *d, struct rc_model *m)
     struct run *run = (struct run *)(void *)d;
     char text[300];
 
+    run->area = rc_model_number(m, "contact_fraction");
+    run->depth = rc_wear_result(m)->max_wear_depth;
+    run->spread = rc_wear_result(m)->pressure_spread;
     find_left(run, m);
     if (run->left >= 0) {
         drive_judge_point(d, m);
@@ -618,6 +622,35 @@ set_keys(struct drive *d, struct rc_model *m, struct rc_grid *g)
             "alignment, and the worn depths that all alignments share are more accurate: take a "
             "smaller --tol",
             f->pressure_error);
+}
+
+/* Warns where the distances ended before the conditions of --until. */
+static void
+judge_until(struct run *run, const struct rc_grid *g)
+{
+    const struct rc_wear_problem *law = &run->law;
+    char text[256] = "";
+    size_t at = 0;
+
+    if (args.until == NULL || run->d.args->dry_run || run->d.is.ended || run->d.status == RC_MORE ||
+        tool_interrupted() != 0 ||
+        (law->until_area > 0 && run->area >= law->until_area) || /* just at the last distance */
+        (law->until_depth > 0 && run->depth >= law->until_depth) ||
+        (law->until_spread > 0 && run->spread <= law->until_spread))
+        return;
+    if (law->until_area > 0)
+        at += (size_t)snprintf(text, sizeof text, ": %.3g of the map is in contact, and not %.3g",
+                               run->area, law->until_area);
+    if (law->until_depth > 0)
+        at += (size_t)snprintf(
+            text + at, sizeof text - at, ": the largest worn depth is %s, and not %s",
+            shown_in_unit(run->depth, "m"), shown_in_unit(law->until_depth, "m"));
+    if (law->until_spread > 0)
+        snprintf(text + at, sizeof text - at, ": the spread of the pressure is %.3g, and not %.3g",
+                 run->spread, law->until_spread);
+    tool_warn(&run->d.t, "%s: --until was not reached at the last distance, %s%s",
+              tool_where(&run->d.t, g),
+              shown_in_unit(run->d.point[run->d.points - 1].at[RC_DISTANCE], "m"), text);
 }
 
 /* A row of --steps after each step; none for a way that is taken again. */
@@ -758,6 +791,7 @@ do_case(struct run *run, const struct rc_grid *g)
                rc_wear_new(rc_elastic_new(&shape, g->v, &problem, NULL, &d->t.err), g->v, &run->law,
                            &d->t.err),
                &d->t.err);
+    judge_until(run, g);
     layers_free(&layers);
     free(run->part);
     free(run->energy);

@@ -157,6 +157,13 @@ between 30e-9 "$(column max_wear_depth 1 deep.tsv)" 30.6e-9 "--until depth"
 near "$(column wear_volume 1 deep.tsv)" "$(awk "BEGIN { printf \"%.17g\", 1e-18 * $(column distance 1 deep.tsv) }")" 1e-12 "  with its distance"
 $wear --distance 100km --until uniform=0.3 --report even.tsv -o even.rcg pressed.rcg
 between 0 "$(column pressure_spread 1 even.tsv)" 0.3 "--until uniform"
+rc-wear --coefficient 1e-6mm3/Nm --verbose --distance 100km --until depth=30nm --report said.tsv -o x.rcg pressed.rcg 2>err
+near "$(perl -ne 'print $1 * {mm => 1e-3, m => 1, km => 1e3}->{$2} if /, distance ([\d.]+) (mm|m|km)[,:]/ && !$n++' err)" \
+    "$(column distance 1 said.tsv)" 1e-4 "a line names the distance where it ended"
+claim "  and nothing is missed" bash -c "! grep -q 'until was not reached' err"
+claim "a depth in metres is not reached" warns \
+    'until was not reached at the last distance, 10 m: the largest worn depth is [0-9.]+ [nu]m, and not 30 m: the spread of the pressure is [0-9.]+, and not 1e-09$' \
+    rc-wear --coefficient 1e-6mm3/Nm --distance 1m,10m --until depth=30,uniform=1e-9 -o x.rcg pressed.rcg
 # a list of distances around the end: the condition is met there, and not 4 % earlier
 for end in half:contact_fraction:0.5 deep:max_wear_depth:30e-9 even:pressure_spread:0.3; do
     IFS=: read -r run figure value <<<"$end"

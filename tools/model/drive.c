@@ -351,9 +351,9 @@ drive_where(const struct drive *d, const struct rc_grid *g, char *text, size_t s
     char value[SHOWN_NUMBER];
 
     for (size_t k = 0; k < RC_AXES && at < size; k++)
-        if (d->point[d->at].given >> k & 1)
+        if (d->is.at.given >> k & 1)
             at += (size_t)snprintf(text + at, size - at, ", %s %s", rc_axis_info(k)->name,
-                                   shown(value, d->point[d->at].at[k], rc_axis_info(k)->unit));
+                                   shown(value, d->is.at.at[k], rc_axis_info(k)->unit));
 }
 
 void
@@ -517,6 +517,7 @@ end_point(struct drive *d, struct rc_model *m)
 
     tool_must(&d->t, d->course.g, rc_model_look(m, &at, &d->t.err));
     d->is.looked = tool_now();
+    d->is.at.at[RC_DISTANCE] = at.at[RC_DISTANCE];
     d->is.silent = false;
     (d->calls.judge != NULL ? d->calls.judge : drive_judge_point)(d, m);
     if (!d->is.silent)
@@ -542,6 +543,7 @@ drive_points(struct drive *d, const struct rc_grid *g, struct rc_model *m)
             break; /* the first point is written in any case */
         d->is.began = tool_now();
         c->number++;
+        d->is.at = d->point[d->at];
         c->checkpoint = d->checkpoint;
         mark_point(d);
         if (d->calls.begin != NULL)

@@ -161,7 +161,8 @@ struct drive_is {
     bool silent; /* set by `judge`: the point has no frames and no row */
     bool spare;  /* set by the tool: the values of the heights are free for those of frames */
     double began, setup,
-        looked; /* s: start of the point; until its first step; its figures are known */
+        looked;         /* s: start of the point; until its first step; its figures are known */
+    struct rc_point at; /* the point, with the distance where it ended */
 };
 
 struct drive {
