@@ -173,6 +173,7 @@ claim "without a coarser grid there is no bar" grep -Eq '^contact_area .* m2 +- 
 refused() { refuses 2 "$1" "refused: $2" "rc-cost $2 -- rc-solve $contact"; }
 refused 'does not work with --tol, because one varies the map, the other the command' "--noise 10nm --tol 1e-3 true.rcg"
 refused 'must be above 0' "--noise 0nm true.rcg"
+refuses 1 '--noise 5 m: the rms height of the map is [0-9.]+ nm: .* a number without a unit is in metres, write 5nm$' "noise without a unit" "rc-cost --noise 5 true.rcg -- rc-solve $contact"
 refused 'needs --filter|has no effect without --filter' "--filter-bar --noise 1nm true.rcg"
 refused 'unknown option --nosuch: see rc-detrend --help' "--filter --nosuch true.rcg"
 refuses 1 'equals the input: give a second scan' "the same scan twice" "rc-cost --repeat true.rcg true.rcg -- rc-solve $contact"

@@ -80,6 +80,27 @@ make_noise(struct scan *s, const struct rc_shape *shape, double *v)
         v[k] *= s->sigma / is.rms;
 }
 
+/* Noise above the rms height of every map is a wrong unit. */
+static void
+demand_small_noise(const struct scan *s)
+{
+    double most = 0;
+
+    for (size_t k = 0; k < s->frames; k++) {
+        const struct rc_shape shape = rc_grid_shape(s->frame[k]);
+        struct rc_statistics is;
+        if (strcmp(s->frame[k]->channel, "height") != 0)
+            continue;
+        rc_measure(&shape, s->frame[k]->v, &is);
+        most = fmax(most, is.rms);
+    }
+    if (most > 0 && s->sigma > most)
+        tool_die(s->c->tool,
+                 "--noise %s: the rms height of the map is %s: noise is smaller; a number without "
+                 "a unit is in metres, write 5nm",
+                 shown_in_unit(s->sigma, "m"), shown_in_unit(most, "m"));
+}
+
 /* The noise of a scan from two scans of the same place: their levelled difference has twice the variance.
  * The length follows from that of the correlation 0.2, 1.2686 times as long. */
 static void
@@ -550,6 +571,7 @@ scan_study(struct scan *s, bool plans)
     else if (o->noise.n > 0) {
         s->sigma = o->noise.v[0];
         s->length = o->noise.n > 1 ? o->noise.v[1] : 0;
+        demand_small_noise(s);
     }
     if (o->patch)
         find_quarters(s);
