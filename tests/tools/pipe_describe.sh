@@ -135,7 +135,7 @@ claim "a picture of the spectrum has its title and units" bash -c 'rc-render --l
     says ">qx \\(10" cat ridge.svg && says ">qy \\(10" cat ridge.svg && says "rad/m" cat ridge.svg && lacks "Mm" ridge.svg'
 claim "  a cut has them too" bash -c 'rc-render --cut y=0 -o cut.svg ridge.rcg && says "along qy = 0" cat cut.svg && lacks "km|Mm" cut.svg'
 claim "  the cut passes through the nearest node, one step up" bash -c 'rc-render --cut x=1e5 -o cut.svg ridge.rcg && says "along qx = 98\\.17" cat cut.svg'
-refuses 2 'cut y=3um: .*give a number without a unit' "a cut at a length" "rc-render --cut y=3um -o cut.svg ridge.rcg"
+refuses 2 'cut y=3um: .*a number without a unit is expected' "a cut at a length" "rc-render --cut y=3um -o cut.svg ridge.rcg"
 # from -4.5 to 4.5 steps there are nine columns, with the waves in the outermost ones
 rc-render --raw --window=-441786:441786,-65000:65000 -o part.png ridge.rcg
 claim "  a window selects nine nodes of a row" bash -c 'perl -e "undef \$/; open F, q(part.png); print join q( ), unpack(q(x16 N N), <F>)" | grep -qx "9 1"'

@@ -44,8 +44,8 @@ claim "  in a list too" test "$(cases_of 1,4-6)" = 1,4,5,6,
 claim "  of one case too" test "$(cases_of 5-5)" = 5,
 claim "  the history has the cases" says 'rc-pick [0-9.]* --case 1,4,5,6"' bash -c 'rc-pick --case 1,4-6 six.rcg | rc-info --json'
 refuses 2 "--case 3-1: '3-1': a range goes up" "a range that goes down" 'rc-pick --case 3-1 six.rcg'
-refuses 2 "--case 1-: '-' after 1: give a number without a unit" "a range without an end" 'rc-pick --case 1- six.rcg'
-refuses 2 "--case 1-3-5: '-3-5' after 1: give a number" "a range of three numbers" 'rc-pick --case 1-3-5 six.rcg'
+refuses 2 "--case 1-: '-' after 1: a number without a unit is expected, or several with commas" "a range without an end" 'rc-pick --case 1- six.rcg'
+refuses 2 "--case 1-3-5: '-3-5' after 1: a number without a unit is expected" "a range of three numbers" 'rc-pick --case 1-3-5 six.rcg'
 refuses 2 "a range goes up, and has at most 1000000 numbers" "a range without limit" 'rc-pick --case 1-99999999999999999999999 six.rcg'
 # nearest ASKED EXPECTED: compares the selected depth for mises in case 1 of stress.rcg, which has 0, 5 and 10
 # um

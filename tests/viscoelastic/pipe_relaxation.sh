@@ -78,6 +78,8 @@ near "$(field approach wlf.json)" "$(field approach factor.json)" 1e-7 "--shift 
 $solve $solid --shift "$(awk 'BEGIN { printf "%.12g", exp(50e3 / 8.314462618 * (1 / 353.15 - 1 / 293.15)) }')" --load 0.2mN --time 1ms --report factor.json -o t.rcg ball.rcg
 $solve $solid --shift arrhenius,50e3,293.15K --temperature 80degC --load 0.2mN --time 1ms --report arrhenius.json -o t.rcg ball.rcg
 near "$(field approach arrhenius.json)" "$(field approach factor.json)" 1e-7 "  and --shift arrhenius"
+claim "    with kJ/mol too" bash -c "$solve $solid --shift arrhenius,50kJ/mol,293.15K --temperature 80degC --load 0.2mN --time 1ms --report molar.json -o t.rcg ball.rcg"
+near "$(field approach molar.json)" "$(field approach arrhenius.json)" 1e-12 "    which is the same"
 # a case for each factor or temperature: body 1 is where it would be at the time t/a
 $solve $solid --shift 10,1,0.1 --load 0.2mN --time 5ms --report list.json -o list.rcg ball.rcg
 for case in 1:5e-4 2:5e-3 3:5e-2; do
@@ -213,6 +215,7 @@ refuses 2 'give its unit, K or degC' "a temperature without a unit" "$solve $sol
 refuses 2 '--shift wlf .*needs --temperature' "a law without a temperature" "$solve $solid --shift wlf,17.44,51.6,20degC --time 0 $more"
 refuses 2 '--temperature .*without --shift' "a temperature without a law" "$solve $solid --shift 2 --temperature 20degC --time 0 $more"
 refuses 2 'it must be factors, wlf,C1,C2,T0 or arrhenius,EA,T0' "half a law" "$solve $solid --shift wlf,17.44 --temperature 20degC --time 0 $more"
+refuses 2 "unknown unit 'eV': J/mol is expected" "an energy in another unit" "$solve $solid --shift arrhenius,1eV,20degC --temperature 20degC --time 0 $more"
 refuses 2 'relaxes less than the one before' "falling temperatures" "$solve $solid --shift wlf,17.44,51.6,20degC --temperature 40degC,20degC --time 1ms $more"
 refuses 2 '--time has 2 values, and --shift or --temperature 3' "lists of other lengths" "$solve $solid --shift 3,2,1 --time 1ms,2ms $more"
 refuses 2 'give their unit, K or degC' "temperatures without units" "$solve $solid --shift wlf,17.44,51.6,20degC --temperature 20,40 --time 1ms $more"

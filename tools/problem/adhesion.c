@@ -6,6 +6,7 @@
 
 #include <stdio.h>
 #include <string.h>
+#include <strings.h>
 
 const struct opt adhesion_option[] = {
     {.name = "adhesion",
@@ -38,6 +39,18 @@ list_laws(char *text, size_t size)
         n += (size_t)snprintf(text + n, size - n, "%s%s", k == 0 ? "" : ", ", law->name);
 }
 
+/* What a name that is no law probably means; an empty text: not known. */
+static const char *
+hint(const char *name)
+{
+    if (strcasecmp(name, "dmt") == 0)
+        return ": DMT is the limit of a range that is long against the deformation: take "
+               "exponential with such a range";
+    if (strcasecmp(name, "maugis") == 0 || strcasecmp(name, "maugis-dugdale") == 0)
+        return ": Maugis' law is dugdale";
+    return "";
+}
+
 enum rc_status
 adhesion_law_read(struct adhesion_law *a, const char *text, struct rc_err *err)
 {
@@ -61,8 +74,14 @@ adhesion_law_read(struct adhesion_law *a, const char *text, struct rc_err *err)
         return rc_err_set(err, "the work of adhesion must be above 0: for bodies without "
                                "attraction leave out --adhesion");
     list_laws(laws, sizeof laws);
-    if (n >= 1 && !is_law(part[1], strlen(part[1])))
-        return rc_err_set(err, "there is no law '%s': it must be one of %s", part[1], laws);
+    if (n >= 1 && !is_law(part[1], strlen(part[1]))) {
+        const struct rc_adhesion_law_info *law;
+        for (size_t k = 0; (law = rc_adhesion_law_info(k)) != NULL; k++)
+            if (strcasecmp(law->name, part[1]) == 0)
+                return rc_err_set(err, "there is no law '%s': write %s", part[1], law->name);
+        return rc_err_set(err, "there is no law '%s': it must be one of %s%s", part[1], laws,
+                          hint(part[1]));
+    }
     snprintf(a->name, sizeof a->name, "%s", part[1]);
     a->problem.law = n >= 1 ? a->name : NULL;
     if (n < 2)

@@ -5,6 +5,7 @@
 #include "relaxation.h"
 
 #include <math.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -331,7 +332,19 @@ read_law(const char *text, struct relaxation_shift *s, struct rc_err *err)
     char *end;
 
     text = strchr(text, ',');
-    for (int k = 0; k < (s->wlf ? 2 : 1); k++) {
+    if (!s->wlf) {
+        char energy[64];
+        const size_t n = strcspn(text + 1, ",");
+        snprintf(energy, sizeof energy, "%.*s", (int)n, text + 1);
+        if (text[n + 1] != ',')
+            return rc_err_set(err, "%s", forms);
+        if (unit_number(energy, UNIT_MOLAR, &s->c[0], err) != RC_OK)
+            return RC_FAIL;
+        if (!(s->c[0] > 0))
+            return rc_err_set(err, "%s: EA must be above 0 J/mol", forms);
+        text += n + 1;
+    }
+    for (int k = 0; k < (s->wlf ? 2 : 0); k++) {
         s->c[k] = strtod(text + 1, &end);
         if (end == text + 1 || *end != ',' || !(s->c[k] > 0) || isinf(s->c[k]))
             return rc_err_set(err, "%s, with numbers above 0 and T0 in K or degC", forms);

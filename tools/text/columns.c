@@ -217,6 +217,18 @@ wanted_text(const struct reading *r, char text[], size_t size)
 
 /* ---- numbers ---- */
 
+/* "1,234": a comma between tabs may separate thousands. "0,001" and "1,5" have a decimal comma. */
+static bool
+may_be_thousands(const char *text)
+{
+    const char *digits = "0123456789";
+    const size_t sign = strspn(text, "+-"), whole = strspn(text + sign, digits);
+    const char *comma = text + sign + whole;
+
+    return whole >= 1 && whole <= 3 && text[sign] != '0' && *comma == ',' &&
+           strspn(comma + 1, digits) % 3 == 0;
+}
+
 /* The value of a cell in column c of the file. Its own unit replaces that of the heading. */
 static enum rc_status
 read_value(const struct reading *r, size_t c, struct cell cell, double *value, struct rc_err *err)
@@ -234,8 +246,10 @@ read_value(const struct reading *r, size_t c, struct cell cell, double *value, s
         *value = INFINITY;
         return RC_OK;
     }
-    if ((comma = strchr(text, ',')) != NULL && r->separator != ';')
-        return rc_err_set(err, "%.*s: '%s' has a decimal comma: separate columns by semicolons",
+    if ((comma = strchr(text, ',')) != NULL && r->separator == '\t' && may_be_thousands(text))
+        return rc_err_set(err,
+                          "%.*s: '%s': is its comma the decimal mark? separate columns by "
+                          "semicolons then, or write a point",
                           SHOWN(name), text);
     if (comma != NULL && strchr(text, '.') == NULL) {
         *comma = '.';

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "units.h"
 
+#include <ctype.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -83,6 +84,7 @@ static const struct {
     [UNIT_WEAR] = {"m2/N", "mm3/Nm", "mm3/Nm or 1/GPa", true},
     [UNIT_WEAR_ENERGY] = {"m3/J", "mm3/J", NULL, true},
     [UNIT_PER_PA] = {"1/Pa", "1/GPa 1/Pa", NULL},
+    [UNIT_MOLAR] = {"J/mol", "kJ/mol", NULL},
 };
 
 const char *
@@ -321,6 +323,7 @@ prefix_list(char *list, size_t size)
 /* What a number contained. `per_metre`: before, whether N/m is accepted for N; after, whether it was used. */
 struct seen {
     bool with_unit, per_metre;
+    bool listed; /* the number is one of a list */
 };
 
 /* Why another hardness scale is not a pressure; NULL: it is none of them. */
@@ -373,14 +376,39 @@ unknown_unit(const char *suffix, size_t n, enum unit unit, bool per_metre, struc
                       also != NULL ? also : "");
 }
 
+/* text[0..n) with 2 and 3 for the superscripts behind letters; false: it is too long. */
+static bool
+without_superscripts(const char *text, size_t n, char *to, size_t size)
+{
+    size_t used = 0;
+
+    for (size_t k = 0; k < n; k++) {
+        const bool raised = k > 0 && k + 1 < n && isalpha((unsigned char)text[k - 1]) &&
+                            text[k] == '\302' && (text[k + 1] == '\262' || text[k + 1] == '\263');
+        if (used + 1 >= size)
+            return false;
+        k += raised;
+        to[used++] = (char)(raised ? text[k] - '\262' + '2' : text[k]);
+    }
+    to[used] = '\0';
+    return true;
+}
+
 /* The number in text[0..n). */
 static enum rc_status
 read_one(const char *text, size_t n, enum unit unit, double *value, struct seen *seen,
          struct rc_err *err)
 {
     bool per_metre = seen->per_metre;
-    const char *end, *stop = text + n;
+    const char *end, *stop;
+    char plain[128];
     size_t length, rest;
+
+    if (memchr(text, '\302', n) != NULL && without_superscripts(text, n, plain, sizeof plain)) {
+        text = plain; /* J/m\302\262 */
+        n = strlen(plain);
+    }
+    stop = text + n;
 
     while (n > 0 && *text == ' ') {
         text++;
@@ -397,9 +425,9 @@ read_one(const char *text, size_t n, enum unit unit, double *value, struct seen 
     seen->per_metre = per_metre && apply_force_per_length(text, length, end, rest, value);
     if (!seen->per_metre && !apply_unit(text, length, end, rest, unit, value)) {
         if (unit == UNIT_NONE)
-            return rc_err_set(err,
-                              "'%.*s' after %.*s: give a number without a unit; a list has commas",
-                              (int)rest, end, (int)length, text);
+            return rc_err_set(err, "'%.*s' after %.*s: a number without a unit is expected%s",
+                              (int)rest, end, (int)length, text,
+                              seen->listed ? ", or several with commas, as in 1,2,3" : "");
         return unknown_unit(end, rest, unit, per_metre, err);
     }
     if (!isfinite(*value))
@@ -429,7 +457,7 @@ struct list_state {
 static enum rc_status
 read_piece(const char *text, size_t n, struct list_state *state, double *value, struct rc_err *err)
 {
-    struct seen seen = {.per_metre = state->forces};
+    struct seen seen = {.per_metre = state->forces, .listed = true};
 
     if (read_one(text, n, state->unit, value, &seen, err) != RC_OK)
         return RC_FAIL;

@@ -32,6 +32,7 @@ enum unit {
     UNIT_SPIN,        /* radians per metre; also 1/m       */
     UNIT_WEAR_ENERGY, /* volume per energy of friction     */
     UNIT_PER_PA,      /* pressure coefficient of viscosity */
+    UNIT_MOLAR,       /* joules per mole                   */
 };
 
 struct numbers {
