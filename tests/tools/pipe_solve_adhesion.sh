@@ -158,6 +158,9 @@ for row in 1 2 3 4 5; do
 done
 near "$(column pull_off_load 5 on.tsv)" "$(column pull_off_load 5 straight.tsv)" 2e-3 "  and so is the pull-off"
 between 0 "$(column iterations 2 on.tsv)" 3 "  what was there is not found again"
+$soft --adhesion 50mJ/m2,jkr --load=0,-0.5mN,-0.1mN --checkpoint apart.rcg ball.rcg -o x.rcg
+$soft --adhesion 50mJ/m2,jkr --load=0,-0.5mN,-0.1mN,0 --checkpoint apart.rcg --resume --report on.tsv ball.rcg -o on.rcg
+claim "bodies that separated before an interruption stay apart" test "$(for k in 3 4; do for c in separated iterations load; do column $c $k on.tsv; done; done | tr '\n' ' ')" = "yes 0 0 yes 0 0 "
 refuses 1 'another problem: --adhesion was 50mJ/m2,jkr, is 40mJ/m2,jkr' "a checkpoint of another attraction" \
     "$soft --adhesion 40mJ/m2,jkr --approach=-1um,2um --checkpoint half.rcg --resume ball.rcg -o y.rcg"
 refuses 1 'another problem: --adhesion was 50mJ/m2,jkr, is not given' "  of none" \
