@@ -382,9 +382,9 @@ def functions(name):
     for channel, unit in (('heat', 'W/m2'), ('wear-coefficient', '1/Pa'), ('traction-x', 'Pa'), ('temperature-1', 'K'), ('contact', '1')):
         assert rcg.frame(channel, [[0.0, 1.0]], '1um').unit == unit, channel
     pressed = rcg.solve(ball, load='0.5N', estar='114GPa', quiet=True)
-    for result in (rcg.slip(pressed, mu=0.3, nu=0.3, tangential='0.1N', quiet=True), rcg.solve(ball, load='0.5N', estar='114GPa', adhesion='1J/m2,exponential,1um', output=['adhesion', 'contact'], quiet=True),
+    for other in (rcg.slip(pressed, mu=0.3, nu=0.3, tangential='0.1N', quiet=True), rcg.solve(ball, load='0.5N', estar='114GPa', adhesion='1J/m2,exponential,1um', output=['adhesion', 'contact'], quiet=True),
                    rcg.leak(rcg.solve(ball, load='0.5N', estar='114GPa', quiet=True), viscosity='1mPas', pressure_drop='1kPa', quiet=True)):
-        for f in result:
+        for f in other:
             assert f.unit == rcg.stream.UNITS.get(f.channel, f.unit), f
     assert rcg.dumps(rcg.synth('sphere', nx=33, ny=47, dx='1.1um', dy='1.29um', radius='2.385mm').frames) == content(name)
     again = rcg.solve(ball.height, dx=(1.1e-6, 1.29e-6), **wanted)

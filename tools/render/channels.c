@@ -61,8 +61,8 @@ static const struct channel channels[] = {
 /* A channel counts as one-sided if the values beyond 0 are at most this fraction of the largest magnitude. */
 #define ONE_SIDED 1e-3
 
-/* True for the difference of two measurements: rc-add --align writes keys, and the history has the command. The
- * history of its second file stands in parentheses. */
+/* True for the difference of two measurements: rc-add --align writes keys, and the history has the command.
+ * The history of its second file stands in parentheses. */
 static bool
 is_change(const struct rc_grid *g)
 {
