@@ -1,10 +1,11 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
- * Tables of numbers in columns, from text files. Tabs, else semicolons (with both of which numbers may have a
- * decimal comma), else commas, else blanks separate the cells of a line. '#' begins a comment. A first line without
- * numbers is the heading: the names of the columns in any order, each with its unit as in E/MPa, E (MPa) or E
- * [MPa], or the units in the next line. The heading may be a comment. Without a heading the columns have the
- * order in which they are wanted, and numbers without a unit are in SI units. contact(7) has these rules.
+ * Tables of numbers in columns, from text files. Tabs, else semicolons (with both of which numbers may have
+ * a decimal comma), else commas, else blanks separate the cells of a line. '#' begins a comment. A first
+ * line without numbers is the heading: the names of the columns in any order, each with its unit as in
+ * E/MPa, E (MPa) or E [MPa], or the units in the next line. The heading may be a comment. Without a heading
+ * the columns have the order in which they are wanted, and numbers without a unit are in SI units.
+ * contact(7) has these rules.
  */
 #ifndef RC_COLUMNS_H
 #define RC_COLUMNS_H
