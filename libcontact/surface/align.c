@@ -1027,7 +1027,7 @@ find_likeness(const struct fit *f, const double *change, double *room, double *r
 }
 
 static const char apart[] = "the two maps do not fit on each other: are they scans of one surface, "
-                            "turned by less than 12 degrees?";
+                            "turned by less than 12 degrees, with half of the overlap unworn?";
 
 static enum rc_status
 do_not_fit(double *likeness, struct rc_err *err)
