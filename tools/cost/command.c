@@ -137,16 +137,21 @@ option_at(const struct cost_program *p, const char *const word[], size_t words, 
     return o;
 }
 
-bool
+const char *
 cost_option_given(const struct cost_program *p, const char *name)
 {
-    const char *option = cost_option(p, name);
+    const char *option = cost_option(p, name), *equals;
     size_t takes;
 
-    for (size_t k = 0; k < p->words; k += takes)
-        if (option_at(p, p->word, p->words, k, &takes) == option && option != NULL)
-            return true;
-    return false;
+    for (size_t k = 0; k < p->words; k += takes) {
+        if (option_at(p, p->word, p->words, k, &takes) != option || option == NULL)
+            continue;
+        if (takes == 2)
+            return p->word[k + 1];
+        equals = strchr(p->word[k], '=');
+        return equals != NULL ? equals + 1 : "";
+    }
+    return NULL;
 }
 
 size_t

@@ -52,8 +52,8 @@ struct cost_command {
 void cost_command_read(struct cost_command *command, char **word, size_t words);
 /* The object of an option in the program's list; NULL: it has none of this name or alias. */
 const char *cost_option(const struct cost_program *program, const char *name);
-/* True if the words of the program have the option. */
-bool cost_option_given(const struct cost_program *program, const char *name);
+/* The argument of the option in the words of the program, "" if it has none; NULL: they do not have it. */
+const char *cost_option_given(const struct cost_program *program, const char *name);
 /* Ends the tool if the option may not be varied. */
 void cost_option_check(struct tool *tool, const char *option, const char *from);
 /* Gives an option the value in place of the one that the words have; returns their new number. "no" takes

@@ -256,7 +256,7 @@ is_reflected(const struct rc_grid *g, bool y)
 }
 
 /* Quarter k of the part that is not an image of itself: of a profile four pieces, else two by two. Only a
- * program that repeats the map gets it reflected. */
+ * program that repeats the map gets it reflected, along the axes that it repeats. */
 static struct rc_grid *
 quarter_of(struct scan *s, const struct rc_grid *g, size_t k)
 {
@@ -265,23 +265,19 @@ quarter_of(struct scan *s, const struct rc_grid *g, size_t k)
     const size_t nx = images[0] ? g->nx / 2 : g->nx, ny = images[1] ? g->ny / 2 : g->ny;
     const size_t across = ny == 1 ? 4 : nx == 1 ? 1 : 2, down = 4 / across;
     const struct rc_form plane = {.kind = RC_POLYNOMIAL, .degree = 1, .threads = t->threads};
-    const struct rc_boundary both = rc_boundary_of(nx > 1, ny > 1);
     struct rc_shape from = rc_grid_shape(g), to = from, whole;
     struct rc_grid *map;
     double *v;
 
     to.nx = nx / across;
     to.ny = ny / down;
-    whole = s->reflects ? rc_reflect_shape(&to, both) : to;
+    whole = rc_reflect_shape(&to, s->reflects);
     v = tool_room(t, to.nx * to.ny, sizeof *v, "a map");
     tool_must(t, g, rc_crop(&from, g->v, k % across * to.nx, k / across * to.ny, &to, v, &t->err));
     if (is_heights(g))
         tool_must(t, g, rc_detrend_form(&to, &plane, v, NULL, &t->err));
     map = tool_frame_like(t, g, &whole, g->channel, g->unit);
-    if (s->reflects)
-        rc_reflect(&to, v, both, map->v);
-    else
-        memcpy(map->v, v, to.nx * to.ny * sizeof *v);
+    rc_reflect(&to, v, s->reflects, map->v);
     for (const char *const *key =
              (const char *const[]){"filled", "outliers", "load", "taper", NULL};
          *key != NULL; key++)
@@ -306,8 +302,8 @@ find_quarters(struct scan *s)
     if ((nx > 1 && nx / across < SMALLEST) || (ny > 1 && ny * across / 4 < SMALLEST))
         tool_usage(s->c->tool, "--patch: the quarters of %zu x %zu nodes are smaller than %d nodes",
                    nx, ny, SMALLEST);
-    s->share = (double)(nx * ny) / 4 / (double)(g->nx * g->ny) *
-               (s->reflects ? (nx > 1 ? 2.0 : 1) * (ny > 1 ? 2.0 : 1) : 1);
+    s->share = (double)(nx * ny) / 4 / (double)(g->nx * g->ny) * (s->reflects.x && nx > 1 ? 2 : 1) *
+               (s->reflects.y && ny > 1 ? 2 : 1);
 }
 
 /* The filled map with the pattern of missing nodes elsewhere. */
@@ -467,7 +463,7 @@ check_forces(const struct scan *s)
         for (const char *o = json_first(json_member(p->json, "options")); o != NULL;
              o = json_next(o))
             if (json_is(json_member(o, "unit"), "N") &&
-                cost_option_given(p, json_copy(json_member(o, "name"), name, sizeof name)))
+                cost_option_given(p, json_copy(json_member(o, "name"), name, sizeof name)) != NULL)
                 tool_usage(s->c->tool,
                            "--patch: --%s of %s is a force on the whole map: give --mean-pressure, "
                            "which a "
@@ -535,15 +531,28 @@ run_variants(struct scan *s)
 }
 
 /* True if a program of the command has the option and its words give it. */
-static bool
-has_option(const struct scan *s, const char *name)
+/* The argument of an option of one of the programs; NULL: none has it. */
+static const char *
+given(const struct scan *s, const char *name)
 {
     const struct cost_command *command = &s->c->command;
+    const char *value = NULL;
 
-    for (size_t k = 0; k < command->programs; k++)
-        if (cost_option_given(&command->program[k], name))
-            return true;
-    return false;
+    for (size_t k = 0; k < command->programs && value == NULL; k++)
+        value = cost_option_given(&command->program[k], name);
+    return value;
+}
+
+/* The axes along which quarters are reflected: those that the contact repeats. */
+static struct rc_boundary
+reflected_axes(const struct scan *s)
+{
+    const char *axes = given(s, "periodic");
+
+    if (axes == NULL || given(s, "mirror") != NULL)
+        return RC_FREE;
+    return *axes == '\0' ? RC_PERIODIC
+                         : rc_boundary_of(strchr(axes, 'x') != NULL, strchr(axes, 'y') != NULL);
 }
 
 void
@@ -553,7 +562,7 @@ scan_study(struct scan *s, bool plans)
     const struct scan_options *o = s->options;
 
     s->ratio = NAN;
-    s->reflects = has_option(s, "periodic") && !has_option(s, "mirror");
+    s->reflects = reflected_axes(s);
     if (o->noise.n > 2)
         tool_usage(c->tool, "--noise takes a standard deviation and a length, not %zu numbers",
                    o->noise.n);

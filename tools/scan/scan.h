@@ -52,8 +52,8 @@ struct scan_bar {
 struct scan {
     struct cost_case *c;
     const struct scan_options *options;
-    double sigma, length; /* m: of the noise; 0: none, white */
-    bool reflects;        /* quarters are reflected: the command has --periodic, and no --mirror */
+    double sigma, length;        /* m: of the noise; 0: none, white */
+    struct rc_boundary reflects; /* quarters are reflected: axes of --periodic, without --mirror */
     struct rc_grid **frame;
     size_t frames, frame_room;
     double slope[3]; /* of the map and of its means over 2 x 2 and 4 x 4 nodes, without noise */

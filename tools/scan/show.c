@@ -69,7 +69,8 @@ put_head(const struct scan *s, FILE *out)
     if (is_studied(s, SCAN_GRID))
         put_grid(s, out);
     if (is_studied(s, SCAN_PATCH))
-        fprintf(out, "# patch: quarters, levelled%s\n", s->reflects ? " and reflected" : "");
+        fprintf(out, "# patch: quarters, levelled%s\n",
+                rc_repeats(s->reflects) > 0 ? " and reflected" : "");
     if (is_studied(s, SCAN_FILTER))
         fprintf(out, "# filter: the largest change, %s the bar\n",
                 s->options->filter_bar ? "part of" : "not part of");
