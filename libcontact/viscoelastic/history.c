@@ -554,7 +554,8 @@ of_joining(const struct viscoelastic *v, double pressure, double before)
  * halved, it is the difference of the fine and the half run over r - 1; r is that of the two differences. A
  * part of the other difference guards against one that is small by chance. A node that touches in no run may
  * do so where the difference of its gaps exceeds its gap. What a node has too much, the others have too
- * little. Bodies that are apart at a given approach, and may touch, have the largest error. */
+ * little. Bodies that are apart at a given approach, and may touch, have the largest error; their gaps err by
+ * as many differences as a pressure whose errors fall least. */
 static double
 error_of_steps(const struct viscoelastic *v, const double *fine)
 {
@@ -564,6 +565,7 @@ error_of_steps(const struct viscoelastic *v, const double *fine)
         LAST,
         FORMER,
         JOINS,
+        TOUCHES,
         SUMS
     };
     struct rc_total total[SUMS] = {{0}};
@@ -576,6 +578,7 @@ error_of_steps(const struct viscoelastic *v, const double *fine)
         rc_total_add(&total[HALF_SUM], of_h);
         rc_total_add(&total[LAST], fabs(p - of_h));
         rc_total_add(&total[FORMER], fabs(of_h - fmax(0, q)));
+        rc_total_add(&total[TOUCHES], fmax(0, f + fabs(f - h) / (least_fall - 1)));
         if (p == 0 && of_h == 0)
             rc_total_add(&total[JOINS], fmax(0, f + fabs(f - h)));
         else if (p > 0 && v->leg.end > v->leg.start)
@@ -584,7 +587,7 @@ error_of_steps(const struct viscoelastic *v, const double *fine)
     rc_ranks_totals(v->base.rows.ranks, SUMS, total, sum, 0, NULL);
     size = fmax(sum[FINE_SUM], sum[HALF_SUM]);
     if (size == 0)
-        return by_approach(v) && sum[JOINS] > 0 ? largest : 0;
+        return by_approach(v) && sum[TOUCHES] > 0 ? largest : 0;
     fell = sum[LAST] > 0 ? fmax(least_fall, sum[FORMER] / sum[LAST]) : INFINITY;
     return (fmax(sum[LAST] * fmax(1, 1 / (fell - 1)), of_former * sum[FORMER]) + 2 * sum[JOINS]) /
            size;
