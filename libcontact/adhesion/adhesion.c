@@ -216,8 +216,7 @@ struct rc_adhesion_solver {
     size_t jumps;
     bool converged;
     bool separated;
-    bool
-        stays; /* the bodies separated earlier, and the present load does not press them together */
+    bool stays; /* they separated earlier, and the present load does not press them together */
     bool fresh; /* the figures belong to the present state */
     struct rc_adhesion_state figures;
     struct retraction pull;

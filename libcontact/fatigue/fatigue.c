@@ -903,9 +903,9 @@ unknown_of_loads(const struct rc_fatigue *f, size_t point)
     return most;
 }
 
-/* The largest value that may be near a point: between the states of its history, and between the point and the
- * next ones, of which a kink of the values may make a lower one the nearer. The values in the half of the way
- * that is nearer to the point show how much they vary. */
+/* The largest value that may be near a point: between the states of its history, and between the point and
+ * the next ones. At a kink of the values the largest one may lie nearer to a next point with a lower value.
+ * How much the values vary is taken from the nearer half of the way. */
 static double
 largest_near(struct rc_fatigue *f, const struct rc_fatigue_rule *rule, int c, size_t point)
 {

@@ -262,7 +262,7 @@ static void
 sampling(void **state)
 {
     (void)state;
-    /* Dang Van's index has a kink here, nearer to a line with a lower value than to that with the largest one */
+    /* here the largest value of Dang Van's index, at a kink, is nearer to a line with a lower value */
     if (first == 1)
         compare_map(9336);
     for (size_t seed = first; seed < first + count; seed++)

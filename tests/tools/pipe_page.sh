@@ -128,8 +128,8 @@ rc-report --quiet $roller $limits --noise 2nm -o jagged.html jagged.rcg
 rc-detrend --quiet --fill jagged.rcg | rc-solve --quiet $roller | rc-fatigue --quiet $limits --pass x --depths auto --report jagged.json -o x.rcg
 near "$(said jagged.html | sed 's/.*the estimated error is \([0-9.]*\) % under Fatigue.*/\1/')" "$(awk -v e="$(field sampling_error_estimate jagged.json)" 'BEGIN { print 100 * e }')" 5e-3 \
     "  the error of rc-fatigue by the sampling"
-claim "  the verdict of rc-scene on the grid" test "$(said jagged.html | sed 's/.*: a finer grid \([^;]*\);.*/\1/')" = \
-    "$(rc-scene --quiet $roller jagged.rcg | sed -n 's/^  finer grid .*: \(.*\)/\1/p')"
+claim "  the change by a finer grid of rc-scene" test "$(said jagged.html | sed 's/.*: a finer grid changes the \([a-z ]*\) by up to \([0-9.]*\) %;.*/\1 \2/')" = \
+    "$(rc-scene --quiet $roller jagged.rcg | sed -n 's/^  finer grid .*: changes the \([a-z ]*\) by .* to \([0-9.]*\) %/\1 \2/p')"
 claim "  bars without a limit on the grid" says 'the bar of the largest pressure is unknown: no limit with the grid' said jagged.html
 claim "  not that nothing limits" bash -c '! grep -q "found nothing that limits" jagged.html'
 near "$(said noisy.html | sed 's/.*the bar of the largest pressure is \([0-9.]*\) %.*/\1/')" \

@@ -57,7 +57,7 @@ say_part(struct subtitle *w, double part)
     subtitle_add(w, text, " % of the map");
 }
 
-/* Names of keys with the units of their numbers; texts have none. A state identifies a case.*/
+/* Names of keys with the units of their numbers; texts have none. A state identifies a case. */
 static const struct {
     const char *key, *name, *unit;
     bool state;

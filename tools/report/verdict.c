@@ -55,6 +55,7 @@ put_contact(struct page *run)
 
 /* Errors and bars above this share are named. */
 static const double share = 0.1;
+static const double few = 100; /* nodes in contact: below it only their number is named */
 
 /* Begins the sentence of limits, or separates the next one. */
 static void
@@ -80,8 +81,8 @@ put_contact_limits(struct page *run, size_t *n)
     } limit[] = {
         {page_last_cell(run, loads, "converged", text, unit) && strcmp(text, "false") == 0,
          "the solver stopped before its tolerance", 0},
-        {nodes < 100, "only %.0f nodes touch, so that the grid decides", nodes},
-        {nodes >= 100 && patch < 4, "a contact patch has only %.2g nodes, so that the grid decides",
+        {nodes < few, "only %.0f nodes touch, so that the grid decides", nodes},
+        {nodes >= few && patch < 4, "a contact patch has only %.2g nodes, so that the grid decides",
          patch},
         {rc_repeats(page_args.physics.boundary) == 0 && edge > 0.01,
          "the edge of the map carries %.3g %% of the load, so that a larger map has another result",
@@ -103,40 +104,53 @@ put_contact_limits(struct page *run, size_t *n)
         }
 }
 
-/* The verdict of rc-scene on the grid, but for few nodes, which put_contact_limits names. False: there is
- * none. */
+/* The tool has failed. */
+static bool
+is_missing(struct page *run, const char *file)
+{
+    FILE *in = page_open(run, file);
+    const bool empty = getc(in) == EOF;
+
+    fclose(in);
+    return empty;
+}
+
+/* True if rc-scene has judged the contact. */
+static bool
+has_verdicts(struct page *run)
+{
+    for (size_t k = 0; k < page_part_count; k++)
+        if (page_parts[k].show == page_show_effects)
+            return page_is_wanted(run, &page_parts[k]) && !is_missing(run, page_parts[k].file);
+    return false;
+}
+
+/* The change by a finer grid, of rc-scene, but for few nodes, which put_contact_limits names. False: it is not
+ * known. */
 static bool
 put_grid_limit(struct page *run, size_t *n)
 {
-    static const char title[] = "  finer grid ";
-    RC_OWNED char *line = NULL;
-    size_t room = 0;
-    bool found = false;
+    static const char table[] = "effects.tsv";
+    static const char *const grid[][2] = {{"effect", "grid"}, {NULL}};
+    FILE *out = run->page.file;
+    char figure[PAGE_CELL], cell[PAGE_CELL];
+    double high;
 
-    for (size_t k = 0; k < page_part_count; k++)
-        if (page_parts[k].show == page_show_effects && page_is_wanted(run, &page_parts[k])) {
-            FILE *in = page_open(run, page_parts[k].file);
-            while (!found && getline(&line, &room, in) > 0)
-                found = strncmp(line, title, strlen(title)) == 0;
-            fclose(in);
-        }
-    if (!found)
+    if (!has_verdicts(run) || !page_cell(run, table, "high", grid, cell) ||
+        !page_cell(run, table, "figure", grid, figure))
         return false;
-    line[strcspn(line, "\n")] = '\0';
-    const char *says = strstr(line, ": "), *percent = strrchr(line, '%');
-    double change = INFINITY; /* "7.6 times" or no number */
-    if (percent != NULL) {
-        while (percent > line && strchr("0123456789. ", percent[-1]) != NULL)
-            percent--;
-        change = strtod(percent, NULL) / 100;
-    }
-    if (strstr(line, " negligible") == NULL && strstr(line, " in contact;") == NULL &&
-        change > share) {
-        const bool known = says != NULL && strncmp(says, ": changes ", 10) == 0;
-        begin_limit(run->page.file, n);
-        fputs(known ? "a finer grid" : "the error by the grid is unknown", run->page.file);
-        page_text(run->page.file, says == NULL ? "" : known ? says + 1 : says);
-    }
+    high = strtod(cell, NULL);
+    if (high <= share || page_last_number(run, "loads.tsv", "contact_nodes") < few)
+        return true;
+    begin_limit(out, n);
+    for (char *c = figure; (c = strchr(c, '_')) != NULL;)
+        *c = ' ';
+    if (!isfinite(high))
+        fprintf(out, "the change of the %s by a finer grid is unknown", figure);
+    else if (high < 10)
+        fprintf(out, "a finer grid changes the %s by up to %.2g %%", figure, 100 * high);
+    else
+        fprintf(out, "a finer grid changes the %s by up to %.2g times", figure, high);
     return true;
 }
 
@@ -234,17 +248,6 @@ is_inaccurate(struct page *run, const char *file)
     char cell[PAGE_CELL];
 
     return page_cell(run, file, "converged", short_of, cell);
-}
-
-/* The tool has failed. */
-static bool
-is_missing(struct page *run, const char *file)
-{
-    FILE *in = page_open(run, file);
-    const bool empty = getc(in) == EOF;
-
-    fclose(in);
-    return empty;
 }
 
 /* The sections of effects whose report is such, as "Travel, Wear". */

@@ -19,8 +19,7 @@ static const double too_strong = 0.1; /* fraction of E*: above it a solid is not
 /* m, work over strength: that of cohesion between atoms at their spacing, 0.165 nm and more (Israelachvili,
  * Intermolecular and Surface Forces, 2011, chapter 13), where the law of Lennard-Jones has 0.97 of it */
 static const double atomic = 0.1e-9;
-static const double jkr_tabor =
-    3; /* Tabor's numbers from here on follow JKR theory to some per cent */
+static const double jkr_tabor = 3;  /* contacts with larger Tabor's numbers follow JKR theory */
 static const double most_work = 10; /* J/m2: diamond, cleaved, has 11 */
 
 static struct {
