@@ -144,7 +144,7 @@ read_conductivities(struct tool *t, double k[2])
         tool_usage(t, "--conductivity %s: it must be thermal, in W/mK", args.given.conductivity);
 }
 
-/* Creepages along x and y, and a spin. */
+/* Creepages along x and y, and a spin; one value is the creepage along x. */
 static void
 read_creep(struct tool *t, double creep[2], double *spin)
 {
@@ -165,8 +165,10 @@ read_creep(struct tool *t, double creep[2], double *spin)
             tool_usage(t, "--creep %s: %s", text, t->err.text);
         at = at[length] == '\0' ? NULL : at + length + 1;
     }
-    if (text != NULL && (n < 2 || commas + 1 != n))
-        tool_usage(t, "--creep %s: it must be two creepages, or these and a spin", text);
+    if (text != NULL && commas + 1 != n)
+        tool_usage(
+            t, "--creep %s: it must be a creepage along x, or two (x and y), or these and a spin",
+            text);
 }
 
 /* A difference of temperatures: 10degC would be read as 283 K. */

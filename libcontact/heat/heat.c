@@ -186,14 +186,14 @@ check(const struct rc_shape *shape, const struct rc_heat_problem *p, struct rc_e
         if (rc_repeats(p->boundary) == 1 && takes_heat(p, b) && !has_rise(p, b))
             return rc_err_set(err,
                               "body %d does not move along %c, and the map repeats along %c: it "
-                              "becomes warmer without end: give a time",
+                              "becomes warmer without end: give the time since heating began",
                               b + 1, p->boundary.x ? 'y' : 'x', p->boundary.x ? 'x' : 'y');
     }
     if (!(p->time >= 0) || isinf(p->time))
         return rc_err_set(err, "time %g s: it must be above 0, or 0 for the steady state", p->time);
     if (!rc_has_mean(p->boundary) && p->time == 0)
         return rc_err_set(err, "a periodic map becomes warmer without end, and has no steady "
-                               "temperature: give a time");
+                               "temperature: give the time since heating began");
     if (p->partition == RC_HEAT_SHARE && !(p->share >= 0 && p->share <= 1))
         return rc_err_set(err, "share of body 1, %g: it must be from 0 to 1", p->share);
     if (!(p->tol >= 0 && p->tol < 1))

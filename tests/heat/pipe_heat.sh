@@ -94,7 +94,7 @@ done
 rc-pick --quiet --set boundary=free row.rcg -o alone.rcg
 claim "  on a free boundary a row is a strip" warns 'heated as a strip 2 um wide: .* rc-pick --set boundary=periodic-y' rc-heat $moves -o alone-hot.rcg alone.rcg
 claim "    at rest too" rc-heat --quiet --mu 0.05 --speed 1m/s $steel -o alone-hot.rcg alone.rcg
-refuses 1 "body 1 does not move along x, and the map repeats along y: it becomes warmer without end: give a time" "a roller on a body at rest" \
+refuses 1 "body 1 does not move along x, and the map repeats along y: it becomes warmer without end: give the time since heating began" "a roller on a body at rest" \
     "rc-heat --mu 0.05 --speed 1m/s $steel -o never.rcg line.rcg"
 refuses 1 "body 1 does not move along x" "  both move along the roller" "rc-heat --mu 0.05 --speed 0,1m/s $steel -o never.rcg line.rcg"
 claim "  the body that takes all heat moves" rc-heat --quiet --mu 0.05 --speed 1m/s --partition 0 $steel -o one.rcg line.rcg
@@ -108,7 +108,7 @@ refuses 1 "only bodies of one material: .*rc-pick --set layers=" "a body with la
 refuses 1 "heat" "no frame heat" "rc-heat --speed 1 $steel rough.rcg"
 refuses 1 'Peclet number of a cell is above' "a speed that is far too high" "rc-heat --mu 0.1 --speed 1e30 $steel ball.rcg"
 rc-synth wave --nx 32 --dx 1um --amplitude 10nm --wavelength 32um | rc-solve --quiet --periodic --estar 114GPa --mean-pressure 100MPa -o wave.rcg
-refuses 1 "no steady temperature: give a time" "periodic without a time" "$heat wave.rcg"
+refuses 1 "no steady temperature: give the time since heating began" "periodic without a time" "$heat wave.rcg"
 claim "periodic with a time" rc-heat --quiet --mu 0.3 --speed 1 $steel --time 1us -o wavy.rcg wave.rcg
 rc-synth sphere --nx 16 --dx 20um --radius 1mm | rc-solve --quiet --estar 114GPa --load 10N -o coarse.rcg
 refuses 2 "must be above 0" "negative conductivity" "rc-heat --mu 0.3 --speed 1 --conductivity -45,45 --diffusivity 1e-5,1e-5 ball.rcg"

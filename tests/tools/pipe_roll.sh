@@ -62,6 +62,10 @@ for k in 1 2 3; do
 done
 claim "  its cases are numbered" test "$(rc-info --json range.rcg | grep -o '"case": [0-9][0-9]*' | sort -u | tr -d '\n')" = '"case": 1"case": 2"case": 3'
 refuses 2 'ranges have 3 and 2 values' "ranges of two lengths" 'rc-slip --mu 0.3 --creep 0:1:3,0:1:2 --steady -o x.rcg ball.rcg'
+rc-slip --mu 0.3 --creep 0.1% --steady --quiet --report alone.tsv -o x.rcg ball.rcg
+rc-slip --mu 0.3 --creep 1e-3,0,0 --steady --quiet --report three.tsv -o x.rcg ball.rcg
+claim "a creepage alone is that along x" [ "$(column tangential_x alone.tsv)" = "$(column tangential_x three.tsv)" ]
+refuses 2 'must be a creepage along x, or two' "four creepages" 'rc-slip --mu 0.3 --creep 1e-3,0,0,1 --steady -o x.rcg ball.rcg'
 refuses 2 'a range is for --steady' "a range on a path" 'rc-slip --mu 0.3 --creep 0:1e-3:3,0 -o x.rcg ball.rcg'
 refuses 2 "unknown unit 'permille': a plain number or a percentage" "a wrong unit" 'rc-slip --mu 0.3 --creep 1permille,0 --steady -o x.rcg ball.rcg'
 
@@ -167,7 +171,6 @@ refuses 1 'position 0 m after 1e-05 m: rolling is towards' "a path backwards" \
 rc-pick --set position=1e-4 --crop 0,0,60,64 ball.rcg -o other.rcg
 refuses 1 'differ from those of the case before' "a path over other maps" \
     'cat at-0.rcg other.rcg | rc-slip --mu 0.3 --creep 1e-3,0 -o x.rcg'
-refuses 2 'must be two creepages' "one creepage" 'rc-slip --mu 0.3 --creep 1e-3 --steady -o x.rcg ball.rcg'
 refuses 2 'give one of --tangential' "a creepage and a force" 'rc-slip --mu 0.3 --creep 1e-3,0 --tangential 3N -o x.rcg ball.rcg'
 refuses 2 '--steady has no effect without --creep or --creep-force' "--steady alone" 'rc-slip --mu 0.3 --tangential 3N --steady -o x.rcg ball.rcg'
 refuses 2 'take --coupling goodman' "full coupling" 'rc-slip --mu 0.3 --creep 1e-3,0 --steady --coupling full -o x.rcg ball.rcg'

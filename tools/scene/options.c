@@ -22,7 +22,7 @@ const struct opt scene_options[] = {
      .help = "partial slip: the tangential force"},
     {.name = "speed", .type = OPT_NUMBER, .unit = UNIT_SPEED, AT(speed), ABOVE_0, .arg = "V",
      .help = "sliding speed along x: heat, sliding on rubber"},
-    {.name = "creep", .type = OPT_TEXT, AT(creep), .result = true, .arg = "XI,ETA[,SPIN]",
+    {.name = "creep", .type = OPT_TEXT, AT(creep), .result = true, .arg = "XI[,ETA[,SPIN]]",
      .help = "rolling: creepages along x and y, and spin, as for rc-slip"},
     {.name = "time", .type = OPT_NUMBER, .unit = UNIT_S, AT(time), ABOVE_0, .arg = "TIME",
      .help = "time since the load acts and heat flows: relaxation, heat"},

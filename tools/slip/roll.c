@@ -51,7 +51,8 @@ read_component(struct tool *t, int k, const char *text, size_t n)
         tool_usage(t, "--creep %s: %s", one, t->err.text);
 }
 
-/* Each component is a number or a range; ranges have one length, and a number holds for all cases. */
+/* Each component is a number or a range; ranges have one length, and a number holds for all cases.
+ * One component alone is the creepage along x. */
 static void
 read_creep(struct tool *t, const struct slip_args *a)
 {
@@ -60,9 +61,11 @@ read_creep(struct tool *t, const struct slip_args *a)
 
     for (const char *comma = s; (comma = strchr(comma, ',')) != NULL; comma++)
         components++;
-    if (components < 2 || components > COMPONENTS)
-        tool_usage(t, "--creep: it must be two creepages (x and y), or these and a spin, as in "
-                      "1e-3,0,20");
+    if (components > COMPONENTS)
+        tool_usage(t,
+                   "--creep %s: it must be a creepage along x, or two (x and y), or these and a "
+                   "spin, as in 1e-3,0,20",
+                   s);
     for (int k = 0; k < components; k++) {
         const size_t n = strcspn(s, ",");
         read_component(t, k, s, n);
@@ -74,6 +77,8 @@ read_creep(struct tool *t, const struct slip_args *a)
         if (own.creep[k].n > 1)
             own.cases = own.creep[k].n;
     }
+    if (components == 1)
+        read_component(t, 1, "0", 1);
     if (own.cases > 1 && !a->steady)
         tool_usage(t,
                    "--creep %s: a range is for --steady, where each value is a case of its own; "

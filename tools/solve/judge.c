@@ -232,12 +232,12 @@ tell(struct run *run, const char *where, const struct solution *s)
         snprintf(took, sizeof took, "%zu iterations, %.3g convolutions", c->iterations,
                  c->convolutions);
     tool_note(&run->d.t,
-              "%s: force %s, contact area %s (%.3g %% of the map, %zu nodes in %zu %s), %slargest "
+              "%s: force %s, contact area %s (%.3g %% of the map, %zu node%s in %zu %s), %slargest "
               "pressure %s%s, approach %s, mean gap %s; %s%s in %s, "
               "%.2g s",
               where, shown_in_unit(c->load, "N"), shown_area_to(area, c->contact_area),
-              100 * c->contact_fraction, c->contact_nodes, s->patches.count,
-              s->patches.count == 1 ? "patch" : "patches", yielded,
+              100 * c->contact_fraction, c->contact_nodes, c->contact_nodes == 1 ? "" : "s",
+              s->patches.count, s->patches.count == 1 ? "patch" : "patches", yielded,
               shown_in_unit(c->max_pressure, "Pa"), over_nodes,
               isnan(c->approach) ? "unknown" : shown_in_unit(c->approach, "m"),
               shown_in_unit(c->mean_gap, "m"), c->converged ? "converged" : "not converged", error,
