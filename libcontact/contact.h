@@ -670,7 +670,8 @@ struct rc_adhesion_state {
      * ended. Found by the curvatures during the iteration; several in a row may count as one */
     size_t jumps;
     /* The lowest load of a retraction, N, its approach, m, and the error of the load. This is
-     * twice the misfit of a parabola through neighbouring states, or the error that a jump hides */
+     * twice the misfit of a parabola through neighbouring states, or the error that a jump hides.
+     * NAN where the load only rises: the retraction began beyond the lowest load */
     double pull_off_load, pull_off_approach, pull_off_spread;
     /* the lowest load is at the first state of the retraction */
     bool pull_off_at_start;

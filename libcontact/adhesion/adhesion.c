@@ -1301,10 +1301,12 @@ end_retraction(struct rc_adhesion_solver *a)
     a->converged = a->way.steady = converged;
     p->on = false;
     *f = p->found;
-    f->pull_off_load = r->found.load * unit;
-    f->pull_off_approach = r->found.at * length;
-    f->pull_off_spread = r->found.spread * unit;
     f->pull_off_at_start = r->path.lowest.c == p->start;
+    if (!f->pull_off_at_start) {
+        f->pull_off_load = r->found.load * unit;
+        f->pull_off_approach = r->found.at * length;
+        f->pull_off_spread = r->found.spread * unit;
+    }
     f->states = r->count.states;
     f->jumps = p->jumps;
     f->iterations = p->iterations;

@@ -425,24 +425,21 @@ pull_off_has_spread(void **state)
     }
 }
 
-/* A retraction that starts where the load already rises has its lowest load in the first state. */
+/* A retraction that starts where the load already rises cannot know the pull-off load. */
 static void
 pull_off_at_start(void **state)
 {
     struct sphere s = sphere_of(N, 1);
     struct rc_adhesion_solver *a = adhesion_new(s.shape, h, s.problem);
     const struct rc_adhesion_state *f;
-    double load;
 
     (void)state;
     (void)adhesion_to_approach(a, s.approach);
     (void)adhesion_to_approach(a, -0.5 * s.approach);
-    load = adhesion_to_approach(a, -1.2 * s.approach)->load;
+    assert_true(adhesion_to_approach(a, -1.2 * s.approach)->load < 0);
     f = adhesion_pull(a);
-    assert_true(f->converged && load < 0);
-    assert_true(fabs(f->pull_off_load - load) <= 1e-4 * -load);
-    assert_true(f->pull_off_spread <= 0.02 * -load);
-    assert_true(fabs(f->pull_off_approach + 1.2 * s.approach) <= 1e-6 * s.approach);
+    assert_true(f->converged && f->pull_off_at_start);
+    assert_true(isnan(f->pull_off_load) && isnan(f->pull_off_spread) && isnan(f->pull_off_approach));
     rc_adhesion_solver_free(a);
 }
 

@@ -203,6 +203,9 @@ rc-pick --channel pressure ball.rcg -o alone.rcg
 refuses 1 'need a height in the same case' "another load without a height" "rc-slip --mu 0.3 --path '100N,0,0' -o x.rcg alone.rcg"
 rc-pick --channel pressure rigid.rcg -o alone.rcg
 refuses 1 'coupling goodman or none' "coupling without a height" "rc-slip --mu 0.3 --tangential 1N -o x.rcg alone.rcg"
+rc-solve --quiet --load 1N --E1 210GPa --nu1 0.3 --E2 rigid --hardness 6GPa -o hard.rcg sphere.rcg
+refuses 1 'key hardness .* take --coupling none and the load of the stream alone' "dissimilar bodies with a hardness" "rc-slip --mu 0.3 --tangential 0.1N --coupling goodman -o x.rcg hard.rcg"
+claim "  which works" rc-slip --quiet --mu 0.3 --tangential 0.1N --coupling none -o x.rcg hard.rcg
 rc-pick --channel pressure --set 'layers=1e-6,1e9,0.3;inf,2e9,0.3' ball.rcg -o coated.rcg
 refuses 1 'only bodies without layers' "a coated body" "rc-slip --mu 0.3 --tangential 1N -o x.rcg coated.rcg"
 refuses 1 'pressure' "a stream without a pressure" "rc-slip --mu 0.3 --tangential 1N -o x.rcg sphere.rcg"

@@ -33,6 +33,9 @@ claim "gaps are never negative" awk -v m="$(rc-pick --channel gap --case 3 p.rcg
 claim "the frames have the key of the attraction" says "adhesion" rc-info p.rcg
 
 $soft --adhesion 50mJ/m2,jkr --approach 2um --pull-off --output pressure ball.rcg -o two.rcg
+claim "a retraction from beyond the pull-off does not know its load" warns 'the pull-off load is unknown, because the retraction begins at .*beyond it' \
+    bash -c "${soft/--quiet /} --adhesion 50mJ/m2,jkr --approach 2um,-1.5um --pull-off --report beyond.json -o beyond.rcg ball.rcg"
+claim "  and says null" grep -q '"pull_off_load": null' beyond.json
 claim "one state and its pull-off are two cases" test "$(rc-info --json two.rcg | grep -o '"case": [0-9]' | sort -u | tr -d '\n')" = '"case": 1"case": 2'
 
 # ---- the same in other words ----

@@ -64,6 +64,10 @@ static void
 check_solvable(struct slip_run *run)
 {
     static const char *const more[] = {"hardness", "yield", "adhesion"};
+    const char *remedy =
+        run->coupled ? "take --coupling none and the load of the stream alone; the slip that "
+                       "pressing dissimilar bodies together causes is then left out"
+                     : "use the load of the stream alone";
 
     if (!run->solves)
         return;
@@ -81,15 +85,14 @@ check_solvable(struct slip_run *run)
     if (tool_history_has(run->p, "rc-solve ", "--tilt free"))
         tool_refuse(
             &run->d.t, run->p,
-            "its counter body was free to tilt, and rc-slip solves other loads without tilt: use "
-            "the load of the stream alone%s",
-            run->alternates ? ", with --coupling goodman" : "");
+            "its counter body was free to tilt, and rc-slip solves other loads without tilt: %s",
+            remedy);
     for (size_t k = 0; k < sizeof more / sizeof *more; k++)
         if (rc_grid_get(run->p, more[k]) != NULL)
             tool_refuse(&run->d.t, run->p,
                         "its key %s says that the bodies are not elastic, and rc-slip solves other "
-                        "loads for elastic bodies only: use the load of the stream alone%s",
-                        more[k], run->alternates ? ", with --coupling goodman" : "");
+                        "loads for elastic bodies only: %s",
+                        more[k], remedy);
 }
 
 /* ---- frames ---- */

@@ -310,8 +310,8 @@ warn_of_state(struct run *run, const char *where, const struct rc_adhesion_state
         f->stable && f->converged && !f->separated ? "a list of approaches passes the jump" : NULL);
     if (own.pulling && f->pull_off_at_start)
         tool_warn(&run->d.t,
-                  "%s: the lowest load is at the first point, so that the pull-off load may be "
-                  "lower: end the list at a larger load or approach",
+                  "%s: the pull-off load is unknown, because the retraction begins at the last "
+                  "state of the list, which is beyond it: end the list at a larger load or approach",
                   where);
     if (f->edge_traction > faint)
         course_warn(
@@ -330,7 +330,7 @@ warn_of_state(struct run *run, const char *where, const struct rc_adhesion_state
 static void
 tell(struct run *run, const char *where, const struct rc_adhesion_state *f, bool pulled)
 {
-    if (pulled)
+    if (pulled && !f->pull_off_at_start)
         tool_note(&run->d.t,
                   "%s: pull-off at %s +- %s, at approach %s; %zu states, %.3g convolutions, %.2g s",
                   where, shown_in_unit(f->pull_off_load, "N"),
