@@ -188,6 +188,7 @@ look_between(const struct probe *q, const struct stack *s, struct rc_yield_depth
             (n == 0 || depth[i] > depth[n - 1]))
             depth[n++] = depth[i];
     }
+    d->looked += n;
     status = look(q, n, depth, mises, beyond, err);
     for (size_t i = 0; i < n && status == RC_OK; i++) {
         if (mises[i] > d->most) {
@@ -315,6 +316,7 @@ rc_yield_depths(const struct rc_shape *shape, const struct rc_problem *contact, 
                       shape->ny) != RC_OK)
         return RC_FAIL;
     (void)fill_stack(s, side / 2, looked_first * step, looked_growth);
+    d->looked = s->n;
     status = look(&q, s->n, s->middle, s->mises, s->beyond, err);
     for (size_t k = 0; k < s->n && status == RC_OK; k++)
         if (s->mises[k] > d->most) {

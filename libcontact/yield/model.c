@@ -198,6 +198,7 @@ find_slabs(const struct rc_yield_problem *asked, const struct rc_shape *shape, c
     depths->most = d.most / yield;
     depths->deepest = d.deepest;
     depths->part = d.part;
+    depths->looked = d.looked;
     depths->halved = d.halved;
     depths->slabs = d.slabs == 0 || asked->slabs == 0 ? d.slabs : asked->slabs;
     free(depths->thickness);
@@ -552,20 +553,21 @@ plan(const struct rc_model *m, const struct rc_point *most, struct rc_expected *
         (y->problem.increments == 0 && !is_mild(y) && first > RC_YIELD_SEVERE ? 1.5 : 1) *
         (double)first;
     static const double sums[] = RC_YIELD_SUMS, look[] = RC_YIELD_LOOK;
-    const double looked = rc_by_padding(y->problem.contact.boundary, look[0], look[1]);
+    const double looked = rc_by_padding(y->problem.contact.boundary, look[0], look[1]) *
+                          (double)(y->depths.looked > 0 ? y->depths.looked : RC_YIELD_LOOKED);
     const double threads = (double)(y->problem.contact.threads > 0 ? y->problem.contact.threads
                                                                    : rc_threads_available());
     const double applied = y->depths.slabs > 0
                                ? (RC_YIELD_LAST + RC_YIELD_INCREMENT * increments) *
                                      slabs_by_nodes(&y->problem, &y->base.shape, &y->depths)
                                : 0;
-    double one; /* seconds of a sum; the sums of the volume have no start of their own */
+    double one; /* seconds of a sum without its start; the other sums have none of their own */
 
     if (expect_elastic(&y->base.shape, &y->problem, most->at[RC_LOAD], expected, err) != RC_OK)
         return RC_FAIL;
-    one = expected->seconds / expected->convolutions;
+    one = fmax(expected->seconds / expected->convolutions - 2 * RC_SUM_START / threads, 0);
     expected->seconds += looked * one;
-    expected->seconds += applied * (one - 2 * RC_SUM_START / threads) *
+    expected->seconds += applied * one *
                          rc_by_padding(y->problem.contact.boundary, sums[0], sums[1]) *
                          with_lines(&y->base.shape, y->problem.contact.boundary);
     expected->convolutions += RC_YIELD_SLAB * applied;

@@ -148,6 +148,7 @@ enum rc_status rc_yield_solver_check(const struct rc_yield_problem *problem, str
 struct rc_yield_depths {
     double wanted;        /* before the call: relative change of the pressure by pairs of slabs */
     size_t slabs;         /* 0: no stress reaches the yield stress */
+    size_t looked;        /* depths where the stress was found */
     size_t halved;        /* how often each slab was halved; before the call: how often at least */
     double *thickness;    /* m, of each slab; the caller frees it; NULL: none */
     double part;          /* part of the nodes of these slabs whose Mises stress exceeds `yield` */
