@@ -1437,6 +1437,8 @@ struct rc_stress_options {
      * NULL: none. The half-space below is infinitely thick and balances its force without
      * stress. */
     const double *residual;
+    /* Estimate the error that tol permits, see rc_stress_counts. */
+    bool estimate;
 };
 
 /* Work counters; tests use them to check that only requested fields are computed. */
@@ -1453,6 +1455,9 @@ struct rc_stress_counts {
     size_t coarse_depths;           /* depths computed on a coarser grid */
     size_t strain_transforms;       /* transforms of maps of plastic strain to wave numbers */
     size_t strain_field_transforms; /* transforms of its stresses back to maps */
+    /* Estimated errors by tol, for each of enum rc_component: the sum of |error| over the sum of |stress|,
+     * over all nodes and depths; NAN without `estimate`. */
+    double error[RC_STRESSES];
 };
 
 /* RC_FAIL, and *err says why, when rc_stress_new would refuse these options, except for short memory. */

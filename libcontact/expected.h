@@ -31,8 +31,9 @@
 #define RC_ADHESION_FREE 1.3
 #define RC_ADHESION_PASSES 4
 /* A body with a yield stress: depths of the search for the largest stress, before they are counted, and
- * seconds of a depth, in those of a sum without its start: free, periodic. One that yields: applications after the increments and of one increment, convolutions of a
- * slab and application, and its seconds: free, periodic. */
+ * seconds of a depth, in those of a sum without its start: free, periodic. One that yields: applications
+ * after the increments and of one increment, convolutions of a slab and application, and its seconds: free,
+ * periodic. */
 #define RC_YIELD_LOOKED 28
 #define RC_YIELD_LOOK                                                                              \
     {                                                                                              \

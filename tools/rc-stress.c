@@ -129,6 +129,7 @@ set_options(struct run *run, const struct rc_grid *p)
 {
     stress_input_read(&run->t, p, &args.asked, &run->input, &run->options);
     run->options.wanted = (unsigned)args.components;
+    run->options.estimate = report_wanted(&run->out);
     if (stress_strain_whole(&run->t, p, &run->strain)) {
         run->options.strain = &run->strain.strain;
         if (!rc_grid_number(p, "e1", &run->options.body.e))

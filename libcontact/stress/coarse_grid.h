@@ -23,8 +23,9 @@ struct rc_coarse *rc_coarse_new(const struct rc_ranks *ranks, const struct rc_sh
                                 size_t sx, size_t sy, size_t threads, struct rc_err *err);
 void rc_coarse_free(struct rc_coarse *coarse);
 RC_OWNER(rc_coarse)
-/* Reduces pressures (forces) of the map to the coarser grid, and interpolates a field back. */
+/* Reduces pressures (forces) of the map to the coarser grid, and interpolates a field back. `error`: an
+ * estimate of the error of both is added; NULL: not requested. */
 void rc_coarse_reduce(struct rc_coarse *coarse, const double *p, double *out);
-void rc_coarse_expand(struct rc_coarse *coarse, const double *u, double *out);
+void rc_coarse_expand(struct rc_coarse *coarse, const double *u, double *out, double *error);
 
 #endif

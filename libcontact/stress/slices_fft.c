@@ -68,6 +68,12 @@ precision_of(const struct rc_stress_task *t)
                                                                                     : RC_DOUBLE;
 }
 
+bool
+rc_stress_slices_single(const struct rc_stress_task *task)
+{
+    return precision_of(task) == RC_SINGLE;
+}
+
 static void
 grid_free(struct grid *g)
 {
@@ -534,7 +540,8 @@ slice(void *at, double depth, double *const s[RC_COMPONENTS], struct rc_err *err
         if (n > 0 && make_fields(g, n, c, to, err) != RC_OK)
             return RC_FAIL;
         for (size_t f = 0; coarse && f < n; f++)
-            rc_coarse_expand(plan->between, to[f], s[c[f]]);
+            rc_coarse_expand(plan->between, to[f], s[c[f]],
+                             plan->task.error == NULL ? NULL : &plan->task.error[c[f]]);
     }
     return RC_OK;
 }

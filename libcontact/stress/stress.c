@@ -21,10 +21,17 @@ struct rc_stress {
     struct rc_body body; /* the caller's; its layers are copied if they have residual stress */
     struct rc_stress_counts counts;
     struct rc_store memory; /* of `own` */
+    /* Pa, sums over the nodes: estimated errors of the last depth, and of all depths; sizes of the
+     * stresses */
+    double error[RC_COMPONENTS], errors[RC_STRESSES], sizes[RC_STRESSES];
 };
 
 const char *const rc_component_names[RC_STRESSES] = {"sxx",   "syy",    "szz", "sxy", "sxz", "syz",
                                                      "mises", "tresca", "s1",  "s2",  "s3"};
+
+/* Rounding errors of a sum by transforms, over the root mean square of the largest component: single
+ * precision, double precision. */
+static const double of_single = 3e-7, of_double = 1e-15;
 
 static const unsigned six = (1u << RC_COMPONENTS) - 1;
 
@@ -193,6 +200,72 @@ rc_stress_numbers(const struct rc_stress_task *t)
     return t->type->numbers(sheared(t));
 }
 
+/* ---- the estimated error ---- */
+
+/* The sum of the errors that do not come from a coarser grid, of a depth whose components have the sums of
+ * squares `squares`. Rounding errors of transforms spread over the map, and two components are transformed
+ * together. An engine errs by its tolerance of the sum of |K| |p|; as kernels are even or odd, this holds
+ * for the sum of the errors too. */
+static double
+error_anywhere(const struct rc_stress *stress, const double squares[RC_COMPONENTS])
+{
+    const struct rc_stress_task *t = &stress->task;
+    const bool engine = stress->evaluator == &rc_stress_slices_engine;
+    const bool single = stress->evaluator == &rc_stress_slices_fft && rc_stress_slices_single(t);
+    double largest = 0, error;
+
+    for (int c = 0; c < RC_COMPONENTS; c++)
+        largest = fmax(largest, squares[c]);
+    error = (single ? of_single : of_double) *
+            sqrt((double)t->shape.nx * (double)t->shape.ny * largest);
+    for (size_t k = 0; engine && k < t->sources; k++)
+        for (size_t i = 0; i < stress->values; i++)
+            error +=
+                t->options.tol * (k == 0 ? 1 + fabs(t->options.mu) : 1) * fabs(t->source[k][i]);
+    return error;
+}
+
+/* Of derived stresses: the size of the tensor of the errors. Its Mises stress is at most sqrt(3/2) of
+ * this, its Tresca stress at most sqrt(2), and principal stresses change by no more (Weyl). */
+static double
+of_derived(int c, const double of[RC_COMPONENTS])
+{
+    double square = 0;
+
+    for (int k = 0; k < RC_COMPONENTS; k++)
+        square += (k < RC_SXY ? 1 : 2) * of[k] * of[k];
+    return sqrt(square * (c == RC_MISES ? 1.5 : c == RC_TRESCA ? 2 : 1));
+}
+
+/* Adds the depth to the errors and to the sizes of the stresses. */
+static void
+add_errors(struct rc_stress *stress, double *const six_of[RC_COMPONENTS],
+           double *const s[RC_STRESSES])
+{
+    const struct rc_stress_options *o = &stress->task.options;
+    double squares[RC_COMPONENTS] = {0}, size[RC_STRESSES] = {0}, anywhere;
+
+    for (int c = 0; c < RC_COMPONENTS; c++)
+        for (size_t k = 0; six_of[c] != NULL && k < stress->values; k++)
+            squares[c] += six_of[c][k] * six_of[c][k];
+    for (int c = 0; c < RC_STRESSES; c++)
+        for (size_t k = 0; o->wanted >> c & 1 && k < stress->values; k++)
+            size[c] += fabs(s[c][k]);
+    rc_ranks_each_sum(o->ranks, RC_COMPONENTS, squares);
+    rc_ranks_each_sum(o->ranks, RC_COMPONENTS, stress->error);
+    rc_ranks_each_sum(o->ranks, RC_STRESSES, size);
+    anywhere = error_anywhere(stress, squares);
+    for (int c = 0; c < RC_COMPONENTS; c++)
+        stress->error[c] += anywhere;
+    for (int c = 0; c < RC_STRESSES; c++) {
+        if (!(o->wanted >> c & 1))
+            continue;
+        stress->errors[c] += c < RC_COMPONENTS ? stress->error[c] : of_derived(c, stress->error);
+        stress->sizes[c] += size[c];
+        stress->counts.error[c] = stress->sizes[c] > 0 ? stress->errors[c] / stress->sizes[c] : NAN;
+    }
+}
+
 /* ---- plan ---- */
 
 struct rc_stress *
@@ -212,6 +285,10 @@ rc_stress_new(const struct rc_shape *shape, const double *p,
         return NULL;
     stress->task = task_of(shape, p, stress->solid, options, &stress->counts);
     stress->evaluator = evaluator_of(&stress->task);
+    for (int c = 0; c < RC_STRESSES; c++)
+        stress->counts.error[c] = NAN;
+    if (options->estimate)
+        stress->task.error = stress->error;
     stress->body = options->body;
     stress->values = values_of(shape, options);
     for (int c = 0; c < RC_COMPONENTS; c++)
@@ -287,6 +364,7 @@ rc_stress_slice(struct rc_stress *stress, double depth, double *const s[RC_STRES
     for (int c = 0; c < RC_COMPONENTS; c++)
         if (stress->task.components >> c & 1)
             six_of[c] = stress->own[c] != NULL ? stress->own[c] : s[c];
+    memset(stress->error, 0, sizeof stress->error);
     if (stress->evaluator->slice(stress->plan, depth, six_of, err) != RC_OK)
         return RC_FAIL;
     if (stress->strained != NULL) {
@@ -297,6 +375,8 @@ rc_stress_slice(struct rc_stress *stress, double depth, double *const s[RC_STRES
     stress->counts.depths++;
     if (stress->task.options.wanted >> RC_COMPONENTS != 0)
         derive(stress, (const double *const *)six_of, s);
+    if (stress->task.options.estimate)
+        add_errors(stress, six_of, s);
     return RC_OK;
 }
 
@@ -336,6 +416,12 @@ rc_stress_engine(const struct rc_stress *stress)
         RC_FIGURE_AS("counts." #member, struct rc_stress_counts, member), NULL, title,             \
             .role = RC_FIGURE_COST                                                                 \
     }
+#define ERROR(c, name)                                                                             \
+    {                                                                                              \
+        RC_FIGURE_AS(name "_error_estimate", struct rc_stress_counts, error[c]), NULL,             \
+            "Error of " name, .says = "estimated relative L1 error", .role = RC_FIGURE_ERROR,      \
+                              .by = "tol", .of = name                                              \
+    }
 /* clang-format off */
 const struct rc_figure rc_figures_stress[] = {
     COUNT(depths, "Depths"), COUNT(coarse_depths, "Depths on coarser grids"),
@@ -345,6 +431,9 @@ const struct rc_figure rc_figures_stress[] = {
     COUNT(line_transforms, "Transforms along lines"), COUNT(engine_sums, "Sums by another engine"),
     COUNT(strain_transforms, "Transforms of strains"),
     COUNT(strain_field_transforms, "Transforms of the stresses of strains"),
+    ERROR(RC_SXX, "sxx"), ERROR(RC_SYY, "syy"), ERROR(RC_SZZ, "szz"), ERROR(RC_SXY, "sxy"),
+    ERROR(RC_SXZ, "sxz"), ERROR(RC_SYZ, "syz"), ERROR(RC_MISES, "mises"), ERROR(RC_TRESCA, "tresca"),
+    ERROR(RC_S1, "s1"), ERROR(RC_S2, "s2"), ERROR(RC_S3, "s3"),
     {0},
 };
 /* clang-format on */

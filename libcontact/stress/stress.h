@@ -31,6 +31,9 @@ struct rc_stress_task {
     const struct rc_engine *engine; /* requested or chosen; NULL: there is none of that name */
     bool precise;                   /* true: double precision throughout, as its name demands */
     struct rc_stress_counts *counts;
+    /* Pa, of each component at the last depth: the sum of the estimated errors by a coarser grid over the
+     * nodes held here; NULL: not requested */
+    double *error;
 };
 /* True if there is a load; the weight of traction relative to pressure: |mu| plus the number of traction
  * maps. */
@@ -96,6 +99,8 @@ struct rc_stress_evaluator {
 extern const struct rc_stress_evaluator rc_stress_slices_fft; /* by transforms of maps    */
 /* See rc_stress_coarser; for slices_fft.c only. */
 double rc_stress_slices_coarser(const struct rc_stress_task *task);
+/* True if transforms are in single precision; for slices_fft.c only. */
+bool rc_stress_slices_single(const struct rc_stress_task *task);
 extern const struct rc_stress_evaluator rc_stress_slices_engine; /* by a row of engines.list */
 extern const struct rc_stress_evaluator rc_stress_section;       /* a line at a time         */
 

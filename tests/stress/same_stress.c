@@ -236,6 +236,66 @@ within_tolerance(void **state)
     assert_true(coarse > 60);
 }
 
+/* The estimated errors by the tolerance, against sums of all pairs without transforms or coarser grids:
+ * none is below the sum of |error| over the sum of |stress|. Rough pressures, random signs, and waves of 5
+ * nodes; pressure alone, friction, and a map of traction. Coarser grids are tried. */
+static void
+estimates_hold(void **state)
+{
+    size_t tried = 0, coarse = 0, ample = 0;
+
+    (void)state;
+    for (int kind = 0; kind < 3; kind++)
+        for (int load = 0; load < 3; load++) {
+            struct scene s = scene_new(72, 80, 1e-6, kind == 2 ? 1.4e-6 : 1e-6);
+            const size_t n = s.shape.nx * s.shape.ny;
+            uint64_t seed = 77 + (uint64_t)load;
+            struct rc_stress_options o = {.body.nu = 0.3,
+                                          .mu = load == 1 ? 0.25 : 0,
+                                          .wanted = ALL,
+                                          .threads = 2,
+                                          .estimate = true};
+            for (size_t k = 0; kind > 0 && k < n; k++)
+                s.p[k] =
+                    kind == 1 ? random_number(&seed) : 1 + cos(2 * 3.14159 / 5 * (double)(k % 72));
+            if (load == 2)
+                o.traction[0] = s.p;
+            for (double z = 9e-6; z < 30e-6; z *= 2.5) {
+                double *truth[RC_STRESSES], *found[RC_STRESSES];
+                o.engine = "direct";
+                o.tol = 0;
+                compute(&s, o, z, truth, NULL);
+                o.engine = NULL;
+                for (o.tol = 0.1; o.tol > 1e-6; o.tol /= 12) {
+                    struct rc_stress_counts counts;
+                    compute(&s, o, z, found, &counts);
+                    coarse += counts.coarse_depths;
+                    for (int c = 0; c < RC_STRESSES; c++) {
+                        double off = 0, size = 0;
+                        for (size_t k = 0; k < n; k++) {
+                            off += fabs(found[c][k] - truth[c][k]);
+                            size += fabs(truth[c][k]);
+                        }
+                        tried++;
+                        ample += counts.error[c] > 12 * off / size;
+                        if (!(counts.error[c] >= off / size))
+                            print_error("kind %d, load %d, depth %g, tol %g, %s: %.2e, told %.2e\n",
+                                        kind, load, z, o.tol, rc_component_names[c], off / size,
+                                        counts.error[c]);
+                        /* below 1e-11 the truth has rounding errors of its own */
+                        assert_true(counts.error[c] >= off / size || off < 1e-11 * size);
+                    }
+                    release(found);
+                }
+                release(truth);
+            }
+            free(s.p);
+        }
+    print_message("%zu estimates, %zu depths on coarser grids, %zu estimates above 12 errors\n",
+                  tried, coarse, ample);
+    assert_true(coarse > 25 && 3 * ample < 2 * tried);
+}
+
 /* Without a tolerance deep slices are summed on coarser grids too, to rounding: sections, which have no
  * coarser grid, agree. */
 static void
@@ -595,12 +655,19 @@ int
 main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(engines_agree),          cmocka_unit_test(transforms_by_any_name),
-        cmocka_unit_test(engines_refused),        cmocka_unit_test(within_tolerance),
-        cmocka_unit_test(deep_slices_are_exact),  cmocka_unit_test(sections_are_lines_of_slices),
-        cmocka_unit_test(sections_between_rows),  cmocka_unit_test(sections_between_waves),
-        cmocka_unit_test(threads_change_no_bit),  cmocka_unit_test(alone_as_in_company),
-        cmocka_unit_test(extremes_as_one_by_one), cmocka_unit_test(nothing_is_done_unasked),
+        cmocka_unit_test(engines_agree),
+        cmocka_unit_test(transforms_by_any_name),
+        cmocka_unit_test(engines_refused),
+        cmocka_unit_test(within_tolerance),
+        cmocka_unit_test(estimates_hold),
+        cmocka_unit_test(deep_slices_are_exact),
+        cmocka_unit_test(sections_are_lines_of_slices),
+        cmocka_unit_test(sections_between_rows),
+        cmocka_unit_test(sections_between_waves),
+        cmocka_unit_test(threads_change_no_bit),
+        cmocka_unit_test(alone_as_in_company),
+        cmocka_unit_test(extremes_as_one_by_one),
+        cmocka_unit_test(nothing_is_done_unasked),
     };
 
     return cmocka_run_group_tests(tests, NULL, NULL);

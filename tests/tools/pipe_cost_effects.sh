@@ -80,7 +80,9 @@ again heat tol=0.1 temperature-1
 rc-synth sphere --nx 64 --dx 5um --radius 7.5mm | rc-solve --load 10N $steel --quiet -o larger.rcg
 study stress larger.rcg "--tol 1e-1,1e-3" rc-stress --depths 10um:100um:4 --components sxx,szz
 again stress tol=0.1 sxx
-study fatigue contact.rcg "--tol 1e-1,1e-3" rc-fatigue --bending-limit 600MPa --torsion-limit 400MPa --pass x --depths 20um:100um:3
+fatigue="rc-fatigue --bending-limit 600MPa --torsion-limit 400MPa --pass x --depths 20um:100um:3"
+# shellcheck disable=SC2086
+study fatigue contact.rcg "--tol 1e-1,1e-3" $fatigue
 again fatigue tol=0.1 crossland
 rc-synth sphere --nx 48 --dx 13um --radius 20mm -o wide.rcg
 study travel ball.rcg "--tol 1e-1,1e-3" rc-solve --load 5N $steel --travel=-26um,0,26um --counter wide.rcg --window 20x20
@@ -164,8 +166,10 @@ claim "  a warning says so" grep -q 'the estimate for pressure, .* is below the 
 claim "  such a trial is not proposed" bash -c "
     flattering/rc-cost --tol 1e-2,1e-4 --error 0.1 --quiet ball.rcg -- rc-solve --load 10N $steel | grep -q -- '--tol 1e-06'"
 claim "true estimates are not" lacks optimistic loads.txt
-claim "a command without an estimate is unjudged" grep -q unjudged stress.txt
-claim "  and proposed with these words" warns 'without an estimate of its own' rc-cost --tol 1e-1 --error 0.5 larger.rcg -- rc-stress --depths 10um
+claim "stress: each trial has an estimate, and none is optimistic" lacks 'optimistic|unjudged' stress.txt
+claim "a command without an estimate is unjudged" grep -q unjudged fatigue.txt
+# shellcheck disable=SC2086
+claim "  and proposed with these words" warns 'without an estimate of its own' rc-cost --tol 1e-1 --error 0.5 larger.rcg -- $fatigue
 # One step of a slip path has an error of its increments that no tolerance removes.
 claim "a program that stops short is marked" bash -c '
     rc-cost --quiet --tol 1e-1,1e-4 contact.rcg -- rc-slip --mu 0.3 --tangential 1.5N >short.txt && grep -Eq "^ *1e-4 .*short" short.txt'
@@ -173,8 +177,8 @@ claim "  and never proposed" bash -c '
     rc-cost --quiet --tol 1e-1,1e-4 --budget 100s contact.rcg -- rc-slip --mu 0.3 --tangential 1.5N | grep -q -- "--tol 1e-1 "'
 refuses 1 'no reference: .*hardness' "a reference that cannot be solved" \
     "rc-cost --tol 1e-2 rough.rcg -- rc-solve --periodic --mean-pressure 5GPa --estar 100GPa --hardness 1GPa"
-claim "without an estimate the tolerance of the reference bounds it, if the last step changes nothing" bash -c '
-    rc-cost --quiet --tol 1e-1,1e-3 contact.rcg -- rc-stress --depths 10um:100um:4 | grep -q "^# reference: tol 1e-05, .*its error is at most about 1.0e-05"'
+claim "without an estimate the tolerance of the reference bounds it, if the last step changes nothing" bash -c "
+    rc-cost --quiet --tol 1e-1,1e-3 contact.rcg -- $fatigue | grep -q '^# reference: tol 1e-05, .*its error is at most about 1.0e-05'"
 claim "a step beyond the list that fails leaves its tightest value as the reference" bash -c "
     rc-cost --quiet --vary increments=256,512 --limit 100s ball.rcg -- rc-solve --load 20mN --relaxation 1MPa,9MPa:1ms --nu1 0.5 --E2 rigid --time 1ms >most.txt &&
     grep -q '^# reference: increments 512,' most.txt"

@@ -226,6 +226,19 @@ write_extremes(const struct stress_report *r, struct report *out, enum stress_en
     report_end(out);
 }
 
+/* The figures of a role: new columns of a table are its last ones. */
+static void
+write_figures(struct report *out, const struct rc_stress *stress, enum rc_figure_role role)
+{
+    struct rc_figure some[RC_STRESSES + 16] = {{0}};
+    size_t n = 0;
+
+    for (const struct rc_figure *f = rc_figures("stress"); f->name != NULL; f++)
+        if (f->role == role)
+            some[n++] = *f;
+    report_table(out, some, rc_stress_counted(stress));
+}
+
 void
 stress_report_write(struct stress_report *r, struct report *out, const struct rc_stress *stress)
 {
@@ -252,7 +265,7 @@ stress_report_write(struct stress_report *r, struct report *out, const struct rc
         write_extremes(r, out, (enum stress_end)e);
     report_carried(out, rc_grid_get(r->p, "converged"));
     report_effects(out, effects_of(o));
-    report_table(out, rc_figures("stress"), rc_stress_counted(stress));
+    write_figures(out, stress, RC_FIGURE_COST);
     report_seconds(
         out,
         (const struct report_phase[]){{"setup", r->setup},
@@ -262,6 +275,7 @@ stress_report_write(struct stress_report *r, struct report *out, const struct rc
         r->setup + r->slices);
     report_memory(out);
     report_ranks(out, out->tool);
+    write_figures(out, stress, RC_FIGURE_ERROR);
     report_finish_row(out);
 }
 
