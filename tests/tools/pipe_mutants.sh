@@ -10,7 +10,8 @@ mutants() { "$python" "$RC_SOURCE/tests/fuzz/mutants.py" --bin "$RC_BIN" "$@"; }
 count=40
 with_address_sanitizer && count=20
 before_release && count=4000
+mutants --count "$count" >ends.txt
 for subject in $(mutants --list); do
-    claim "mutants for $subject" mutants --count "$count" "$subject"
-    cat claim.out
+    claim "mutants for $subject" grep "^$subject: .*: no finding$" ends.txt
 done
+cat ends.txt
