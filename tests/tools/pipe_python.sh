@@ -12,8 +12,16 @@ fi
 "$python" -c 'import numpy, sys; print("Python", sys.version.split()[0] + ", numpy", numpy.__version__)'
 export PYTHONPATH="$RC_SOURCE/python" PYTHONDONTWRITEBYTECODE=1
 
-# check NAME FILE...: runs this check of tests/tools/python_rcg.py.
-check() { "$python" "$RC_SOURCE/tests/tools/python_rcg.py" "$@"; }
+# check NAME FILE...: runs this check of tests/tools/python_rcg.py, which waits for names.
+coproc CHECKS { exec "$python" "$RC_SOURCE/tests/tools/python_rcg.py"; }
+check() {
+    local status=1
+    printf '%s\0' "$@" >asked
+    echo >&"${CHECKS[1]}" && read -r status <&"${CHECKS[0]}"
+    cat said.out
+    cat said.err >&2
+    return "$status"
+}
 
 # ---- streams ----
 

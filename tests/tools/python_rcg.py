@@ -1,5 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The checks of pipe_python.sh for the package rcg, one function each: python_rcg.py NAME ARGUMENT..."""
+"""The checks of pipe_python.sh for the package rcg, one function each: python_rcg.py. For each line of its input it runs
+the check whose name and arguments are in the file asked, each with a zero byte behind it, in a process of its own. The
+outputs of the check go to said.out and said.err, and its exit status is printed. So numpy is loaded once."""
 import concurrent.futures
 import copy
 import functools
@@ -904,5 +906,20 @@ def pool(count):
         assert [rcg.dumps(one.frames) for one in workers.map(solve, maps)] == [rcg.dumps(one.frames) for one in alone]
 
 
+def main():
+    signal.signal(signal.SIGINT, signal.default_int_handler)  # a shell ignores it in the background
+    for _ in sys.stdin:
+        child = os.fork()
+        if child == 0:
+            for number, name, mode in ((0, os.devnull, 'r'), (1, 'said.out', 'w'), (2, 'said.err', 'w')):
+                with open(name, mode) as file:
+                    os.dup2(file.fileno(), number)
+            name, *arguments = content('asked').decode().split('\0')[:-1]
+            globals()[name](*arguments)
+            sys.exit()
+        status = os.waitstatus_to_exitcode(os.waitpid(child, 0)[1])
+        print(status if status >= 0 else 128 - status, flush=True)
+
+
 if __name__ == '__main__':  # not in the processes of a pool
-    globals()[sys.argv[1]](*sys.argv[2:])
+    main()
