@@ -50,6 +50,9 @@ build() {
     phase "$preset, build"
 }
 
+# One test more than cores: some wait for a limit of time, a signal or another process.
+parallel=$(($(cores) + 1))
+
 # try PRESET [OPTIONS]: builds, and runs the tests in parallel, because none of them measures time closely.
 try() {
     local preset=$1 failed=0 list
@@ -63,7 +66,7 @@ try() {
 
 if [ "${CI-}" = true ]; then
     build sanitize
-    try sanitize --parallel "$(cores)"
+    try sanitize --parallel "$parallel"
     phase "sanitize, tests"
 fi
 build ci
@@ -78,8 +81,7 @@ try mpi -R '^(same|law).*_ranks$|^pipe_models_ranks$' || failed=1
 phase "mpi, tests of two processes that solve together"
 try mpi -R '^pipe_ranks$|law_folders|pipe_(installed|library(_page)?|solve)$' >build-mpi/tests.log 2>&1 &
 shared=$!
-# One test more than cores: some wait for a limit of time, a signal or another process.
-try ci --parallel "$(($(cores) + 1))" || failed=1
+try ci --parallel "$parallel" || failed=1
 phase "ci, tests"
 wait "$shared" || failed=1
 cat build-mpi/tests.log
