@@ -17,7 +17,7 @@ rc-wear --quiet --coefficient 1e-9mm3/Nm --distance 10m --report w.json -o x.rcg
 worn=$(awk -v a="$(field contact_area w.json)" -v b="$(field contact_area e.json)" 'BEGIN { d = a / b - 1; print d < 0 ? -d : d }')
 between "$(of wear plain.json figures contact_area low)" "$worn" "$(of wear plain.json figures contact_area high)" "the area of a worn contact is in its interval"
 claim "with --decide undecided effects are computed" test "$(of adhesion plain.json verdict)" = "not decided" -a "$(of adhesion decided.json decided)" = 1
-command=$(of adhesion plain.json command 0 >/dev/null; effect adhesion plain.json | perl -MJSON::PP -e 'local $/; print join " ", @{JSON::PP->new->decode(<STDIN>)->{command}}')
+command=$(effect adhesion plain.json | perl -MJSON::PP -e 'local $/; print join " ", @{JSON::PP->new->decode(<STDIN>)->{command}}')
 eval "$command --quiet --report own.json -o x.rcg rough.rcg"
 near "$(of adhesion decided.json figures contact_area high)" "$(awk -v a="$(field contact_area own.json)" -v b="$(field contact_area e.json)" 'BEGIN { d = a / b - 1; print d < 0 ? -d : d }')" 1e-6 \
     "  and its command gives the same change"
