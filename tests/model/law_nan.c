@@ -6,13 +6,17 @@
  * frames are refused. */
 #include "kinds.h"
 
-/* With the address sanitizer a step takes several times as long; a commit tries fewer states and two numbers
- * for each. */
+/* With the address sanitizer a step takes several times as long. A commit then tries each number at one of two
+ * points, fewer states, and two numbers for each. */
+static bool
+fewer(void)
+{
 #ifdef __SANITIZE_ADDRESS__
-static const bool sanitized = true;
+    return getenv("RC_LONG") == NULL;
 #else
-static const bool sanitized = false;
+    return false;
 #endif
+}
 
 enum {
     FEW = 60 /* steps of a run with such numbers */
@@ -187,7 +191,8 @@ in_points(void **state)
         usual(q);
         for (int a = 0; a < AXES && (a == 0 || kind->axis[a] != RC_LOAD); a++)
             for (size_t b = 0; b < sizeof bad / sizeof *bad; b++)
-                for (int at = 0; at < 2; at++) { /* the first point, and the next one */
+                for (int at = fewer() ? (int)(q + b) % 2 : 0; at < 2; at += fewer() ? 2 : 1) {
+                    /* the first point, and the next one */
                     struct rc_model *m = make(kind);
                     struct rc_err err = {""};
                     struct rc_point to = point_of(kind, 0);
@@ -261,7 +266,7 @@ static void
 in_states(void **state)
 {
     const bool all = getenv("RC_LONG") != NULL;
-    const size_t few = all ? 1 : sanitized ? 16 : 4;
+    const size_t few = all ? 1 : fewer() ? 16 : 4;
 
     (void)state;
     for (size_t q = 0; q < KINDS; q++)
@@ -284,8 +289,8 @@ in_states(void **state)
             rc_model_state(m, v);
             rc_model_free(m);
             for (size_t k = q % few; k < n; k += k < 60 ? few : 1 + n / (all ? 24 : 6))
-                for (size_t b = sanitized && !all ? k / few % 3 * 2 : 0; b < sizeof bad / sizeof *bad;
-                     b += sanitized && !all ? 6 : 2) {
+                for (size_t b = fewer() ? k / few % 3 * 2 : 0; b < sizeof bad / sizeof *bad;
+                     b += fewer() ? 6 : 2) {
                     const double was = v[k];
                     char what[128];
                     snprintf(what, sizeof what, "%s, %zu steps, state %zu is %g", kinds[q].name,
