@@ -61,6 +61,38 @@ claim "  a curve of the friction" bash -c "rc-render --curve speed:friction -o c
 claim "the plan counts convolutions" says 'sliding .*along y, fresh track' \
     bash -c "rc-solve $rubber --mean-pressure 0.2MPa --speed 1 --along y --dry-run road.rcg"
 
+# Waves of L m excite at v/L Hz: of 8 nodes at 12500 Hz, as long as the map at 1562.5 Hz, along y at 4 times as much.
+curve() { # curve LOW HIGH: a master curve between two frequencies
+    awk -v low="$1" -v high="$2" 'BEGIN { print "frequency/Hz storage/MPa loss/MPa"
+        for (i = 0; i <= 20; i++) { f = low * (high / low) ^ (i / 20); x = 6.283185307 * f * 1e-4
+            printf "%.9g %.9g %.9g\n", f, 1 + 2 * x * x / (1 + x * x), 2 * x / (1 + x * x) } }'
+}
+curve 1500 13000 >covers.txt
+curve 1500 12000 >short.txt
+curve 1600 13000 >late.txt
+curve 1500 10e6 >wide.txt
+awk 'BEGIN { print "time/s E/MPa"; for (i = 0; i <= 20; i++) { t = 20e-6 * 50 ^ (i / 20); print t, 1 + 2 * exp(-t / 1e-4) } }' >times.txt
+rc-synth wave --nx 64 --ny 64 --dx 10um --dy 2.5um --wavelength 640um --amplitude 0.1um -o long.rcg
+range="rc-solve --threads 1 --tol 1e-2 --periodic --nu1 0.5 --E2 rigid --mean-pressure 1MPa --output pressure -o ranged.rcg"
+above='waves of 8 nodes .80 um. excite the material at 12500 Hz, above the last frequency of the table,'
+below='waves as long as the map .640 um. excite the material at 1562.5 Hz, below the first frequency of the table,'
+none() { # none ARG...: a run of these options without a warning of the range
+    claim "waves inside the range of the table: $*" bash -c '"$@" 2>ranged.err && ! grep -E "excite" ranged.err' - $range "$@" long.rcg
+}
+none --speed 1 --relaxation covers.txt
+none --speed 1 --relaxation wide.txt
+none --speed=-1 --relaxation wide.txt
+none --speed 2 --shift 0.5 --relaxation covers.txt
+none --speed 0 --relaxation late.txt
+none --speed 100 --relaxation 1MPa,2MPa:0.1ms
+claim "waves above it have a warning with both frequencies" warns "at 1 m/s $above 12000 Hz" $range --speed 1 --relaxation short.txt long.rcg
+claim "  with the table after its shift" warns "at 1 m/s $above 6500 Hz" $range --speed 1 --shift 2 --relaxation covers.txt long.rcg
+claim "  each of a list of shifts" warns "case 2, .*: at 1 m/s $above 6500 Hz" $range --speed 1 --shift 1,2 --relaxation covers.txt long.rcg
+claim "  of times" warns 'excite the material at 12500 Hz, above 7957.75 Hz, 1/.2 pi t. of the first time of the table, 2e-05 s' \
+    $range --speed 1 --relaxation times.txt long.rcg
+claim "  along y" warns 'waves of 8 nodes .20 um. excite the material at 50000 Hz' $range --along y --speed 1 --relaxation covers.txt long.rcg
+claim "waves below it" warns "at 1 m/s $below 1600 Hz" $range --speed 1 --relaxation late.txt long.rcg
+
 refuses 2 '--speed has no effect without --relaxation' "a speed without a material" "rc-solve --periodic --estar 1MPa --load 1N --speed 1 road.rcg"
 refuses 2 '--track repeated has no effect without --periodic' "a repeated track on a free map" \
     "rc-solve --relaxation 1MPa,9MPa:1ms --nu1 0.5 --E2 rigid --load 1N --speed 1 --track repeated road.rcg"

@@ -132,6 +132,28 @@ claim "a relaxed modulus of 0 has a warning" warns 'relaxed modulus is 0, so tha
     ${solve/--quiet/} --relaxation 0,9MPa:1ms --load 0.2mN --time 1ms -o t.rcg ball.rcg
 claim "  and one above 0 has none" bash -c "${solve/--quiet/} $solid --load 0.2mN --time 1ms -o t.rcg ball.rcg 2>none.err; ! grep flows none.err"
 
+# ---- the range of a table ----
+
+# curve.csv has 10 to 1e5 rad/s, and relax.tsv 0.1 us to 0.1 s
+range="rc-solve --threads 1 --nu1 0.5 --E2 rigid --load 0.2mN --output pressure -o ranged.rcg ball.rcg"
+inside() {
+    claim "  no warning of $*" bash -c '"$@" 2>ranged.err && ! grep -E "excites" ranged.err' - $range "$@"
+}
+claim "a time longer than a table has a warning" warns \
+    'time: 0.2 s excites the material at 1/.2 pi t., 0.795775 Hz, below the first frequency of the table, 1.59155 Hz' \
+    $range --relaxation curve.csv --time 1ms,0.2s
+claim "  and a shorter one" warns 'time: 5e-06 s .*31831 Hz, above the last frequency of the table, 15915.5 Hz' \
+    $range --relaxation curve.csv --time 0,5us,90ms
+claim "  with the table after its shift" warns 'time: 0.09 s .*, below the first frequency of the table, 3.1831 Hz' \
+    $range --relaxation curve.csv --shift 0.5 --time 1ms,90ms
+claim "  of a list, with the time of the case" warns 'time: 0.09 s .*, below the first frequency of the table, 3.1831 Hz' \
+    $range --relaxation curve.csv --shift 1,0.5 --time 90ms
+claim "  of times" warns 'time: 0.2 s .*, below 1.59155 Hz, 1/.2 pi t. of the last time of the table, 0.1 s' \
+    $range --relaxation relax.tsv --time 1ms,0.2s
+inside --relaxation curve.csv --time 0,20us,99ms
+inside --relaxation relax-inf.csv --time 0,20us,0.2s
+inside --relaxation 1MPa,9MPa:1ms --time 0,20us,0.2s
+
 # ---- a layer on a rigid base ----
 
 layer="rc-solve --quiet --threads 1 --E1 rigid --E2 rigid --tol 1e-3"

@@ -10,6 +10,7 @@
 #include <string.h>
 
 static const double hertz = 6.283185307179586; /* rad/s */
+static const double rounding = 1e-6;           /* relative */
 
 /* A modulus must have a unit: 5 could be meant in MPa. */
 static enum rc_status
@@ -62,7 +63,6 @@ read_terms(struct relaxation_law *law, const char *text, double shift, struct rc
             return RC_FAIL;
     if (n < 2)
         return rc_err_set(err, "it must be Einf,E1:tau1,..., as in 1MPa,9MPa:1ms, or a file");
-    law->misfit = NAN;
     law->material = rc_relaxation_new(relaxed, n - 1, v, v + room, err);
     return law->material != NULL ? RC_OK : RC_FAIL;
 }
@@ -137,9 +137,23 @@ take_terms(struct relaxation_law *law, struct columns *c, double shift, struct r
             tau[terms] = tau[k] * shift;
             modulus[terms++] = modulus[k];
         }
-    law->misfit = NAN;
     law->material = rc_relaxation_new(relaxed, terms, modulus, tau, err);
     return law->material != NULL ? RC_OK : RC_FAIL;
+}
+
+/* Sets the range of the table to that of v[0..n), angular frequencies or times; `whole`: v has no upper end. */
+static void
+set_range(struct relaxation_law *law, size_t n, const double *v, bool in_time, bool whole)
+{
+    double low = INFINITY, high = 0;
+
+    for (size_t k = 0; k < n; k++) {
+        low = fmin(low, v[k]);
+        high = fmax(high, v[k]);
+    }
+    law->in_time = in_time;
+    law->lowest = !in_time ? low : whole ? 0 : 1 / high;
+    law->highest = !in_time ? high : 1 / low;
 }
 
 static enum rc_status
@@ -156,6 +170,7 @@ fit_curve(struct relaxation_law *law, struct columns *c, double shift, struct rc
                                   (int)strcspn(wanted[kind[i]].names, " "), wanted[kind[i]].names);
         omega[k] *= (frequency == FREQUENCY ? hertz : 1) / shift;
     }
+    set_range(law, c->n, omega, false, false);
     law->material = rc_relaxation_fit(c->n, omega, c->v[STORAGE], c->v[LOSS], 0, &law->misfit, err);
     return law->material != NULL ? RC_OK : RC_FAIL;
 }
@@ -181,6 +196,7 @@ fit_relaxation(struct relaxation_law *law, struct columns *c, double shift, stru
             modulus[n++] = modulus[k];
         }
     }
+    set_range(law, n, time, true, !isnan(relaxed));
     law->material = rc_relaxation_fit_time(n, time, modulus, relaxed, 0, &law->misfit, err);
     return law->material != NULL ? RC_OK : RC_FAIL;
 }
@@ -238,6 +254,7 @@ relaxation_law_read(struct relaxation_law *law, const char *text,
     struct columns c;
     enum rc_status status;
 
+    *law = (struct relaxation_law){.misfit = NAN, .highest = INFINITY};
     law->shift = shift != NULL && shift->factor.n > 1 ? shift : NULL;
     if (strchr(text, ':') != NULL || !columns_file(text))
         return read_terms(law, text, factor, err);
@@ -390,4 +407,28 @@ double
 relaxation_kelvin(const struct relaxation_shift *s, size_t k)
 {
     return s == NULL || s->kelvin.n == 0 ? NAN : s->kelvin.v[s->kelvin.n > 1 ? k : 0];
+}
+
+const char *
+relaxation_outside_to(char text[RELAXATION_OUTSIDE], const struct relaxation_law *law, size_t k,
+                      double omega)
+{
+    const double a = relaxation_factor(law->shift, k);
+    const bool above = omega > law->highest / a * (1 + rounding);
+    const double end = (above ? law->highest : law->lowest) / a;
+    char limit[128];
+
+    if (!above && !(omega < end * (1 - rounding)))
+        return NULL;
+    if (law->in_time)
+        snprintf(limit, sizeof limit, "%s, 1/(2 pi t) of the %s time of the table, %s",
+                 shown_in_unit(end / hertz, "Hz"), above ? "first" : "last",
+                 shown_in_unit(1 / end, "s"));
+    else
+        snprintf(limit, sizeof limit, "the %s frequency of the table, %s", above ? "last" : "first",
+                 shown_in_unit(end / hertz, "Hz"));
+    snprintf(text, RELAXATION_OUTSIDE, "%s, %s %s: there it has its %s modulus by extrapolation",
+             shown_in_unit(omega / hertz, "Hz"), above ? "above" : "below", limit,
+             above ? "instantaneous" : "relaxed");
+    return text;
 }

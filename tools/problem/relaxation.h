@@ -20,6 +20,10 @@ struct relaxation_law {
     struct rc_relaxation
         *material; /* Young's modulus, at the temperature if there is one, else at T0 */
     double misfit; /* of a master curve; NAN: the terms were given */
+    /* rad/s: the frequencies of the table, or the inverse of its times, after a single shift; 0 and
+     * INFINITY: there is no end, as of terms */
+    double lowest, highest;
+    bool in_time; /* the table has times */
     const struct relaxation_shift
         *shift; /* of several factors, one for each case; NULL: there is one */
 };
@@ -34,6 +38,15 @@ enum rc_status relaxation_shift_read(const char *text, const char *temperature,
  * shifts to T0. All times are multiplied by the factor of `shift`, if it is one; NULL: 1. */
 enum rc_status relaxation_law_read(struct relaxation_law *law, const char *text,
                                    const struct relaxation_shift *shift, struct rc_err *err);
+/* Describes the angular frequency `omega` (rad/s) that case k excites, as in "5000 Hz, above the last
+ * frequency of the table, 1000 Hz: there ..."; NULL: it is inside the range of the table. */
+enum {
+    RELAXATION_OUTSIDE = 256
+};
+const char *relaxation_outside_to(char text[RELAXATION_OUTSIDE], const struct relaxation_law *law,
+                                  size_t k, double omega);
+#define relaxation_outside(law, k, omega)                                                          \
+    relaxation_outside_to((char[RELAXATION_OUTSIDE]){""}, law, k, omega)
 /* The factor of case k, and its temperature (K; NAN: none). */
 double relaxation_factor(const struct relaxation_shift *shift, size_t k);
 double relaxation_kelvin(const struct relaxation_shift *shift, size_t k);

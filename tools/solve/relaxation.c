@@ -96,6 +96,18 @@ ask(struct run *run)
     return true;
 }
 
+/* A time t excites the material at the angular frequency 1/t. Case k has the time t times its factor. */
+static void
+warn_of_time(struct run *run, double t, size_t k)
+{
+    const double real = t * relaxation_factor(law.shift, k);
+    const char *outside = t > 0 ? relaxation_outside(&law, k, 1 / real) : NULL;
+
+    if (outside != NULL)
+        tool_warn(&run->d.t, "--time: %s excites the material at 1/(2 pi t), %s",
+                  shown_in_unit(real, "s"), outside);
+}
+
 static void
 warn_of_material(struct run *run)
 {
@@ -113,7 +125,11 @@ warn_of_material(struct run *run)
         tool_warn(&run->d.t, "--relaxation: the relaxed modulus is 0, so that body 1 flows without "
                              "end under a load: for a solid give its relaxed modulus, first as in "
                              "1MPa,9MPa:1ms, or in a line `inf E` of a table");
-    if (m->terms > 0 && soonest > 0 && soonest < m->time[0])
+    if (args.time.n > 0) {
+        warn_of_time(run, soonest, args.time.v[0] > 0 ? 0U : 1U);
+        warn_of_time(run, args.time.v[args.time.n - 1], args.time.n - 1);
+    }
+    if (isnan(law.misfit) && m->terms > 0 && soonest > 0 && soonest < m->time[0])
         tool_warn(&run->d.t,
                   "--time: %s passes %s, and the shortest relaxation time is %s: "
                   "there the "

@@ -11,8 +11,6 @@
 
 #include "formats/core/core.h"
 
-static const double beyond = 10; /* times the inverse of the shortest relaxation time */
-
 static struct {
     struct numbers speed;
     const char *along, *track; /* x or y; fresh or repeated  */
@@ -183,33 +181,34 @@ set_errors(struct run *run, struct solution *s)
     s->contact.convolutions = own.found->convolutions;
 }
 
+/* A wave of length L excites the material at the frequency |speed|/L. */
+static void
+warn_of_wave(struct run *run, const char *where, const char *waves, double length)
+{
+    const double omega = 2 * 3.141592653589793 * fabs(own.shown.speed) / length;
+    const char *outside = relaxation_outside(run->material, run->d.at, omega);
+
+    if (outside != NULL && own.shown.speed != 0)
+        tool_warn(&run->d.t, "%s: at %s waves %s (%s) excite the material at %s", where,
+                  shown_in_unit(fabs(own.shown.speed), "m/s"), waves, shown_in_unit(length, "m"),
+                  outside);
+}
+
 static void
 warn(struct run *run, const char *where)
 {
-    const struct rc_relaxation *m = own.material;
-    const double traction = 0.3, pi = 3.141592653589793;
+    const double traction = 0.3;
     const struct rc_grid *g = run->g;
-    double speed, length;
+    const bool y = slides_along_y();
+    const double spacing = y ? g->dy : g->dx;
 
-    speed = fabs(own.found->speed);
-    length = slides_along_y() ? (double)g->ny * g->dy : (double)g->nx * g->dx;
     if (own.found->friction > traction)
         tool_warn(&run->d.t,
                   "%s: the coefficient of friction is %.3g, and the contact is that of smooth "
                   "bodies without friction: above %g the tractions along the surface change it",
                   where, own.found->friction, traction);
-    if (isnan(run->material->misfit) || m->terms == 0 || speed == 0)
-        return;
-    if (2 * pi * speed / (8 * g->dx) * m->time[0] > beyond)
-        tool_warn(&run->d.t,
-                  "%s: waves of 8 nodes excite the material beyond the frequencies of the master "
-                  "curve: there it has its instantaneous modulus by extrapolation",
-                  where);
-    if (2 * pi * speed / length * m->time[m->terms - 1] < 1 / beyond)
-        tool_warn(&run->d.t,
-                  "%s: waves as long as the map, %s, excite the material below the frequencies of "
-                  "the master curve: there it has its relaxed modulus by extrapolation",
-                  where, shown_in_unit(length, "m"));
+    warn_of_wave(run, where, "of 8 nodes", 8 * spacing);
+    warn_of_wave(run, where, "as long as the map", (double)(y ? g->ny : g->nx) * spacing);
 }
 
 static bool
