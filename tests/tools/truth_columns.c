@@ -13,6 +13,7 @@
 #include <string.h>
 #include <unistd.h>
 
+#include "formats/core/core.h"
 #include "tools/text/text.h"
 
 enum {
@@ -28,7 +29,7 @@ static const struct wanted_column wanted[KINDS] = {
     [STORAGE] = {"storage storagemodulus e' e(t)", UNIT_PA, .needs_unit = true},
     [LOSS] = {"loss lossmodulus e''", UNIT_PA, .optional = true},
     [STRAIN] = {"strain", UNIT_NONE, .optional = true},
-    [TAN] = {"tandelta tan(delta)", UNIT_NONE, .ignored = true},
+    [TAN] = {"tandelta tan(delta) tan\316\264", UNIT_NONE, .optional = true, .spare = 1U << LOSS},
 };
 
 static enum rc_status
@@ -77,6 +78,11 @@ same(void **state)
         "t/ms E(t)/MPa tan(delta) loss/(N/mm2)\n1 3 0.5 0.5\n2 4.5 0 0\n",
         "t/ms storage/MPa\n1 3\n2 4.5\n",
         "strain/% t/ms storage/MPa\n100 1 3\n200 2 4.5\n",
+        /* a name and its symbol; Latin-1; a letter of another alphabet */
+        "t (ms);Storage modulus E' (N/mm\302\262);Loss modulus E'' (N/mm\302\262);tan \316\264\n"
+        "1;3;0.5;x\n2;4.5;0;x\n",
+        "time t/ms storage modulus e' / MPa loss modulus e''/MPa\n1 3 0.5\n2 4.5 0\n",
+        "t/ms\tstorage/(N/mm\262)\tloss/(N/mm\262)\n1\t3\t0.5\n2\t4.5\t0\n",
     };
     (void)state;
 
@@ -95,7 +101,7 @@ same(void **state)
                      c.v[STORAGE][1]);
         assert_true((c.v[LOSS] != NULL) == (strstr(good[k], "0.5") || strstr(good[k], "0,5") ||
                                             strstr(good[k], " .5") || strstr(good[k], "500 3e-3")));
-        assert_null(c.v[TAN]);
+        assert_null(c.v[TAN]); /* beside the loss */
         columns_free(&c);
     }
 }
@@ -140,6 +146,12 @@ refused(void **state)
         {"time/s storage/MPa\n1 2\n2 3s\n", "line 3: storage: unknown unit 's'"},
         {"time/s\tstorage/MPa\n1,234\t2\n", "line 2: time: '1,234': is its comma the decimal mark"},
         {"time/s\tstorage/MPa\n1\t-12,345,678\n", "line 2: storage: '-12,345,678': is its comma"},
+        {"time/s storage/MPa\n1 2m\262\n", "line 2: storage: unknown unit 'm2'"},
+        {"time/s zeit\344/MPa\n1 2\n", "line 1: there is no column 'zeit\303\244'"},
+        {"time/s "
+         "storage/(\344\344\344\344\344\344\344\344\344\344\344\344\344\344\344\344\344\344\344"
+         "\344\344\344\344\344\344)\n1 2\n",
+         "\303\244\303\244...' is too long"},
         {"time/s;storage/MPa\n1.000,5;2\n", "line 2: time: "},
         {"time/s;storage/MPa\n1,000,5;2\n", "line 2: time: "},
         {"time/s storage/MPa\n1,5 2,5\n", "line 2: "},
@@ -151,6 +163,7 @@ refused(void **state)
     for (size_t k = 0; k < sizeof bad / sizeof *bad; k++) {
         if (read_text(bad[k].text, strlen(bad[k].text), false, &c, &err) == RC_OK)
             fail_msg("%s: not refused", bad[k].text);
+        assert_true(rc_utf8_valid(err.text));
         if (strstr(err.text, bad[k].why) == NULL)
             fail_msg("%s: '%s' instead of '%s'", bad[k].text, err.text, bad[k].why);
         columns_free(&c);
@@ -165,6 +178,24 @@ refused(void **state)
     columns_free(&c);
     assert_int_equal(columns_read(&c, "/none.tsv", wanted, KINDS, false, &err), RC_FAIL);
     assert_non_null(strstr(err.text, "No such file"));
+    columns_free(&c);
+}
+
+/* A spare column is read if the other one is absent. */
+static void
+spare(void **state)
+{
+    const char *text = "t/s storage/MPa tan \316\264\n1 2 0.25\n";
+    struct columns c;
+    struct rc_err err = {""};
+    (void)state;
+
+    assert_int_equal(read_text(text, strlen(text), true, &c, &err), RC_OK);
+    assert_true(c.v[LOSS] == NULL && c.v[TAN] != NULL && c.v[TAN][0] == 0.25);
+    columns_free(&c);
+    text = "t/s storage/MPa tandelta/MPa\n1 2 0.25\n";
+    assert_int_equal(read_text(text, strlen(text), true, &c, &err), RC_FAIL);
+    assert_non_null(strstr(err.text, "tandelta: "));
     columns_free(&c);
 }
 
@@ -198,7 +229,8 @@ int
 main(void)
 {
     const struct CMUnitTest tests[] = {cmocka_unit_test(same), cmocka_unit_test(refused),
-                                       cmocka_unit_test(infinite), cmocka_unit_test(files)};
+                                       cmocka_unit_test(infinite), cmocka_unit_test(spare),
+                                       cmocka_unit_test(files)};
 
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -99,7 +99,7 @@ static const struct wanted_column wanted[KINDS] = {
               .unit = UNIT_PA,
               .optional = true,
               .needs_unit = true},
-    [TAN_DELTA] = {.names = "tandelta tan(delta) tand lossfactor", .ignored = true},
+    [TAN_DELTA] = {.names = "tandelta tan(delta) tand lossfactor", .spare = 1U << LOSS},
     [TEMPERATURE] = {.names = "temperature temp",
                      .unit = UNIT_K,
                      .optional = true,

@@ -9,6 +9,7 @@
 #include <string.h>
 #include <strings.h>
 
+#include "formats/core/core.h"
 #include "libcontact/owned.h"
 #include "name_list.h"
 
@@ -33,6 +34,7 @@ struct reading {
     size_t n;                  /* columns of the file; 0: not yet known */
     size_t kind[COLUMNS_MOST]; /* of a column of the file: index of `wanted` */
     char unit[COLUMNS_MOST][CELL];
+    unsigned present; /* bits of the wanted columns in the heading */
     bool must_be_headed;
     bool headed, in_comment, units; /* there is a heading; in a comment; it has units */
 };
@@ -76,10 +78,15 @@ split(struct reading *r, const char *line, struct cell cell[COLUMNS_MOST + 1])
     return n;
 }
 
+/* False: it is too long; text then has its begin, without a cut character. */
 static bool
 copy(struct cell c, char text[CELL])
 {
-    snprintf(text, CELL, "%.*s", (int)(c.n < CELL ? c.n : CELL - 1), c.at);
+    size_t n = c.n < CELL ? c.n : CELL - 1;
+
+    while (n > 0 && n < c.n && ((unsigned char)c.at[n] & 0xc0U) == 0x80)
+        n--;
+    snprintf(text, CELL, "%.*s", (int)n, c.at);
     return c.n < CELL;
 }
 
@@ -103,7 +110,7 @@ first_name(const struct wanted_column *w)
 
 /* The index of the wanted column with this name; r->kinds: none. */
 static size_t
-find(const struct reading *r, struct cell c)
+find_name(const struct reading *r, struct cell c)
 {
     char name[CELL];
     size_t n = 0;
@@ -119,6 +126,28 @@ find(const struct reading *r, struct cell c)
             s += length;
         }
     return r->kinds;
+}
+
+/* The same for a name and a symbol, as "Storage modulus E'". */
+static size_t
+find(const struct reading *r, struct cell c)
+{
+    size_t found = find_name(r, c);
+
+    for (size_t k = c.n; k-- > 1 && found == r->kinds;)
+        if (c.at[k] == ' ') {
+            const size_t name = find_name(r, (struct cell){c.at, k});
+            const size_t symbol = find_name(r, (struct cell){c.at + k + 1, c.n - k - 1});
+            found = name == symbol ? name : found;
+        }
+    return found;
+}
+
+/* True for a column beside others that make it unnecessary. */
+static bool
+is_spare(const struct reading *r, size_t kind)
+{
+    return (r->wanted[kind].spare & r->present) != 0;
 }
 
 /* Parts "E/MPa", "E (MPa)", "E [MPa]" and "E/(N/mm2)" into a name and a unit. A name may have brackets, as
@@ -207,7 +236,7 @@ wanted_text(const struct reading *r, char text[], size_t size)
 
     text[0] = '\0';
     for (size_t k = 0; k < r->kinds && used < size; k++)
-        if (!r->wanted[k].ignored && r->wanted[k].refused == NULL)
+        if (r->wanted[k].spare == 0 && r->wanted[k].refused == NULL)
             used += (size_t)snprintf(text + used, size - used, "%s%s%.*s%s",
                                      r->wanted[k].optional ? "[" : "", used > 0 ? ", " : "",
                                      SHOWN(first_name(&r->wanted[k])),
@@ -282,7 +311,7 @@ take_unit(struct reading *r, size_t c, struct cell unit, struct rc_err *err)
     r->units = r->units || unit.n > 0;
     if (!copy(unit, r->unit[c]))
         return rc_err_set(err, "the unit '%s...' is too long", r->unit[c]);
-    return unit.n == 0 || r->wanted[r->kind[c]].ignored
+    return unit.n == 0 || is_spare(r, r->kind[c])
                ? RC_OK
                : read_value(r, c, (struct cell){"1", 1}, &value, err);
 }
@@ -301,30 +330,30 @@ take_units(struct reading *r, const struct cell cell[], struct rc_err *err)
 static enum rc_status
 read_heading(struct reading *r, size_t n, const struct cell cell[], struct rc_err *err)
 {
-    size_t of[COLUMNS_MOST] = {0};
+    struct cell name, unit[COLUMNS_MOST];
     char text[512];
 
     r->n = n;
     r->headed = true;
     r->units = false;
+    r->present = 0;
     for (size_t c = 0; c < n; c++) {
-        struct cell name, unit;
-
-        part(r, cell[c], &name, &unit);
+        part(r, cell[c], &name, &unit[c]);
         r->kind[c] = find(r, name);
         copy(name, text);
         if (r->kind[c] == r->kinds)
             return unknown(r, text, err);
         if (r->wanted[r->kind[c]].refused != NULL)
             return rc_err_set(err, "column '%s': %s", text, r->wanted[r->kind[c]].refused);
-        if (of[r->kind[c]]++ > 0)
+        if ((r->present & 1U << r->kind[c]) != 0)
             return rc_err_set(err, "there are two columns %.*s",
                               SHOWN(first_name(&r->wanted[r->kind[c]])));
-        if (take_unit(r, c, unit, err) != RC_OK)
-            return RC_FAIL;
+        r->present |= 1U << r->kind[c];
     }
+    if (take_units(r, unit, err) != RC_OK)
+        return RC_FAIL;
     for (size_t k = 0; k < r->kinds; k++)
-        if (of[k] == 0 && !r->wanted[k].optional && !r->wanted[k].ignored)
+        if ((r->present & 1U << k) == 0 && !r->wanted[k].optional)
             return rc_err_set(err, "there is no column %.*s: a table must hold %s",
                               SHOWN(first_name(&r->wanted[k])), wanted_text(r, text, sizeof text));
     return RC_OK;
@@ -338,7 +367,7 @@ take_order(struct reading *r, size_t n, struct rc_err *err)
     char text[512];
 
     for (size_t k = 0; k < r->kinds; k++)
-        if (!r->wanted[k].ignored && r->wanted[k].refused == NULL) {
+        if (r->wanted[k].spare == 0 && r->wanted[k].refused == NULL) {
             least += !r->wanted[k].optional;
             r->kind[most++] = k;
         }
@@ -360,7 +389,7 @@ read_row(struct reading *r, size_t n, const struct cell cell[], struct rc_err *e
     for (size_t c = 0; c < n; c++) {
         double **v = &to->v[r->kind[c]];
 
-        if (r->wanted[r->kind[c]].ignored)
+        if (is_spare(r, r->kind[c]))
             continue;
         if (*v == NULL && (*v = malloc(r->lines * sizeof **v)) == NULL)
             return rc_err_set(err, "out of memory");
@@ -454,7 +483,22 @@ close_file(FILE **file)
         fclose(*file);
 }
 
-/* The text of a file, with an end. */
+/* The text in UTF-8, from Latin-1: its bytes are the first 256 code points. */
+static char *
+widened(const char *text, struct rc_err *err)
+{
+    RC_OWNED char *wide = malloc(2 * strlen(text) + 1);
+    size_t n = 0;
+
+    if (wide == NULL)
+        return rc_err_null(err, "out of memory");
+    for (; *text != '\0'; text++)
+        n += rc_utf8_put(wide + n, (unsigned char)*text);
+    wide[n] = '\0';
+    return rc_give(&wide);
+}
+
+/* The text of a file in UTF-8, with an end. A file with other bytes is in Latin-1. */
 static char *
 text_of(const char *file, struct rc_err *err)
 {
@@ -474,7 +518,7 @@ text_of(const char *file, struct rc_err *err)
     if (memchr(text, '\0', n) != NULL)
         return rc_err_null(err, "it holds binary data: a table must be a text file");
     text[n] = '\0';
-    return rc_give(&text);
+    return rc_utf8_valid(text) ? rc_give(&text) : widened(text, err);
 }
 
 bool

@@ -1,11 +1,12 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
- * Tables of numbers in columns, from text files. Tabs, else semicolons (with both of which numbers may have
- * a decimal comma), else commas, else blanks separate the cells of a line. '#' begins a comment. A first
- * line without numbers is the heading: the names of the columns in any order, each with its unit as in
- * E/MPa, E (MPa) or E [MPa], or the units in the next line. The heading may be a comment. Without a heading
- * the columns have the order in which they are wanted, and numbers without a unit are in SI units.
- * contact(7) has these rules.
+ * Tables of numbers in columns, from text files in UTF-8 or Latin-1. Tabs, else semicolons (with both of
+ * which numbers may have a decimal comma), else commas, else blanks separate the cells of a line. A comma
+ * between tabs that may separate thousands is refused.
+ * '#' begins a comment. A first line without numbers is the heading: the names of the columns
+ * in any order, each with its unit as in E/MPa, E (MPa) or E [MPa], or the units in the next line. The
+ * heading may be a comment. Without a heading the columns have the order in which they are wanted, and
+ * numbers without a unit are in SI units. contact(7) has these rules.
  */
 #ifndef RC_COLUMNS_H
 #define RC_COLUMNS_H
@@ -21,13 +22,16 @@ enum {
 
 /* A column that a table may have. */
 struct wanted_column {
-    /* Separated by blanks; messages show the first. Capitals, blanks, '_', '-' and '.' do not count. */
+    /* Separated by blanks; messages show the first. Capitals, blanks, '_', '-' and '.' do not count. A name
+     * and a symbol, "storage" and "E'", may follow each other. */
     const char *names;
     enum unit unit;
     bool optional;
     bool needs_unit; /* for each number but 0, its own or that of the heading */
     bool infinite;   /* "inf" is a number                                     */
-    bool ignored;    /* may be there, and is not read                         */
+    /* Bits of the columns beside which this one is not read, nor its units checked; not 0: it is optional,
+     * and no column without a heading. */
+    unsigned spare;
     /* why a table must not have it, and what to do; such a column is in no list of columns */
     const char *refused;
 };
