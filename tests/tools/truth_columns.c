@@ -83,6 +83,10 @@ same(void **state)
         "1;3;0.5;x\n2;4.5;0;x\n",
         "time t/ms storage modulus e' / MPa loss modulus e''/MPa\n1 3 0.5\n2 4.5 0\n",
         "t/ms\tstorage/(N/mm\262)\tloss/(N/mm\262)\n1\t3\t0.5\n2\t4.5\t0\n",
+        /* a decimal comma between tabs: of six digits, and by another number of the file */
+        "t/us\tstorage/MPa\tloss/MPa\n1000,000000\t3,000\t0,500\n2000,000000\t4,500\t0\n",
+        "t/ms\tstorage/MPa\tloss/MPa\n1,000\t3,000\t0,5\n2,000\t4,500\t0\n",
+        "t/ms\tstorage/MPa\n1,000\t3,000\n2,000\t4,5\n",
     };
     (void)state;
 
@@ -146,6 +150,11 @@ refused(void **state)
         {"time/s storage/MPa\n1 2\n2 3s\n", "line 3: storage: unknown unit 's'"},
         {"time/s\tstorage/MPa\n1,234\t2\n", "line 2: time: '1,234': is its comma the decimal mark"},
         {"time/s\tstorage/MPa\n1\t-12,345,678\n", "line 2: storage: '-12,345,678': is its comma"},
+        /* no other number shows that the comma is decimal: a point, a comment, a cell of another separator */
+        {"time/s\tstorage/MPa\n0.5\t1,234\n", "line 2: storage: '1,234': is its comma"},
+        {"time/s\tstorage/MPa\n1\t1,234 # 0,5\t0,5\n", "line 2: storage: '1,234': is its comma"},
+        {"# 0,5\ntime/s\tstorage/MPa\n1\t1,234\n", "line 3: storage: '1,234': is its comma"},
+        {"time/s\tstorage/MPa\n0,5\t1,234,567\n", "line 2: storage: '1,234,567': is its comma"},
         {"time/s storage/MPa\n1 2m\262\n", "line 2: storage: unknown unit 'm2'"},
         {"time/s zeit\344/MPa\n1 2\n", "line 1: there is no column 'zeit\303\244'"},
         {"time/s "

@@ -36,6 +36,7 @@ struct reading {
     char unit[COLUMNS_MOST][CELL];
     unsigned present; /* bits of the wanted columns in the heading */
     bool must_be_headed;
+    bool decimal_comma;             /* a number between tabs shows that commas are decimal marks */
     bool headed, in_comment, units; /* there is a heading; in a comment; it has units */
 };
 
@@ -246,16 +247,47 @@ wanted_text(const struct reading *r, char text[], size_t size)
 
 /* ---- numbers ---- */
 
-/* "1,234": a comma between tabs may separate thousands. "0,001" and "1,5" have a decimal comma. */
+/* "1,234": a comma between tabs may separate thousands. "0,001", "1,5" and "3,007985" have a decimal comma. */
 static bool
 may_be_thousands(const char *text)
 {
     const char *digits = "0123456789";
     const size_t sign = strspn(text, "+-"), whole = strspn(text + sign, digits);
     const char *comma = text + sign + whole;
+    const size_t part = *comma == ',' ? strspn(comma + 1, digits) : 1;
 
-    return whole >= 1 && whole <= 3 && text[sign] != '0' && *comma == ',' &&
-           strspn(comma + 1, digits) % 3 == 0;
+    return whole >= 1 && whole <= 3 && text[sign] != '0' && (part == 0 || part == 3);
+}
+
+/* True for a number whose only comma can only be the decimal mark. */
+static bool
+must_be_decimal(const char *text)
+{
+    const char *digits = "0123456789", *s = text + strspn(text, "+-");
+    const size_t whole = strspn(s, digits),
+                 part = s[whole] == ',' ? strspn(s + whole + 1, digits) : 0;
+
+    return whole > 0 && part > 0 && strpbrk(s + whole + 1, ",.") == NULL && !may_be_thousands(text);
+}
+
+/* True if a number between tabs shows that the commas of the file are decimal marks. */
+static bool
+has_decimal_comma(const char *file)
+{
+    const char *ends = "\t\r\n#";
+    bool after_tab = false;
+    char text[CELL];
+
+    for (const char *s = file; *s != '\0';) {
+        const size_t n = strcspn(s, ends);
+        if ((after_tab || s[n] == '\t') && copy(trimmed((struct cell){s, n}), text) &&
+            must_be_decimal(text))
+            return true;
+        s += n + (s[n] == '#' ? strcspn(s + n, "\n") : 0);
+        after_tab = *s == '\t' || (after_tab && n == 0 && *s != '\n' && *s != '\r');
+        s += *s != '\0';
+    }
+    return false;
 }
 
 /* The value of a cell in column c of the file. Its own unit replaces that of the heading. */
@@ -275,7 +307,8 @@ read_value(const struct reading *r, size_t c, struct cell cell, double *value, s
         *value = INFINITY;
         return RC_OK;
     }
-    if ((comma = strchr(text, ',')) != NULL && r->separator == '\t' && may_be_thousands(text))
+    if ((comma = strchr(text, ',')) != NULL && r->separator == '\t' && may_be_thousands(text) &&
+        (!r->decimal_comma || strchr(comma + 1, ',') != NULL))
         return rc_err_set(err,
                           "%.*s: '%s': is its comma the decimal mark? separate columns by "
                           "semicolons then, or write a point",
@@ -549,6 +582,7 @@ columns_read(struct columns *columns, const char *file, const struct wanted_colu
         return RC_FAIL;
     for (const char *s = text; *s != '\0'; s++)
         r.lines += *s == '\n';
+    r.decimal_comma = has_decimal_comma(text);
     if ((columns->line = malloc(r.lines * sizeof *columns->line)) == NULL)
         return rc_err_set(err, "out of memory");
     at += strncmp(at, "\xef\xbb\xbf", 3) == 0 ? 3 : 0; /* the byte order mark */

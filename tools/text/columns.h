@@ -2,8 +2,8 @@
 /*
  * Tables of numbers in columns, from text files in UTF-8 or Latin-1. Tabs, else semicolons (with both of
  * which numbers may have a decimal comma), else commas, else blanks separate the cells of a line. A comma
- * between tabs that may separate thousands is refused.
- * '#' begins a comment. A first line without numbers is the heading: the names of the columns
+ * between tabs that may separate thousands is refused, unless another number of the file can only have a
+ * decimal comma. '#' begins a comment. A first line without numbers is the heading: the names of the columns
  * in any order, each with its unit as in E/MPa, E (MPa) or E [MPa], or the units in the next line. The
  * heading may be a comment. Without a heading the columns have the order in which they are wanted, and
  * numbers without a unit are in SI units. contact(7) has these rules.
