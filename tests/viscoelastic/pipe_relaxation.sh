@@ -57,6 +57,24 @@ for file in dma.tsv comma.csv names.csv omega.txt; do
     $solve --relaxation $file --load 0.2mN --time 50ms --report same.json -o t.rcg ball.rcg
     near "$(field approach same.json)" "$(field approach curve.json)" 1e-7 "  as $(head -n 1 $file | tr '\t' ' ')"
 done
+# storage, loss, tan delta, |E*| and the phase angle: any two that suffice give the same material
+awk -F, -v OFS=';' 'NR > 2 { e = sqrt($2 * $2 + $3 * $3); t = $3 / $2; d = atan2($3, $2)
+    printf "%.9g;%.9g;%.9g;%.9g;%.9g;%.9g\n", $1, $2, $3, t, e, d * 57.29577951308232 }' curve.csv >all.txt
+cut_of() { { echo "$2"; cut -d';' -f "$3" all.txt; } >"$1"; } # cut_of FILE HEADING COLUMNS: of f E' E'' tan |E*| phase
+cut_of tan.csv "Frequency (Hz);E' (N/mm2);tan delta" 1,2,4
+cut_of damping.csv "Frequency (Hz);Storage Modulus E' (N/mm²);Damping (-)" 1,2,4
+cut_of german.csv 'Frequenz (Hz);Speichermodul (MPa);Verlustfaktor' 1,2,4
+cut_of star.csv 'frequency (Hz);tan delta;|E*| (N/mm2)' 1,4,5
+cut_of phase.csv 'frequency (Hz);complex modulus (N/mm2);phase (deg)' 1,5,6
+cut_of angle.csv "f/Hz;E'/MPa;δ (°)" 1,2,6
+cut_of every.csv "f/Hz;E'/MPa;E''/MPa;tan δ;|E*|/MPa;phase/deg" 1-6
+{ printf 'f/Hz;E_stor/MPa;phase (\260)\n'; tail -n +2 angle.csv; } >latin.csv # Latin-1
+sed '1b; s/^\([^;]*;[^;]*;[^;]*\);.*/\1;undefined;-;-/' every.csv >spare.csv
+for file in tan damping german star phase angle every latin spare; do
+    $solve --relaxation $file.csv --load 0.2mN --time 50ms --report same.json -o t.rcg ball.rcg
+    near "$(field approach same.json)" "$(field approach curve.json)" 1e-6 "  as $file.csv"
+    near "$(field modulus_instant same.json)" "$(field modulus_instant curve.json)" 1e-5 "    with its instantaneous modulus"
+done
 # a measured relaxation of the same material, in three forms of its heading
 awk 'BEGIN { for (i = -32; i <= 16; i++) { t = 1e-3 * 10 ^ (i / 8); print t "\t" 1 + 9 * exp(-t / 1e-3) } }' >body.tsv
 { printf 'time/s\tE/MPa\n'; cat body.tsv; } >relax.tsv
@@ -249,7 +267,13 @@ refuses 2 'bare.txt: line 2: E: give its unit' "a table of moduli without a unit
 printf "f/Hz,G'/MPa,G''/MPa\n1,1,1\n2,2,1\n" >shear.txt
 refuses 2 "shear.txt: line 1: column 'G'': it is a shear modulus: multiply it by 2 .1 \+ nu." "shear moduli" "$solve --relaxation shear.txt --time 0 $more"
 printf 'frequency storage\n1 9MPa\n' >two.txt
-refuses 2 'heading must be' "a table without losses" "$solve --relaxation two.txt --time 0 $more"
+refuses 2 'heading must be .*tandelta or phase that of loss' "a table without losses" "$solve --relaxation two.txt --time 0 $more"
+printf 'f,|E*|/MPa,phase/deg\n1,1,1\n2,1,90\n' >right.txt
+refuses 2 'line 3: phase: it must be above 0 and below 90 degrees' "a phase of 90 degrees" "$solve --relaxation right.txt --time 0 $more"
+sed 's/deg/1/' right.txt >bare.txt
+refuses 2 'line 2: phase: give its unit, in the heading as in phase/deg' "a phase without a unit" "$solve --relaxation bare.txt --time 0 $more"
+printf 'f,storage/MPa,tan delta\n1,1,1\n2,1,0\n' >zero.txt
+refuses 2 'line 3: tan delta: it must be above 0' "a tan delta of 0" "$solve --relaxation zero.txt --time 0 $more"
 printf 'f,storage/MPa,loss/MPa\n1,1,1\n2,0,1\n' >zero.txt
 refuses 2 'line 3: storage: it must be above 0' "a storage modulus of 0" "$solve --relaxation zero.txt --time 0 $more"
 refuses 2 '--relaxation has no effect without --time or --speed' "no times" "$solve $solid $more"

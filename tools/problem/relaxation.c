@@ -78,33 +78,57 @@ enum kind {
     STORAGE,
     LOSS,
     TAN_DELTA,
+    PHASE,
+    COMPLEX, /* |E*| */
     TEMPERATURE,
     SHEAR,
     KINDS
 };
+/* English and German names. Instruments write E' and E'' also with primes (U+2032, U+2033) and with raised
+ * commas (U+2019). */
 static const struct wanted_column wanted[KINDS] = {
-    [TAU] = {.names = "tau relaxationtime", .unit = UNIT_S, .optional = true, .infinite = true},
-    [MODULUS] = {.names = "E modulus relaxationmodulus erelax e(t)",
+    [TAU] = {.names = "tau relaxationtime relaxationszeit \317\204",
+             .unit = UNIT_S,
+             .optional = true,
+             .infinite = true},
+    [MODULUS] = {.names = "E modulus relaxationmodulus erelax e(t) relaxationsmodul",
                  .unit = UNIT_PA,
                  .optional = true,
                  .needs_unit = true},
-    [TIME] = {.names = "time t", .unit = UNIT_S, .optional = true, .infinite = true},
-    [FREQUENCY] = {.names = "frequency f freq", .unit = UNIT_HZ, .optional = true},
-    [OMEGA] = {.names = "omega angularfrequency", .unit = UNIT_RAD_S, .optional = true},
-    [STORAGE] = {.names = "storage storagemodulus e' estor estorage",
+    [TIME] = {.names = "time t zeit", .unit = UNIT_S, .optional = true, .infinite = true},
+    [FREQUENCY] = {.names = "frequency f freq frequenz", .unit = UNIT_HZ, .optional = true},
+    [OMEGA] = {.names = "omega angularfrequency kreisfrequenz \317\211",
+               .unit = UNIT_RAD_S,
+               .optional = true},
+    [STORAGE] = {.names = "storage storagemodulus e' estor estorage speichermodul e\342\200\262 "
+                          "e\342\200\231",
                  .unit = UNIT_PA,
                  .optional = true,
                  .needs_unit = true},
-    [LOSS] = {.names = "loss lossmodulus e'' e\" eloss",
+    [LOSS] = {.names = "loss lossmodulus e'' e\" eloss verlustmodul e\342\200\263 "
+                       "e\342\200\262\342\200\262 e\342\200\231\342\200\231 e\342\200\235",
               .unit = UNIT_PA,
               .optional = true,
               .needs_unit = true},
-    [TAN_DELTA] = {.names = "tandelta tan(delta) tand lossfactor", .spare = 1U << LOSS},
-    [TEMPERATURE] = {.names = "temperature temp",
+    [TAN_DELTA] = {.names = "tandelta tan(delta) tand lossfactor damping dampingfactor "
+                            "verlustfaktor tan\316\264 tan(\316\264)",
+                   .optional = true,
+                   .spare = 1U << LOSS},
+    [PHASE] = {.names = "phase phaseangle phaselag delta phasenwinkel \316\264",
+               .unit = UNIT_ANGLE,
+               .optional = true,
+               .needs_unit = true,
+               .spare = 1U << LOSS | 1U << TAN_DELTA},
+    [COMPLEX] = {.names = "|e*| e* complexmodulus dynamicmodulus komplexermodul komplexmodul",
+                 .unit = UNIT_PA,
+                 .optional = true,
+                 .needs_unit = true,
+                 .spare = 1U << STORAGE},
+    [TEMPERATURE] = {.names = "temperature temp temperatur",
                      .unit = UNIT_K,
                      .optional = true,
                      .needs_unit = true},
-    [SHEAR] = {.names = "g g(t) g' g'' g\" gstor gstorage gloss shearmodulus",
+    [SHEAR] = {.names = "g g(t) g' g'' g\" gstor gstorage gloss shearmodulus g* |g*|",
                .unit = UNIT_PA,
                .optional = true,
                .refused =
@@ -154,6 +178,33 @@ set_range(struct relaxation_law *law, size_t n, const double *v, bool in_time, b
     law->in_time = in_time;
     law->lowest = !in_time ? low : whole ? 0 : 1 / high;
     law->highest = !in_time ? high : 1 / low;
+}
+
+/* Makes storage and loss of one modulus and tan delta or the phase angle: E' = |E*| cos delta and
+ * E'' = E' tan delta. A table that has others, or all, stays as it is. */
+static enum rc_status
+complete(struct columns *c, struct rc_err *err)
+{
+    const unsigned size = c->v[STORAGE] != NULL ? STORAGE : COMPLEX;
+    const unsigned angle = c->v[TAN_DELTA] != NULL ? TAN_DELTA : PHASE;
+    const double right_angle = 1.5707963267948966;
+    double *e = c->v[size], *lag = c->v[angle];
+
+    if (c->v[LOSS] != NULL || e == NULL || lag == NULL)
+        return RC_OK;
+    for (size_t k = 0; k < c->n; k++) {
+        if (!(lag[k] > 0) || (angle == PHASE && lag[k] >= right_angle))
+            return rc_err_set(err, "line %zu: %s: it must be above 0%s", c->line[k],
+                              angle == PHASE ? "phase" : "tan delta",
+                              angle == PHASE ? " and below 90 degrees" : "");
+        lag[k] = angle == PHASE ? tan(lag[k]) : lag[k];
+        e[k] /= size == COMPLEX ? hypot(1, lag[k]) : 1;
+        lag[k] *= e[k];
+    }
+    c->v[size] = c->v[angle] = NULL;
+    c->v[STORAGE] = e;
+    c->v[LOSS] = lag;
+    return RC_OK;
 }
 
 static enum rc_status
@@ -206,15 +257,18 @@ take_table(struct relaxation_law *law, struct columns *c, double shift, struct r
 {
     const unsigned moduli = 1U << STORAGE | 1U << LOSS;
 
+    if (complete(c, err) != RC_OK)
+        return RC_FAIL;
     if (has(c, 1U << TAU | 1U << MODULUS))
         return take_terms(law, c, shift, err);
     if (has(c, 1U << FREQUENCY | moduli) || has(c, 1U << OMEGA | moduli))
         return fit_curve(law, c, shift, err);
     if (has(c, 1U << TIME | 1U << MODULUS))
         return fit_relaxation(law, c, shift, err);
-    return rc_err_set(err,
-                      "its heading must be `tau E`, `time E`, `frequency storage loss` or `omega "
-                      "storage loss`");
+    return rc_err_set(
+        err, "its heading must be `tau E`, `time E` or `frequency storage loss`; omega may "
+             "take the place of frequency, tandelta or phase that of loss, and then |E*| "
+             "that of storage");
 }
 
 static double factor_at(const struct relaxation_shift *s, double kelvin);

@@ -35,6 +35,9 @@ static const struct { /* units without prefixes */
     {UNIT_N, "gf", 9.80665e-3},
     {UNIT_N, "kgf", 9.80665},
     {UNIT_SPIN, "/m", 1},
+    {UNIT_ANGLE, "deg", 3.141592653589793 / 180},
+    {UNIT_ANGLE, "degrees", 3.141592653589793 / 180},
+    {UNIT_ANGLE, "\302\260", 3.141592653589793 / 180},
 };
 static const struct { /* units that are a power of ten of the SI unit but have another name */
     enum unit unit;
@@ -85,6 +88,7 @@ static const struct {
     [UNIT_WEAR_ENERGY] = {"m3/J", "mm3/J", NULL, true},
     [UNIT_PER_PA] = {"1/Pa", "1/GPa 1/Pa", NULL},
     [UNIT_MOLAR] = {"J/mol", "kJ/mol", NULL},
+    [UNIT_ANGLE] = {"rad", "deg rad", "deg"},
 };
 
 const char *

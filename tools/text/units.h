@@ -33,6 +33,7 @@ enum unit {
     UNIT_WEAR_ENERGY, /* volume per energy of friction     */
     UNIT_PER_PA,      /* pressure coefficient of viscosity */
     UNIT_MOLAR,       /* joules per mole                   */
+    UNIT_ANGLE,       /* radians; also degrees             */
 };
 
 struct numbers {
