@@ -1070,10 +1070,10 @@ struct rc_relaxation {
 RC_API struct rc_relaxation *rc_relaxation_new(double relaxed, size_t terms, const double *modulus,
                                                const double *time, struct rc_err *err);
 /* Fits a master curve: storage and loss moduli (Pa, > 0) at n >= 4 different angular frequencies (rad/s,
- * above 0). The relaxation times are even in the logarithm, with `per_decade` times a decade (0: 1.5), from
- * the inverse of the highest frequency to the inverse of the lowest one. The moduli, >= 0, give the least sum
- * of squares of the relative errors (Lawson and Hanson 1974). *misfit: the RMS of these errors; above 0.05
- * the two columns contradict each other. NULL when a number is out of range or memory is short. */
+ * above 0). The relaxation times are even in the logarithm, from the inverse of the highest frequency to that
+ * of the lowest one: `per_decade` in a decade (0: 1.5, or 8 if these give a clearly better fit). The moduli,
+ * >= 0, give the least sum of squares of the relative errors (Lawson and Hanson 1974). *misfit: the RMS of
+ * these errors; above 0.05 the two columns contradict each other. NULL: out of range, or out of memory. */
 RC_API struct rc_relaxation *rc_relaxation_fit(size_t n, const double *omega, const double *storage,
                                                const double *loss, double per_decade,
                                                double *misfit, struct rc_err *err);
