@@ -279,7 +279,10 @@ refuses 2 'line 3: storage: it must be above 0' "a storage modulus of 0" "$solve
 refuses 2 '--relaxation has no effect without --time or --speed' "no times" "$solve $solid $more"
 refuses 2 'must rise' "times that fall" "$solve $solid --time 0,2,1 $more"
 refuses 2 'equal length' "other times than loads" "$solve $solid --time 0,2 --load 1uN,2uN,3uN -o x.rcg ball.rcg"
-refuses 2 'must be 0' "loads from a later time on" "$solve $solid --time 1,2 --load 1uN,2uN -o x.rcg ball.rcg"
+history='is a history, which begins at 0 s and has a time for each, .*independent, run rc-solve once for each: for p in'
+refuses 2 "--time: 1 s: .*$history" "loads from a later time on" "$solve $solid --time 1,2 --load 1uN,2uN -o x.rcg ball.rcg"
+refuses 2 "--time: 1000 s: .*$history" "loads with one time" "$solve $solid --time 1000 --load 1uN:2uN:3 -o x.rcg ball.rcg"
+refuses 2 "--time: 0 s: .*$history" "  which is 0" "$solve $solid --time 0 --load 1uN,2uN -o x.rcg ball.rcg"
 for other in '--E1 1MPa' '--hardness 1GPa' '--layer 1um,1GPa,0.3' '--adhesion 50mJ/m2' '--tilt free' --discretization; do
     refuses 2 "--relaxation does not work with ${other%% *}" "$other" "$solve $solid --time 0 $other $more"
 done

@@ -261,13 +261,20 @@ check_times(struct run *run)
     const struct numbers *time = &args.time;
     struct tool *t = &run->d.t;
 
+    if (run->steps->n > 1 && (time->v[0] > 0 || (time->n == 1 && time->v[0] == 0)))
+        tool_usage(t,
+                   "--time: %s: a list of loads or approaches is a history, which begins at 0 s "
+                   "and has a time for each, as in --load 1N,2N --time 0,10; if they are "
+                   "independent, run rc-solve once for each: for p in 1N 2N; do rc-solve --load "
+                   "$p --time 10 ...; done",
+                   shown_in_unit(time->v[0], "s"));
     if (run->steps->n > 1 && run->steps->n != time->n)
         tool_usage(t,
                    "--time has %zu values, and the list of loads or approaches %zu: give lists of "
                    "equal length, or one load",
                    time->n, run->steps->n);
-    if (time->v[0] < 0 || (time->v[0] > 0 && run->steps->n > 1))
-        tool_usage(t, "--time: the first time is %g s: it must be 0", time->v[0]);
+    if (time->v[0] < 0)
+        tool_usage(t, "--time: the first time is %g s: it must be 0 or above", time->v[0]);
     own.before = time->v[0] > 0;
     shortest = soonest = INFINITY;
     for (size_t k = 0; k < time->n; k++) {
