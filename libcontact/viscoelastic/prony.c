@@ -22,9 +22,9 @@
 /* Relaxation times a decade of a fit of storage and loss, and of one of E(t), whose terms end more
  * sharply. */
 static const double usual_density = 1.5, usual_density_in_time = 4;
-/* Storage and loss of a few sharp relaxation times need a denser grid: a term between two of
- * its times leaves a misfit of 12 % at 1.5 a decade, and of 0.5 % at 8. Smooth spectra and noise gain nothing, and more
- * terms cost time and memory. So the dense fit is taken only if the RMS error of the usual one exceeds
+/* Storage and loss of a few sharp relaxation times need a denser grid: a term between two of its times leaves
+ * a misfit of 12 % at 1.5 a decade, and of 0.5 % at 8. Smooth spectra and noise gain nothing, and more terms
+ * cost time and memory. So the dense fit is taken only if the RMS error of the usual one exceeds
  * `close_enough`, and if the standard deviation by the free rows falls below this part of the former one. */
 static const double dense_density = 8, close_enough = 0.005, denser_helps = 0.95;
 

@@ -165,7 +165,8 @@ take_terms(struct relaxation_law *law, struct columns *c, double shift, struct r
     return law->material != NULL ? RC_OK : RC_FAIL;
 }
 
-/* Sets the range of the table to that of v[0..n), angular frequencies or times; `whole`: v has no upper end. */
+/* Sets the range of the table to that of v[0..n), angular frequencies or times; `whole`: without an upper
+ * end. */
 static void
 set_range(struct relaxation_law *law, size_t n, const double *v, bool in_time, bool whole)
 {

@@ -34,8 +34,9 @@ enum rc_status relaxation_shift_read(const char *text, const char *temperature,
                                      struct relaxation_shift *shift, struct rc_err *err);
 
 /* "Einf,E1:tau1,...", or a table with a heading: `tau E`, `time E`, or `frequency storage loss` (Hz;
- * `omega`: rad/s), where `tandelta` or `phase` may take the place of loss, and then `|E*|` that of storage. A table of measured moduli may have a column of temperatures, whose rows the law
- * shifts to T0. All times are multiplied by the factor of `shift`, if it is one; NULL: 1. */
+ * `omega`: rad/s), where `tandelta` or `phase` may take the place of loss, and then `|E*|` that of storage.
+ * A table of measured moduli may have a column of temperatures, whose rows the law shifts to T0. All times
+ * are multiplied by the factor of `shift`, if it is one; NULL: 1. */
 enum rc_status relaxation_law_read(struct relaxation_law *law, const char *text,
                                    const struct relaxation_shift *shift, struct rc_err *err);
 /* Describes the angular frequency `omega` (rad/s) that case k excites, as in "5000 Hz, above the last

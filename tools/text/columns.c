@@ -247,7 +247,8 @@ wanted_text(const struct reading *r, char text[], size_t size)
 
 /* ---- numbers ---- */
 
-/* "1,234": a comma between tabs may separate thousands. "0,001", "1,5" and "3,007985" have a decimal comma. */
+/* "1,234": a comma between tabs may separate thousands. "0,001", "1,5" and "3,007985" have a decimal
+ * comma. */
 static bool
 may_be_thousands(const char *text)
 {
