@@ -129,10 +129,19 @@ log_axis() {
     printf '%s\ty\n%s\t1\n%s\t2\n' "$@" >log.tsv && rc-render --log x --curve "${1%%/*}:y" -o log.svg log.tsv &&
         sed 's/<tspan[^>]*>//g; s/<\/tspan>//g' log.svg | grep -o '>[^<]*([^<]*)<' | head -n 1
 }
-claim "a logarithmic axis has the unit of its smallest mark" test "$(log_axis distance/m 1e-3 10)" = '>Sliding distance (mm)<'
-claim "  also if the smallest point is below this mark" test "$(log_axis distance/m 0.96e-3 10)" = '>Sliding distance (mm)<'
-claim "  pressures too" test "$(log_axis mean_pressure/Pa 2e6 3e9)" = '>Mean pressure (MPa)<'
-claim "  areas too" test "$(log_axis area/m2 1e-12 1e-7)" = '>area (µm2)<'
+claim "a logarithmic axis of at most three decades has the unit of its middle" test "$(log_axis distance/m 1e-3 1)" = '>Sliding distance (mm)<'
+claim "  with numbers from 0.001 to 1000" test "$(log_axis distance/m 10e-3 10)" = '>Sliding distance (m)<'
+claim "  pressures too" test "$(log_axis mean_pressure/Pa 1e6 1e9)" = '>Mean pressure (MPa)<'
+claim "  areas too" test "$(log_axis area/m2 1e-12 1e-9)" = '>area (µm2)<'
+claim "    with the larger unit if the middle is nearer to it" test "$(log_axis area/m2 1e-10 1e-7)" = '>area (mm2)<'
+claim "  reciprocal units too" test "$(log_axis k/1/Pa 1e-9 1e-7)" = '>k (1/GPa)<'
+claim "a longer one has the SI unit" test "$(log_axis distance/m 1e-3 100)" = '>Sliding distance (m)<'
+claim "  and numbers or powers of ten" eval 'shows log.svg ">0\.001<" && shows log.svg ">100<" &&
+    [ "$(log_axis speed/m/s 1e-6 10)" = ">Speed (m/s)<" ] && shows log.svg ">10<tspan dy=\"-[0-9.]*\" font-size=\"[0-9.]*\">−6"'
+claim "  times too" test "$(log_axis time/s 1e-3 1e4)" = '>Time (s)<'
+claim "  areas too" test "$(log_axis area/m2 1e-12 1e-7)" = '>area (m2)<'
+claim "plain numbers have no power of ten beside them, logarithmic" test "$(log_axis friction 2e-3 8e-3)" = ''
+claim "  or not" eval 'rc-render --curve friction:y -o log.svg log.tsv && ! shows log.svg "10<tspan" && shows log.svg ">0\.00[0-9]<"'
 claim "  less than a decade has the unit of the largest value" test "$(log_axis distance/m 0.4 2)" = '>Sliding distance (m)<'
 claim "  a unit without a prefix stays" test "$(log_axis wear_volume/m3 1e-15 1e-12)" = '>Worn volume (m3)<'
 claim "equal entries of a legend are joined, and their curves have one colour" eval 'printf "x\ty\n1\t2\n2\t3\n" >one.tsv && mkdir -p other && printf "x\ty\n1\t3\n2\t4\n" >other/one.tsv &&

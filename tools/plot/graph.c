@@ -44,41 +44,69 @@ notes_of(const struct page *p)
 
 /* ---- axes ---- */
 
-/* The unit for a number. Square metres get the prefix of a length. Where the marks are powers of ten the
- * number is the smallest one, which is at least 1 in its unit; a unit without a prefix is then kept. */
+/* True if a logarithmic axis from lo to hi, with its margins, is at least a decade long: its marks are then
+ * powers of ten. */
+static bool
+has_decades(double lo, double hi)
+{
+    return (1 + 2 * AIR) * log10(hi / lo) >= 1;
+}
+
+/* The unit in which `least` is about the smallest number that the largest value may be. Square metres get the
+ * prefix of a length. */
 static void
-choose_scale(struct scale *s, double number, const char *unit, bool powers)
+choose_prefix(struct scale *s, double number, double least, const char *unit)
 {
     static const struct {
         double size;
         const char *unit;
     } areas[] = {{1, "m²"}, {1e-6, "mm²"}, {1e-12, "µm²"}, {1e-18, "nm²"}};
 
-    if (number < nothing) { /* no power of ten is left to divide by */
-        scale_choose(s, 1, unit);
-        return;
-    }
     if (strcmp(unit, "m2") == 0) {
         size_t k = 0;
 
-        while (k < 3 && number < (powers ? 1 : 0.01) * areas[k].size)
+        while (k < 3 && number < least * areas[k].size)
             k++;
         s->size = areas[k].size;
         strcpy(s->unit, areas[k].unit);
-        return;
-    }
-    if (strncmp(unit, "1/", 2) == 0) { /* 1/GPa */
+    } else if (strncmp(unit, "1/", 2) == 0) { /* 1/GPa */
         struct scale of;
 
         scale_choose(&of, pow(1000, ceil(-log10(number) / 3 - 1e-12)), unit + 2);
         s->size = 1 / of.size;
         snprintf(s->unit, sizeof s->unit, "1/%.40s", of.unit);
-        return;
+    } else {
+        scale_choose(s, number, unit);
     }
-    scale_choose(s, number, unit);
-    if (powers && strncmp(s->unit, "10", 2) == 0) {
-        s->size = 1;
-        unit_text_to(s->unit, strcmp(unit, "1") == 0 ? "" : unit);
+}
+
+static void
+keep_unit(struct scale *s, const char *unit)
+{
+    s->size = 1;
+    unit_text_to(s->unit, strcmp(unit, "1") == 0 ? "" : unit);
+}
+
+/* The unit of an axis from lo to hi. Where the marks are powers of ten, over at most three decades, the prefix
+ * is that of the middle: the numbers are between 0.001 and 1000. Longer axes have the unit without a prefix. */
+static void
+choose_scale(struct scale *s, double lo, double hi, const char *unit, bool powers)
+{
+    const double number = fmax(fabs(lo), fabs(hi)), half = 1.5; /* of three decades */
+    const bool plain = *unit == '\0' || strcmp(unit, "1") == 0;
+
+    if (number < nothing) { /* no power of ten is left to divide by */
+        scale_choose(s, 1, unit);
+    } else if (powers && log10(hi / lo) > 2 * half + 1e-9) {
+        keep_unit(s, unit);
+    } else if (powers) { /* of two prefixes as near, the one with numbers from 1 on */
+        choose_prefix(s, sqrt(lo) * sqrt(hi) * pow(10, half) * (1 - 1e-6), pow(10, -half), unit);
+        if (strncmp(s->unit, "10", 2) == 0)
+            keep_unit(s, unit);
+    } else if (plain && number >= 1e-3 && number < 1e4) {
+        keep_unit(s, unit);
+    } else {
+        choose_prefix(s, number, 0.01, unit);
     }
 }
 
@@ -142,15 +170,6 @@ extremes(const struct graph *g, bool up, double *lo, double *hi)
     *hi = isnan(a->hi) ? *hi : a->hi;
 }
 
-/* The smallest power of ten on a logarithmic axis from lo to hi; NAN: there is none. */
-static double
-first_mark(double lo, double hi)
-{
-    const double air = AIR * log10(hi / lo), first = pow(10, ceil(log10(lo) - air - 1e-9));
-
-    return (1 + 2 * AIR) * log10(hi / lo) >= 1 ? first : NAN;
-}
-
 /* The unit in brackets, unless the text already contains the requested unit. */
 static void
 label(struct axis *s, const struct graph_axis *a)
@@ -170,7 +189,7 @@ static enum rc_status
 set_range(struct axis *s, const struct graph *g, bool up, struct rc_err *err)
 {
     const struct graph_axis *a = up ? &g->y : &g->x;
-    double lo, hi, air, first;
+    double lo, hi, air;
 
     s->log = a->log;
     s->minor = true;
@@ -190,10 +209,8 @@ set_range(struct axis *s, const struct graph *g, bool up, struct rc_err *err)
                    ? rc_err_set(err, "no point lies above 0 on its logarithmic axes: leave out "
                                      "--log, or give it one axis, x or y")
                    : rc_err_set(err, "%s: no point has a number on both axes", a->quantity);
-    first = a->log ? first_mark(lo, hi) : NAN;
     if (a->shown == NULL || !scale_given(&s->scale, a->shown, a->unit))
-        choose_scale(&s->scale, isnan(first) ? fmax(fabs(lo), fabs(hi)) : first, a->unit,
-                     !isnan(first));
+        choose_scale(&s->scale, lo, hi, a->unit, a->log && has_decades(lo, hi));
     label(s, a);
     if (!a->log && fmax(fabs(lo), fabs(hi)) < nothing)
         lo = hi = 0;
