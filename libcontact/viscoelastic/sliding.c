@@ -108,7 +108,7 @@ const struct rc_figure rc_figures_sliding[] = {
     {FIGURE(speed), "m/s", "Speed", .says = "of body 2 over body 1"},
     {FIGURE(friction), NULL, "Coefficient of friction", .says = "by the losses in the material"},
     {FIGURE(friction_force), "N", "Friction", .says = "opposite to the motion"},
-    {FIGURE(friction_by_heights), NULL, "The same by the slopes of body 2",
+    {FIGURE(friction_by_heights), NULL, "Coefficient of friction by the slopes of body 2",
      .says = "equal on a fine grid", .role = RC_FIGURE_CHECK},
     {AS("friction_error_estimate", friction_error), NULL, "Error of the coefficient of friction",
      .says = "bound of the relative error on this grid, by that of the pressure",

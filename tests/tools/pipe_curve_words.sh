@@ -202,7 +202,24 @@ claim "columns whose titles begin alike share the title of the axis" shows out.s
 claim "  and of the figure" shows out.svg '>Force along x against creepage along x<'
 claim "  and the legend has both" eval "shows out.svg '>Force along x<' && shows out.svg '>Force along x in linear theory \(Kalker\)<'"
 $draw --curve creep_x:tangential_x,tangential_y <(sed '1s/kalker_tangential_x/tangential_y/' theory.tsv)
-claim "  others are all named" shows out.svg '>Force along x, force along y \(N\)<'
+claim "others have the quantity that they share" shows out.svg '>Force \(N\)<'
+claim "  in the title too" shows out.svg '>Force against creepage along x<'
+claim "  and their names in the legend" eval "shows out.svg '>Force along x<' && shows out.svg '>Force along y<'"
+# shares QUANTITY COLUMN/UNIT COLUMN/UNIT: the label of the axis of these two columns.
+shares() {
+    printf 'speed\t%s\t%s\n1\t1\t2\n2\t3\t4\n' "${@:2}" | $draw --width 85mm --curve "speed:${2%%/*},${3%%/*}" && shows out.svg "rotate[^>]*>$1<"
+}
+claim "  pressures too" shares 'Pressure \(Pa\)' max_pressure/Pa mean_pressure/Pa
+claim "  stresses of two names are stresses" shares 'Stress \(Pa\)' max_pressure/Pa largest_hydrostatic/Pa
+claim "  temperatures are those above the bodies" shares 'Temperature rise \(K\)' max_temperature/K mean_temperature/K
+claim "  coefficients of friction too" shares 'Coefficient of friction' friction friction_by_heights
+claim "  numbers that share nothing are all named" shares 'height ratio, twist' 'height ratio' twist
+text='Indentation of the rough steel ball into the polished glass plate after polishing under water'
+$draw --width 85mm --curve x:y --x-label "$text" --y-label "$text" few.tsv
+claim "a long label has two lines, and the unit at their end" shows out.svg 'rotate[^>]*>Indentation of the rough steel ball<'
+claim "  shortened between words" shows out.svg 'rotate[^>]*>into the polished glass… \(m'
+claim "  on both axes" shows out.svg 'middle" fill="#222222">polished glass plate after[^<]* \(N\)<'
+claim "  inside of the picture" eval "perl -ne 'push @x, \$1 while /<text x=\"(-?[0-9.]+)\"/g; END { print scalar(grep { \$_ < 0 } @x) }' out.svg | grep -qx 0"
 
 # ---- speeds are no history ----
 

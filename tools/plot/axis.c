@@ -149,6 +149,61 @@ axis_even_steps(struct page *p, struct axis *coarse, struct axis *fine, double l
     thin_marks(p, fine, length, upright);
 }
 
+/* ---- label ---- */
+
+/* The number of bytes, up to a blank, of the longest beginning of text that fits; 0: not even a word. */
+static size_t
+words_that_fit(struct page *p, const char *text, double length)
+{
+    char trial[LINE];
+
+    for (size_t n = strlen(text); n > 0; n--) {
+        if (text[n] != '\0' && text[n] != ' ')
+            continue;
+        snprintf(trial, sizeof trial, "%.*s", (int)n, text);
+        if (canvas_text_width(p->c, &p->font.large, trial) <= length)
+            return n;
+    }
+    return 0;
+}
+
+void
+axis_fit_label(struct page *p, struct axis *a, double length)
+{
+    const struct canvas_font *font = &p->font.large;
+    char unit[LINE] = "";
+    const char *bracket;
+    size_t n;
+
+    a->more[0] = '\0';
+    if (canvas_text_width(p->c, font, a->label) <= length)
+        return;
+    if ((n = words_that_fit(p, a->label, length)) == 0) {
+        page_shorten(p, font, length, a->label);
+        return;
+    }
+    snprintf(a->more, sizeof a->more, "%s", a->label + n + 1);
+    a->label[n] = '\0';
+    if (canvas_text_width(p->c, font, a->more) <= length)
+        return;
+    snprintf(unit, sizeof unit, " (%s", a->scale.unit);
+    if (a->scale.unit[0] != '\0' && (bracket = strstr(a->more, unit)) != NULL) {
+        snprintf(unit, sizeof unit, "%s", bracket);
+        a->more[bracket - a->more] = '\0';
+    } else {
+        unit[0] = '\0';
+    }
+    page_shorten(p, font, length - canvas_text_width(p->c, font, unit), a->more);
+    n = strlen(a->more);
+    snprintf(a->more + n, sizeof a->more - n, "%s", unit);
+}
+
+double
+axis_label_room(const struct page *p, const struct axis *a)
+{
+    return a->more[0] == '\0' ? 0 : 1.2 * p->font.large.size;
+}
+
 /* ---- drawing ---- */
 
 /* The additional height below a plot of words that read upwards. */
@@ -184,6 +239,9 @@ axis_across(struct page *p, const struct axis *a, double x, double y, double w)
     }
     canvas_text(p->c, &p->font.large, x + 0.5 * w,
                 low + axis_word_room(p, a) + size + 1.1 * p->font.large.size, 0.5, a->label);
+    if (a->more[0] != '\0')
+        canvas_text(p->c, &p->font.large, x + 0.5 * w,
+                    low + axis_word_room(p, a) + size + 2.3 * p->font.large.size, 0.5, a->more);
 }
 
 void
@@ -203,5 +261,8 @@ axis_upright(struct page *p, const struct axis *a, double x, double y, double h,
             canvas_text(p->c, &p->font.small, left ? x - out : x + out + a->widest,
                         at + 0.36 * p->font.small.size, 1, a->mark[k].text);
     }
-    canvas_text_upwards(p->c, &p->font.large, left ? x - label : x + label, y + 0.5 * h, a->label);
+    if (left && a->more[0] != '\0')
+        canvas_text_upwards(p->c, &p->font.large, x - label, y + 0.5 * h, a->more);
+    canvas_text_upwards(p->c, &p->font.large, left ? x - label - axis_label_room(p, a) : x + label,
+                        y + 0.5 * h, a->label);
 }

@@ -688,14 +688,18 @@ lay_out(struct page *p, struct rc_err *err)
     count_lost(p->graph, notes_of(p));
     p->plot.h = round(0.56 * width);
     axis_mark(p, &p->down, p->plot.h, true);
-    p->space.left = round(26 * u + 1.1 * p->font.large.size + p->down.widest + 28 * u);
+    axis_fit_label(p, &p->down, p->plot.h);
+    p->space.left = round(26 * u + 1.1 * p->font.large.size + p->down.widest + 28 * u +
+                          axis_label_room(p, &p->down));
     for (int k = 0; k < 2; k++) {
         p->plot.w = round(width - p->space.left - 30 * u -
                           (p->across.words > 0 ? 0 : 0.5 * p->across.widest));
         axis_mark(p, &p->across, p->plot.w, false);
     }
+    axis_fit_label(p, &p->across, p->plot.w);
     set_legend(p);
-    page_settle(p, p->space.left, 22 * u, page_marks(p) + axis_word_room(p, &p->across));
+    page_settle(p, p->space.left, 22 * u,
+                page_marks(p) + axis_word_room(p, &p->across) + axis_label_room(p, &p->across));
     return RC_OK;
 }
 

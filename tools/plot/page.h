@@ -29,6 +29,7 @@ struct axis {
     double lo, hi;   /* ends in the unit of the scale; decimal logarithms for a logarithmic axis */
     bool log, minor; /* minor: marks between the numbers too */
     char label[LINE];
+    char more[LINE]; /* second line of the label; may be empty */
     struct {
         double value, at; /* at: 0 to 1 */
         bool major;
@@ -175,6 +176,11 @@ void axis_even_steps(struct page *page, struct axis *coarse, struct axis *fine, 
                      bool upright);
 /* The additional height below a plot of words that read upwards, compared with numbers. */
 double axis_word_room(const struct page *page, const struct axis *axis);
+/* Breaks the label into at most two lines of this length, and shortens what is still too long, but not its unit.
+ */
+void axis_fit_label(struct page *page, struct axis *axis, double length);
+/* The additional room for the second line of the label. */
+double axis_label_room(const struct page *page, const struct axis *axis);
 /* Draws marks and label below a plot, or beside it, with values that rise downwards or upwards. */
 void axis_across(struct page *page, const struct axis *axis, double x, double y, double w);
 void axis_upright(struct page *page, const struct axis *axis, double x, double y, double h,

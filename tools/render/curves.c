@@ -9,6 +9,7 @@
 #include <stdint.h>
 #include <stdlib.h>
 #include <string.h>
+#include <strings.h>
 
 enum {
     COLUMNS = 16, /* most columns over one other in a picture */
@@ -869,10 +870,81 @@ add_law(struct curves *c)
                                .n = SAMPLES};
 }
 
-/* ---- the whole ---- */
+/* ---- the quantity of several columns ---- */
+
+/* A part of a title. */
+struct part {
+    const char *text;
+    size_t n;
+};
+
+/* The word at text, without a comma behind it; *next: the text behind its blank. */
+static struct part
+next_word(const char *text, const char **next)
+{
+    const size_t n = strcspn(text, " ");
+
+    *next = text[n] == '\0' ? text + n : text + n + 1;
+    return (struct part){text, n > 0 && text[n - 1] == ',' ? n - 1 : n};
+}
+
+static bool
+is_equal(const struct part *a, const struct part *b)
+{
+    return a->n == b->n && strncasecmp(a->text, b->text, a->n) == 0;
+}
+
+/* The words of a title before "of x", "along x", "in contact" and the like, or before a comma; returns their
+ * number. The last one is the quantity, as in "Mean pressure". */
+static size_t
+noun_of(const char *title, struct part word[WORDS])
+{
+    static const char *const ends[] = {"along", "at",   "by",  "for",  "from", "in",    "of",
+                                       "on",    "over", "per", "that", "to",   "under", "with"};
+    size_t n = 0;
+
+    for (const char *at = title; *at != '\0' && n < WORDS;) {
+        const struct part next = next_word(at, &at);
+
+        for (size_t k = 0; k < sizeof ends / sizeof *ends; k++)
+            if (is_equal(&next, &(struct part){ends[k], strlen(ends[k])}))
+                return n;
+        if (next.text[0] == '(')
+            return n;
+        word[n++] = next;
+        if (next.text[next.n] == ',')
+            return n;
+    }
+    return n;
+}
+
+/* The words before "of" and the like with which the nouns of all columns end: "Force" of "Force along x" and
+ * "Force along y", "Pressure" of "Mean pressure" and "Largest pressure". False: there are none. */
+static bool
+common_noun(const struct curves *c, char text[NAME])
+{
+    struct part first[WORDS], other[WORDS];
+    const size_t n = noun_of(title_of(&c->choice, c->history, 1), first);
+    size_t same = n;
+
+    for (size_t k = 2; k < c->choice.columns; k++) {
+        const size_t m = noun_of(title_of(&c->choice, c->history, k), other);
+        size_t e = 0;
+
+        while (e < same && e < m && is_equal(&first[n - 1 - e], &other[m - 1 - e]))
+            e++;
+        same = e;
+    }
+    if (same == 0)
+        return false;
+    snprintf(text, NAME, "%.*s", (int)(first[n - 1].text + first[n - 1].n - first[n - same].text),
+             first[n - same].text);
+    text[0] = (char)toupper((unsigned char)text[0]);
+    return true;
+}
 
 /* The title of a column with which those of all columns begin, as "Force along x" and "Force along x in
- * linear theory" do; NULL: none. The legend has their differences. */
+ * linear theory" do; NULL: none. */
 static const char *
 common_title(const struct curves *c)
 {
@@ -889,21 +961,57 @@ common_title(const struct curves *c)
     return NULL;
 }
 
-static void
-describe(struct curves *c)
+/* The quantity of a unit; NULL: there are several. Temperatures of reports are above that of the bodies. */
+static const char *
+quantity_of(const char *unit)
 {
-    const char *common = common_title(c);
-    char *x = c->title;
+    static const struct {
+        const char *unit, *quantity;
+    } of[] = {{"N", "Force"},   {"Pa", "Stress"}, {"m", "Length"},      {"m2", "Area"},
+              {"m3", "Volume"}, {"s", "Time"},    {"J", "Energy"},      {"K", "Temperature rise"},
+              {"W", "Power"},   {"m/s", "Speed"}, {"W/m2", "Heat flux"}};
 
-    if (common != NULL)
+    for (size_t k = 0; k < sizeof of / sizeof *of; k++)
+        if (strcmp(of[k].unit, unit) == 0)
+            return of[k].quantity;
+    return NULL;
+}
+
+/* What the columns share: their title, or the beginning of it, or the quantity; the legend has their
+ * differences. Else all their titles. */
+static void
+say_quantity(struct curves *c)
+{
+    const char *unit = unit_of(c->table, 1), *common = common_title(c), *quantity;
+
+    if (common != NULL) {
         add_word(c->axis, common);
-    for (size_t k = 1; k < c->choice.columns && common == NULL; k++) {
+        return;
+    }
+    quantity = quantity_of(unit);
+    if (strcmp(unit, "K") != 0 && common_noun(c, c->axis))
+        return;
+    if (quantity != NULL) {
+        add_word(c->axis, quantity);
+        return;
+    }
+    for (size_t k = 1; k < c->choice.columns; k++) {
         size_t n = strlen(c->axis);
 
         add_word(c->axis, title_of(&c->choice, c->history, k));
         if (k > 1 && figure_of(c->choice.column[k]) != NULL)
             begin_small(c->axis + n + 2);
     }
+}
+
+/* ---- the whole ---- */
+
+static void
+describe(struct curves *c)
+{
+    char *x = c->title;
+
+    say_quantity(c);
     snprintf(c->title, NAME, "%.150s against ", c->axis);
     x += strlen(x);
     snprintf(x, NAME - (size_t)(x - c->title), "%.90s", title_of(&c->choice, c->history, 0));
