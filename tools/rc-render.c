@@ -64,7 +64,7 @@ static const struct opt opts[] = {
      .against = RULES({.with = "curve|histogram|material-ratio", .because = "it is for a map or --cut",
                        .remedy = "with --curve take --law hertz"},
                       {.with = "view|" SEVERAL, .because = "it is for one flat map"}),
-     .help = "draw the Hertzian contact of a smooth sphere: its circle, with --cut its pressure"},
+     .help = "draw the Hertzian contact of a smooth sphere or cylinder: its edge, with --cut its pressure"},
     {.name = "window", .type = OPT_TEXT, AT(window), .arg = "X0:X1,Y0:Y1",
      .against = RULES(OF_PLACES,
                       {.with = SEVERAL, .word = "contact", .because = "the contact differs from map to map",
@@ -366,15 +366,13 @@ mark_largest(struct tool *t, const struct rc_grid *g, const struct survey *s, st
 
 /* Marks on a single map. */
 static void
-add_marks(struct tool *t, const struct args *a, const struct rc_grid *g, const struct survey *s,
-          struct figure *f, struct words *words)
+add_marks(struct tool *t, const struct rc_grid *g, const struct survey *s, struct figure *f,
+          struct words *words)
 {
     if (rc_grid_get(g, "section") != NULL)
         mark_largest(t, g, s, f, words);
     else if (look_throat(g, f))
         f->mark.largest = "the critical constriction";
-    if (a->hertz)
-        f->mark.circle = words_hertz(t, words, g, &a->style.given, &f->mark.radius);
 }
 
 /* The panels of the figure *f, which becomes that of their common legend. Sections are drawn as maps of their
@@ -397,7 +395,7 @@ set_panels(struct tool *t, const struct args *a, const struct frames *frames,
             rc_grid_get(g, "section") == NULL ? g : look_section(t, a, g, &panel[k].figure);
         look_contact(of, g, &beside, frames->touch[k]);
         if (frames->one) {
-            add_marks(t, a, g, all, of, words);
+            add_marks(t, g, all, of, words);
         } else {
             sheet_check_alike(t, frames->grid[0], &panel[0].figure, g, of);
             sheet_label(&panel[k], frames, k);
@@ -463,7 +461,8 @@ warn_of_profile(struct tool *t, const struct args *a)
                                              : NULL;
 
     if (option != NULL)
-        tool_warn(t, "a profile is drawn as a curve, so that --%s has no effect", option);
+        tool_warn(t, "a profile is drawn as a curve, so that --%s has no effect%s", option,
+                  strcmp(option, "hertz") == 0 ? ": add --cut" : "");
 }
 
 static void
@@ -477,8 +476,11 @@ render_maps(struct tool *t, struct args *a, struct frames *frames)
     struct look look;
     struct figure f;
     struct means means = {false, 0, 0};
+    struct hertz hertz = {.half = 0};
     char title[256], section[SECTION_TITLE];
 
+    if (a->hertz && !profile)
+        hertz_read(t, first, &a->style.given, &hertz);
     for (size_t k = 0; k < frames->n && !a->raw; k++)
         means_take(t, frames->grid[k], &means);
     for (size_t k = 0; k < frames->n; k++) {
@@ -490,6 +492,9 @@ render_maps(struct tool *t, struct args *a, struct frames *frames)
     sheet_survey(t, frames, &all);
     look_figure(t, a, frames->grid, frames->touch, frames->n, &all, &look, &f);
     look_extent(&window[0], &f);
+    f.mark.circle = hertz.half > 0 ? hertz.text : NULL;
+    f.mark.radius = hertz.half;
+    f.mark.across = hertz.across;
     subtitle_write(&subtitle, frames->grid, frames->n, &all, &means, window[0].part,
                    frames_by_size(frames));
     if (a->hillshade && !profile)

@@ -36,6 +36,40 @@ rc-solve --quiet --radius 7.5mm --load 60N --estar 114GPa --output pressure -o a
 claim "a sphere added by rc-solve needs no radius" eval 'rc-render --cut y=0 --hertz --y-unit GPa --x-unit um -o added.svg added.rcg'
 near "$(value_at added.svg dashed 100)" "$(hertz 100)" 1e-3 "  and has the same"
 
+# ---- a cylinder: a strip of half width a = sqrt(4 W R / (pi E*)), p0 = 2 W / (pi a) ----
+
+# 400 N/mm on 8 mm, E* 115.38 GPa: p0 sqrt(1 - x^2/a^2) in GPa at that distance in um; without one a in um
+strip() {
+    perl -e '$a = sqrt(4 * 400e3 * 8e-3 / (3.14159265358979 * 115.38e9)); exit !printf "%.4g", 1e6 * $a if @ARGV == 0; $x = 1e-6 * shift;
+        printf "%.9g\n", $x < $a ? 1e-9 * 2 * 400e3 / (3.14159265358979 * $a) * sqrt(1 - $x ** 2 / $a ** 2) : 0' "$@"
+}
+# roller AXIS NX NY FILE: a roller whose axis is AXIS; its load is per metre, its map 130 um or one node along the axis.
+roller() {
+    rc-synth wave --nx "$2" --ny "$3" --dx 10um --amplitude 0.01nm --wavelength 100um |
+        rc-solve --quiet --cylinder 8mm --periodic="$1" --load 400N/mm --estar 115.38GPa --output pressure -o "$4"
+}
+roller y 129 13 along_y.rcg
+roller x 13 129 along_x.rcg
+roller y 129 1 row.rcg
+draws_lines() { # FILE: two dashed lines of Hertz, which are parallel
+    grep -o '<path d="M[0-9.]* [0-9.]*L[0-9.]* [0-9.]*M[0-9.]* [0-9.]*L[0-9.]* [0-9.]*" [^>]*stroke-dasharray' "$1" | head -n 1 | tr -c '0-9.' ' '
+}
+claim "the contact of a cylinder is a strip" eval 'rc-render --hertz --window all --channel pressure -o c.svg along_y.rcg 2>said && says "Hertz, half width $(strip) µm" cat c.svg && test ! -s said'
+width=$(grep -o '<clipPath id="[a-z0-9]*"><rect x="[0-9.]*" y="[0-9.]*" width="[0-9.]*"' c.svg | head -n 1 | sed 's/.*width="//; s/"//')
+near "$(draws_lines c.svg | awk -v w="$width" '{ printf "%.9g", ($5 - $1) / w * 1290 / 2 }')" "$(strip)" 2e-3 "  its lines are that far from the middle"
+claim "  upright ones" eval 'draws_lines c.svg | awk "{ exit !(\$1 == \$3 && \$5 == \$7) }"'
+claim "  a window does not change it" eval 'rc-render --hertz --window -300um:300um,-30um:30um --channel pressure -o w.svg along_y.rcg 2>said && says "Hertz, half width $(strip) µm" cat w.svg && test ! -s said'
+claim "  level ones if the axis is x" eval 'rc-render --hertz --window all --channel pressure -o c.svg along_x.rcg && says "Hertz, half width $(strip) µm" cat c.svg && draws_lines c.svg | awk "{ exit !(\$2 == \$4 && \$6 == \$8) }"'
+for cut in "y=0 along_y" "x=0 along_x" "y=0 row"; do
+    claim "a cut across has the half-ellipse, $cut" rc-render --cut ${cut% *} --hertz --channel pressure --y-unit GPa --x-unit um -o cut.svg ${cut#* }.rcg
+    near "$(value_at cut.svg dashed 0)" "$(strip 0)" 1e-3 "  in the middle"
+    near "$(value_at cut.svg dashed 120)" "$(strip 120)" 2e-3 "  at 120 um"
+    near "$(value_at cut.svg solid 120)" "$(strip 120)" "$coarse_grid" "  which the map follows"
+done
+claim "  a cut along the axis has the largest pressure everywhere" rc-render --cut x=0 --hertz --channel pressure --y-unit GPa --x-unit um -o cut.svg along_y.rcg
+near "$(value_at cut.svg dashed 50)" "$(strip 0)" 1e-3 "    also at its end"
+claim "  a profile is drawn without it, with a warning" warns 'a profile is drawn as a curve, so that --hertz has no effect: add --cut' rc-render --hertz -o c.svg row.rcg
+
 # ---- Persson by the table ----
 
 rc-synth selfaffine --nx 64 --dx 1um --hurst 0.8 --rms-slope 0.1 --rolloff 32um --short-cut 8um --seed 2 -o rough.rcg
@@ -51,6 +85,10 @@ near "$(value_at law.svg dashed 1)" "$(perl -e '$x = sqrt(2) * 1e9 / (100e9 * sh
 # ---- refusals ----
 
 refuses 1 '--hertz needs the keys load, estar and form=sphere RADIUS: give what is missing with --estar and --radius' "a ball of unknown radius" "$draw --hertz <(rc-synth sphere --place 1um,0 --nx 129 --dx 10um --radius 7.5mm | rc-solve --quiet --load 60N --estar 114GPa --output pressure)"
+refuses 1 '--radius is that of a sphere, but this is the contact of a cylinder \(form=cylinder 0.008\): leave out --radius' "the radius of a sphere for a cylinder" "$draw --hertz --radius 8mm along_y.rcg"
+refuses 1 '--radius is that of a sphere, but this is the contact of a cylinder \(form=cylinder 0.008\)' "the same on a cut" "$draw --cut y=0 --hertz --radius 8mm along_y.rcg"
+refuses 1 '--radius is that of a sphere, but this is the contact of a cylinder \(boundary=periodic-y\)' "the same of a cylinder in the heights" "$draw --hertz --radius 8mm <(rc-synth cylinder --nx 65 --ny 9 --dx 20um --radius 8mm | rc-solve --quiet --periodic=y --load 400N/mm --estar 115.38GPa --output pressure)"
+refuses 1 'whose axis repeats alone, but its boundary is free: solve with --periodic=y' "a cylinder that ends" "$draw --hertz <(rc-synth wave --nx 65 --ny 65 --dx 20um --amplitude 0.01nm --wavelength 100um | rc-solve --quiet --cylinder 8mm --load 100N --estar 115.38GPa --output pressure)"
 refuses 2 '--hertz with --cut needs a single pressure' "a gap" "$draw --cut y=0 --hertz --radius 7.5mm --channel gap p.rcg"
 refuses 2 '--hertz does not work with --histogram' "a histogram" "$draw --histogram --hertz --radius 7.5mm p.rcg"
 refuses 2 '--radius has no effect without --curve, --histogram or --hertz' "a radius of nothing" "$draw --radius 7.5mm p.rcg"

@@ -222,13 +222,19 @@ page_y(const struct page *p, double y)
 static void
 draw_circle(struct page *p)
 {
-    const int steps = 360;
+    const int steps = p->f->mark.across == '\0' ? 360 : -1;
+    const double r = p->f->mark.radius;
 
     page_clip(p);
+    for (int side = -1; side <= 1 && p->f->mark.across == 'x'; side += 2)
+        canvas_line(p->c, page_x(p, side * r), p->plot.y, page_x(p, side * r),
+                    p->plot.y + p->plot.h);
+    for (int side = -1; side <= 1 && p->f->mark.across == 'y'; side += 2)
+        canvas_line(p->c, p->plot.x, page_y(p, side * r), p->plot.x + p->plot.w,
+                    page_y(p, side * r));
     for (int k = 0; k <= steps; k++) {
         double turn = 4 * acos(0.0) * k / steps;
-        double x = page_x(p, p->f->mark.radius * cos(turn)),
-               y = page_y(p, p->f->mark.radius * sin(turn));
+        double x = page_x(p, r * cos(turn)), y = page_y(p, r * sin(turn));
 
         if (k == 0)
             canvas_move(p->c, x, y);

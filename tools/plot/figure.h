@@ -64,8 +64,9 @@ struct extent {
 struct mark {
     const char *largest; /* a cross at (x, y)                   */
     double x, y;
-    const char *circle; /* a dashed circle about the origin     */
-    double radius;      /* m */
+    const char *circle; /* a dashed circle about the origin, or two lines */
+    double radius;      /* m; of lines their distance from the origin */
+    char across;        /* the axis across the lines, x or y; 0: a circle */
 };
 
 /* Lines on a map. */

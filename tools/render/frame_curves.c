@@ -188,20 +188,18 @@ mark_interfaces(const struct rc_grid *g, struct graph *graph, char *note, size_t
     return bottom;
 }
 
-/* Hertz's pressure p0 sqrt(1 - r^2/a^2), p0 = 3 F / (2 pi a^2), along a line of nodes at this distance from
- * the origin. */
+/* Hertz's pressure along a line of nodes at this distance from the origin. */
 static void
-add_hertz(struct set *s, const struct line *along, double across)
+add_hertz(struct set *s, const struct line *along, bool along_x, double across)
 {
     const struct rc_grid *g = s->grid[0];
-    double radius, load = 0, lo = line_at(along, 0), hi = line_at(along, along->n - 1), peak;
-    struct words words;
+    double lo = line_at(along, 0), hi = line_at(along, along->n - 1);
+    struct hertz hertz;
 
     if (s->n > 1 || strcmp(g->channel, "pressure") != 0)
         tool_usage(s->tool, "--hertz with --cut needs a single pressure: leave it out");
-    snprintf(s->label[1], LABEL, "%s", words_hertz(s->tool, &words, g, &s->style->given, &radius));
-    rc_grid_number(g, "load", &load);
-    peak = 1.5 * load / (FIGURE_PI * radius * radius);
+    hertz_read(s->tool, g, &s->style->given, &hertz);
+    snprintf(s->label[1], LABEL, "%s", hertz.text);
     set_series(s, 1, GRAPH_LAW, SAMPLES);
     s->series[0].name = "pressure of the map";
     s->series[1].name = s->label[1];
@@ -209,7 +207,7 @@ add_hertz(struct set *s, const struct line *along, double across)
         double x = lo + (hi - lo) * (double)k / (SAMPLES - 1);
 
         s->x[1][k] = x;
-        s->y[1][k] = peak * sqrt(fmax(0, 1 - (x * x + across * across) / (radius * radius)));
+        s->y[1][k] = hertz_pressure(&hertz, along_x ? x : across, along_x ? across : x);
     }
 }
 
@@ -250,7 +248,7 @@ cut_draw(struct tool *t, struct rc_grid *const *grid, size_t n, const char *cut,
         if (k == 0)
             snprintf(title, sizeof title, "%.80s along %.60s", s.channel.title, text);
         if (style->hertz) {
-            add_hertz(&s, along, line_at(over, at));
+            add_hertz(&s, along, along_x, line_at(over, at));
             graph.n = 2;
         }
         free(down.at);

@@ -154,16 +154,12 @@ void subtitle_write(struct subtitle *subtitle, struct rc_grid *const *grid, size
                     bool largest);
 
 struct words { /* words of the legend */
-    char largest[256], circle[96];
+    char largest[256];
 };
 
 /* "largest 2.3 GPa at x = 3 µm, depth 12 µm" */
 const char *words_largest(struct words *words, const struct rc_grid *grid, double value,
                           const char *across, double x, double depth);
-/* "Hertz, radius 12 µm", and this radius, from the options or the keys; ends the tool if both lack it. */
-struct law_given;
-const char *words_hertz(struct tool *tool, struct words *words, const struct rc_grid *grid,
-                        const struct law_given *given, double *radius);
 
 /* ---- table.c: columns of reports: tables with tabs, lines of JSON ---- */
 
@@ -242,6 +238,20 @@ double law_value(const char *law, const struct law_given *given, const char *x, 
                  const char *y);
 /* Density of the pressure p over the whole map, 1/Pa, under the mean pressure `mean` (Persson). */
 double law_pressure_density(const struct law_given *given, double mean, double p);
+
+/* ---- hertz.c: the contact of a smooth sphere, or of a cylinder whose axis repeats ---- */
+
+struct hertz {
+    double half, peak; /* radius, or half width of a strip, m; the largest pressure, Pa */
+    char across;       /* the axis across a strip, x or y; 0: a circle */
+    char text[96];     /* "Hertz, radius 12 µm" */
+};
+
+/* From the options or the keys of a whole map; ends the tool if both lack a figure. */
+void hertz_read(struct tool *tool, const struct rc_grid *grid, const struct law_given *given,
+                struct hertz *hertz);
+/* The pressure in Pa at this distance in m from the origin. */
+double hertz_pressure(const struct hertz *hertz, double x, double y);
 
 /* ---- wording.c: words of a figure as the command line gives them ---- */
 
