@@ -77,6 +77,11 @@ between -1e-20 "$(field volume align.json)" 1e-20 "  and no volume"
 info cat change.rcg
 near "$(field nx info.json)" 96 "$same" "the map has the nodes of A"
 near "$(field missing info.json)" "$((96 * 96 - 93 * 86))" "$same" "  and is missing where B does not reach"
+# the page: rc-pick undoes a half turn, and turns by no other angles
+rc-pick --rotate 180 later.rcg -o half.rcg
+refuses 2 '--rotate' "a turn by other angles" "rc-pick --rotate 0.7 later.rcg -o x.rcg"
+claim "a scan that is turned back is aligned" bash -c 'rc-pick --rotate 180 half.rcg | rc-add --subtract --align --report back.json - new.rcg -o x.rcg'
+near "$(field shift_x back.json)" "$(field shift_x align.json)" 1e-9 "  by the same shift"
 claim "frames have the alignment as keys" bash -c 'rc-info change.rcg >keys.txt && says "align.shift_x=-5" cat keys.txt && says "align.volume_error=" cat keys.txt'
 claim "one line tells it" warns 'B is shifted by -5.000 and -7.000 nodes and turned by -?0.0000 degrees; .*volume .* mm3 .- .* mm3 .95 %.$' \
     rc-add --subtract --align --verbose later.rcg new.rcg -o c.rcg
