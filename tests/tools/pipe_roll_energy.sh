@@ -26,6 +26,12 @@ claim "  and is mu times pressure times slip" awk '{ d = 0.3 * $4 * $3 - $2; if 
 rc-pick --channel dissipation -o energy.rcg rolled.rcg
 claim "  per length rolled" says '^unit=J/m3$' bash -c "head -c 200 energy.rcg | tr -d '\0'"
 
+# ---- creepages in per cent ----
+
+claim "a plain creepage of 0.1 has a warning" warns 'creep 0.1:1:10: a creepage of 0.1 is 10 %: write 0.1% for 0.1 percent' \
+    rc-slip --mu 0.3 --creep 0.1:1:10,0 --steady --dry-run ball.rcg -o plan.txt
+claim "  not one in per cent, nor a spin" bash -c "rc-slip --mu 0.3 --creep 10%,-0.04,20 --steady --dry-run ball.rcg -o plan.txt 2>said.txt; ! grep -q creepage said.txt"
+
 # ---- heat ----
 
 rc-heat --rolling 2m/s $steel --report heat.json -o hot.rcg rolled.rcg

@@ -116,6 +116,21 @@ contact_demand(struct tool *t, const struct rc_grid *p, const struct rc_grid *co
     return find(t, p, contact, true);
 }
 
+/* ---- rolling ---- */
+
+void
+creep_judge(struct tool *t, const char *text, const double *v, size_t n)
+{
+    const double large = 0.05; /* friction limits the force at far less */
+    size_t k = 0;
+
+    while (k < n && fabs(v[k]) <= large)
+        k++;
+    if (k < n && strchr(text, '%') == NULL)
+        tool_warn(t, "--creep %s: a creepage of %g is %g %%: write %g%% for %g percent", text, v[k],
+                  100 * v[k], v[k], v[k]);
+}
+
 /* ---- the boundary ---- */
 
 /* The words of the option --periodic, and the boundary of each. */

@@ -30,6 +30,12 @@ const struct rc_grid *contact_counted(struct tool *tool, const struct rc_grid *p
 /* True for a value that is negative by more than rounding beside the largest one, `most`, at least 0. */
 bool contact_negative(double v, double most);
 
+/* ---- rolling ---- */
+
+/* Warns of a creepage above 0.05 that was given as a plain number: in per cent it is 100 times as small.
+ * `text`: one component of --creep, or a range; v: its n values. */
+void creep_judge(struct tool *tool, const char *text, const double *v, size_t n);
+
 /* ---- the boundary ---- */
 
 /* The options --periodic and --datum. */

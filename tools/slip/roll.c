@@ -49,6 +49,8 @@ read_component(struct tool *t, int k, const char *text, size_t n)
     one[n] = '\0';
     if (unit_numbers(one, k == 2 ? UNIT_SPIN : UNIT_CREEP, &own.creep[k], &t->err) != RC_OK)
         tool_usage(t, "--creep %s: %s", one, t->err.text);
+    if (k < 2)
+        creep_judge(t, one, own.creep[k].v, own.creep[k].n);
 }
 
 /* Each component is a number or a range; ranges have one length, and a number holds for all cases.
