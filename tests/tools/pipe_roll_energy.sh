@@ -45,6 +45,8 @@ refuses 1 'friction of rc-slip, a frame (slip|state|dissipation).*--rolling' "mu
 rc-slip --mu 0.3 --tangential 10N -o pushed.rcg ball.rcg
 refuses 1 'friction of rc-slip, a frame traction-x' "mu p beside tractions" "rc-heat --mu 0.3 --speed 1m/s $steel -o x.rcg pushed.rcg"
 claim "  but the pressure alone is taken" bash -c "rc-pick --channel pressure pushed.rcg | rc-heat --mu 0.3 --speed 1m/s $steel -o x.rcg"
+refuses 1 'no frame with the channel dissipation.*: rc-slip writes it with --output pressure,dissipation$' "rolling without its energy" \
+    "rc-slip --mu 0.3 --creep 5e-4,0 --steady ball.rcg | rc-heat --rolling 2m/s $steel -o x.rcg"
 refuses 1 'J/m3: give the speed of rolling with --rolling' "a frequency of a contact that rolls" "rc-heat --frequency 5Hz $steel -o x.rcg rolled.rcg"
 rc-slip --mu 0.3 --path '100N,0,0; 100N,10N,0; 100N,-10N,0; 100N,10N,0' --output $frames -o cycle.rcg ball.rcg
 refuses 1 'J/m2: give the cycles per second with --frequency' "a speed of rolling of a cycle" "rc-heat --rolling 5m/s $steel -o x.rcg cycle.rcg"

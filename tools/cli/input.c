@@ -348,6 +348,8 @@ end_case(struct tool *t, const char *channel)
                  t->current.number, channel, t->current.names,
                  strcmp(channel, "pressure") == 0 && strstr(t->current.names, "height") != NULL
                      ? ": rc-solve finds the pressure of heights under a load"
+                 : strcmp(channel, "dissipation") == 0
+                     ? ": rc-slip writes it with --output pressure,dissipation"
                  : strcmp(channel, "heat") == 0 && strstr(t->current.names, "pressure") != NULL
                      ? ": the heat of sliding follows from the pressure and --mu, that of rolling "
                        "from --rolling and the frame dissipation of rc-slip --creep"
