@@ -111,6 +111,7 @@ struct run {
     double
         *touch;   /* 1 at the nodes in contact, in any case of a cycle; NULL: where heat is not 0 */
     double speed; /* m/s, of sliding                                                          */
+    double creep[2], spin; /* of a contact that rolls: 1, rad/m; NAN: unknown */
 };
 
 /* ---- the command line ---- */
@@ -257,23 +258,31 @@ demand_positive(struct tool *t, const struct rc_grid *p)
         tool_refuse(t, p, "%s", err->text);
 }
 
+static double
+known(double v)
+{
+    return isnan(v) ? 0 : v;
+}
+
 /* The motion of both bodies past a contact that rolls towards +x, from the creepages of the case.
  * Without them it has not rolled yet. */
 static void
 find_rolling(struct run *run, const struct rc_grid *g)
 {
     struct rc_heat_body *body = run->problem.body;
-    double creep[2] = {0, 0};
+    double *creep = run->creep;
 
+    creep[0] = creep[1] = run->spin = NAN;
+    (void)rc_grid_number(g, "spin", &run->spin);
     if ((!rc_grid_number(g, "creep_x", &creep[0]) || !rc_grid_number(g, "creep_y", &creep[1])) &&
         any_heat(&run->t, g))
         tool_refuse(&run->t, g,
                     "it has no keys creep_x and creep_y: --rolling takes the output of "
                     "rc-slip --creep or --creep-force");
     body[0].velocity[0] = -args.rolling;
-    body[1].velocity[0] = args.rolling * (creep[0] - 1);
-    body[1].velocity[1] = args.rolling * creep[1];
-    run->speed = args.rolling * hypot(creep[0], creep[1]);
+    body[1].velocity[0] = args.rolling * (known(creep[0]) - 1);
+    body[1].velocity[1] = args.rolling * known(creep[1]);
+    run->speed = args.rolling * hypot(known(creep[0]), known(creep[1]));
 }
 
 /* Checks the main frame. Its heat flux is the values times this factor: friction times speed,
@@ -444,6 +453,12 @@ put_report(struct run *run, const struct rc_grid *g, const struct rc_heat_figure
     report_seconds(r, (const struct report_phase[]){{NULL, 0}}, seconds);
     report_memory(r);
     report_ranks(r, &run->t);
+    if (tool_given(&run->t, "rolling")) {
+        report_value(r, "rolling_speed", args.rolling);
+        report_value(r, "creep_x", run->creep[0]);
+        report_value(r, "creep_y", run->creep[1]);
+        report_value(r, "spin", run->spin);
+    }
     report_finish_row(r);
 }
 

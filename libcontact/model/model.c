@@ -23,7 +23,7 @@ static const struct rc_axis_info axes[RC_AXES] = {
     [RC_TIME] = {"time", "s", "Time", true, RC_TIME},
     [RC_DISTANCE] = {"distance", "m", "Sliding distance", true, RC_DISTANCE},
     [RC_POSITION] = {"position", "m", "Position", false, RC_POSITION},
-    [RC_SPEED] = {"speed", "m/s", "Speed", false, RC_SPEED},
+    [RC_SPEED] = {"speed", "m/s", "Sliding speed", false, RC_SPEED},
 };
 
 const struct rc_axis_info *

@@ -105,7 +105,7 @@ struct slide {
 const struct rc_figure rc_figures_sliding[] = {
 #define FIGURE(member) RC_FIGURE(struct rc_sliding_figures, member)
 #define AS(column, member) RC_FIGURE_AS(column, struct rc_sliding_figures, member)
-    {FIGURE(speed), "m/s", "Speed", .says = "of body 2 over body 1"},
+    {FIGURE(speed), "m/s", "Sliding speed", .says = "of body 2 over body 1"},
     {FIGURE(friction), NULL, "Coefficient of friction", .says = "by the losses in the material"},
     {FIGURE(friction_force), "N", "Friction", .says = "opposite to the motion"},
     {FIGURE(friction_by_heights), NULL, "Coefficient of friction by the slopes of body 2",

@@ -53,6 +53,8 @@ report "rc-slip --steady" "rc-slip --mu 0.3 --threads 1 --quiet --creep 1e-3,0 -
 report rc-wear "rc-wear --coefficient 1e-6mm3/Nm --distance 1m --threads 1 --quiet --report \$r -o w.rcg one.rcg"
 report "rc-wear --periodic=y" "rc-wear --coefficient 1e-6mm3/Nm --distance 1m --threads 1 --quiet --report \$r -o w.rcg line.rcg"
 report rc-heat "rc-heat --mu 0.3 --speed 1 --conductivity 45,45 --diffusivity 1e-5,1e-5 --threads 1 --quiet --report \$r -o h.rcg one.rcg"
+rc-slip --mu 0.3 --threads 1 --quiet --creep 1e-3,0 --steady --output pressure,dissipation -o d.rcg rolls.rcg
+report "rc-heat --rolling" "rc-heat --rolling 1 --conductivity 45,45 --diffusivity 1e-5,1e-5 --threads 1 --quiet --report \$r -o h.rcg d.rcg"
 report rc-stress "rc-stress --depths 0,1um --threads 1 --quiet --report \$r -o s.rcg one.rcg"
 report rc-fatigue "rc-fatigue --bending-limit 6MPa --torsion-limit 4MPa --pass x --depths 1um,2um --threads 1 --quiet --report \$r -o s.rcg one.rcg"
 report rc-leak "rc-leak --viscosity 1mPas --pressure-drop 1kPa --threads 1 --quiet --report \$r -o f.rcg one.rcg"

@@ -39,6 +39,16 @@ near "$(report heat_power heat.json)" "$(number "2 * 5e-4 * $(report tangential_
 near "$(number "1e-10 * ($(sum hot.rcg heat-1) + $(sum hot.rcg heat-2))")" "$(report heat_power heat.json)" 1e-9 "  into both bodies together"
 near "$(report speed heat.json)" 1e-3 1e-9 "  at the sliding speed of the creepage"
 near "$(report share_1 heat.json)" 0.5 1e-2 "  half into each of two equal bodies"
+rc-slip --mu 0.3 --creep 5e-4:1e-3:2,-1e-4,20 --steady --output $frames ball.rcg | rc-heat --rolling 2m/s $steel --report creeps.tsv -o x.rcg
+claim "  rows have the speed of rolling, the creepages and the spin" bash -c "
+    head -n 1 creeps.tsv | grep -q 'rolling_speed/m/s.creep_x.creep_y.spin/rad/m' &&
+    awk -F'\t' 'NR == 1 { for (i = 1; i <= NF; i++) at[\$i] = i; next }
+        { print \$at[\"rolling_speed/m/s\"], \$at[\"creep_x\"], \$at[\"creep_y\"], \$at[\"spin/rad/m\"] }' creeps.tsv >creeps.txt &&
+    diff creeps.txt <(printf '2 0.0005 -0.0001 20\n2 0.001 -0.0001 20\n')"
+claim "  and the largest temperature is drawn over the creepage" bash -c "
+    rc-render --curve creep_x:max_temperature -o curve.svg creeps.tsv && grep -q 'reepage along x' curve.svg"
+rc-render --curve max_temperature:speed -o speed.svg creeps.tsv
+claim "  the column speed is that of sliding" grep -q '>Sliding speed' speed.svg
 claim "  and warms their trailing edge most" test "$(number "$(report max_x heat.json) < -50e-6")" = 1
 refuses 1 'friction of rc-slip, a frame (slip|state|dissipation).*--rolling' "mu p beside frames of partial slip" \
     "rc-heat --mu 0.3 --speed 1m/s $steel -o x.rcg rolled.rcg"

@@ -447,6 +447,7 @@ static const struct rc_figure own[] = {
     {.name = "cylinder", .unit = "m", .title = "Radius of the cylinder"},
     {.name = "depth", .unit = "m", .title = "Depth"},
     {.name = "pass", .title = "Pass"},
+    {.name = "rolling_speed", .unit = "m/s", .title = "Speed of rolling"},
     {.name = "shift", .title = "Shift factor"},
     {.name = "temperature", .unit = "K", .title = "Temperature"},
     {.name = "strain_gain", .title = "Plastic strain of a pass"},
