@@ -12,6 +12,20 @@ rc-add a.rcg b.rcg | rc-pick --set channel=pressure --set unit=Pa --set boundary
     --set 'layers=2.5e-06,2e11,0.3;inf,2e11,0.3' -o two.rcg
 rc-stress --depths 0,1um,2.5um,3um,8um --components szz,s1,s3,mises --report two.json two.rcg -o two-stress.rcg
 
+rc-stress --depths 0,1um,2.5um,3um,8um --components szz,s1,s3,mises --report two.tsv two.rcg -o x.rcg
+claim "a table has the extreme values and their depths, as the JSON" perl -MJSON::PP -e '
+    open my $f, "<", "two.json" or die; my $r = decode_json(<$f>);
+    open my $g, "<", "two.tsv" or die; chomp(my @l = <$g>);
+    my %is; @is{split /\t/, $l[0]} = split /\t/, $l[1];
+    for my $c (qw(szz s1 s3 mises)) {
+        for ([max => "largest"], [min => "least"]) {
+            my ($m, $end) = @$_;
+            next if $c eq "mises" && $m eq "min";
+            abs($is{"${m}_$c/Pa"} - $r->{$end}{$c}{value}) <= 1e-12 * abs $r->{$end}{$c}{value} or die "${m}_$c";
+            $is{"${m}_${c}_depth/m"} == $r->{$end}{$c}{depth} or die "${m}_$c depth";
+        }
+    }
+    grep(/^min_mises|_sxx/, keys %is) and die "a column too many"'
 claim "each depth has a frame for each component" test "$(channels two-stress.rcg)" = \
     "$(for _ in 1 2 3 4 5; do echo szz mises s1 s3; done | xargs)"
 cat >judge.pl <<'END'

@@ -239,6 +239,33 @@ write_figures(struct report *out, const struct rc_stress *stress, enum rc_figure
     report_table(out, some, rc_stress_counted(stress));
 }
 
+/* True for components that are positive everywhere. */
+static bool
+positive(int c)
+{
+    return c == RC_MISES || c == RC_TRESCA;
+}
+
+/* The columns of a table, which has no objects: extreme values with their depths. */
+static void
+write_columns(const struct stress_report *r, struct report *out)
+{
+    static const char *const prefix[] = {[STRESS_LARGEST] = "max", [STRESS_LEAST] = "min"};
+    static char names[RC_STRESSES][STRESS_ENDS][2][32]; /* the report keeps them */
+
+    for (int c = 0; c < RC_STRESSES; c++)
+        for (int e = 0; e < STRESS_ENDS; e++) {
+            char(*name)[32] = names[c][e];
+            const struct stress_extreme *x = &r->extreme[e][c];
+            if (x->by_depth == NULL || (e == STRESS_LEAST && positive(c)))
+                continue;
+            snprintf(name[0], sizeof *name, "%s_%s", prefix[e], rc_component_names[c]);
+            report_number(out, name[0], x->all.value, "Pa");
+            snprintf(name[1], sizeof *name, "%s_%s_depth", prefix[e], rc_component_names[c]);
+            report_number(out, name[1], x->all.depth, "m");
+        }
+}
+
 void
 stress_report_write(struct stress_report *r, struct report *out, const struct rc_stress *stress)
 {
@@ -276,6 +303,8 @@ stress_report_write(struct stress_report *r, struct report *out, const struct rc
     report_memory(out);
     report_ranks(out, out->tool);
     write_figures(out, stress, RC_FIGURE_ERROR);
+    if (out->separator)
+        write_columns(r, out);
     report_finish_row(out);
 }
 
