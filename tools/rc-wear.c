@@ -63,7 +63,7 @@ static const struct opt opts[] = {
      .needs = RULES({.with = "motion sliding"}),
      .help = "heights of body 2, seen from outside as those of body 1"},
     {.name = "until", .type = OPT_TEXT, AT(until), .result = true, .arg = "LIST",
-     .help = "end earlier at area=FRACTION in contact, depth=LENGTH or uniform=SPREAD of the pressure"},
+     .help = "end earlier at area=FRACTION in contact or area=Nx, depth=LENGTH or uniform=SPREAD"},
     {.name = "tol", .type = OPT_NUMBER, AT(tol), .min = 0, .max = 0.5, .above = true, .result = true,
      .arg = "ERROR", .help = "bound of the estimated relative errors of wear and pressure (default 0.1)"},
     {.name = "output", .type = OPT_WORDS, AT(output), .list = frames, .arg = "LIST",
@@ -108,6 +108,7 @@ struct run {
     double left;                /* m: the same at the present point; below 0: worn through */
     double relief;              /* m: from the lowest to the highest node before wear */
     double area, depth, spread; /* of --until, at the last point                      */
+    double area_times;          /* of --until area=Nx: over the first contact area; 0: not given */
     size_t written;             /* steps at the last row of --steps      */
     double slid;                /* m: distance of that row               */
     const struct numbers *list; /* of distances or cycles                              */
@@ -201,6 +202,18 @@ read_motion(struct run *run)
         run->counter = physics_counter(t, args.counter);
 }
 
+/* area=2x, a factor of the first contact area. */
+static bool
+read_times(struct run *run, const char *word)
+{
+    char *end = NULL;
+
+    run->area_times = strncmp(word, "area=", 5) == 0 ? strtod(word + 5, &end) : 0;
+    if (end == NULL || end == word + 5 || strcmp(end, "x") != 0)
+        run->area_times = 0;
+    return run->area_times > 1 && isfinite(run->area_times);
+}
+
 static void
 read_until(struct run *run)
 {
@@ -214,6 +227,8 @@ read_until(struct run *run)
     snprintf(text, sizeof text, "%s", args.until);
     for (word = strtok_r(text, ",", &at); word != NULL; word = strtok_r(NULL, ",", &at)) {
         size_t k = 0, n = strcspn(word, "=");
+        if (read_times(run, word))
+            continue;
         while (k < 3 && (strlen(name[k]) != n || strncmp(word, name[k], n) != 0))
             k++;
         if (k == 3 || word[n] == '\0' ||
@@ -222,7 +237,7 @@ read_until(struct run *run)
             tool_usage(
                 &run->d.t,
                 "--until %s: it must be area=FRACTION, depth=LENGTH or uniform=SPREAD, above "
-                "0, as in area=90%%,depth=1um",
+                "0, as in area=90%%,depth=1um, or area=2x for twice the first contact area",
                 args.until);
     }
 }
@@ -326,7 +341,7 @@ find_energy(struct run *run, const struct rc_grid *g)
     const struct rc_grid *from = run->map[ENERGY], *p = run->map[PRESSURE];
     const size_t n = rc_grid_nodes(g), nx = g->nx;
 
-    if (run->law.until_area > 0 || run->law.until_depth > 0 || run->law.until_spread > 0)
+    if (args.until != NULL)
         tool_refuse(t, g,
                     "--until with the energy of the stream is not implemented: give --cycles");
     if (from == NULL && p == NULL)
@@ -355,6 +370,32 @@ drop(struct run *run, size_t map)
 {
     rc_grid_free(run->map[map]);
     run->map[map] = NULL;
+}
+
+/* The area of --until area=Nx, as a part of the map. */
+static void
+find_until_area(struct run *run, const struct rc_grid *g)
+{
+    struct tool *t = &run->d.t;
+    const struct rc_grid *p = run->map[PRESSURE];
+    double count = 0, part;
+
+    if (run->area_times == 0)
+        return;
+    if (p == NULL)
+        tool_refuse(t, g,
+                    "--until area=%gx needs the first contact area, from a frame pressure beside "
+                    "the height: see rc-solve --output",
+                    run->area_times);
+    for (size_t k = 0; k < rc_grid_nodes(p); k++)
+        count += rc_in_contact(p->v[k]);
+    part = ranks_sum(t, count) / ranks_sum(t, (double)rc_grid_nodes(p));
+    run->law.until_area = run->area_times * part;
+    if (!(run->law.until_area <= 1))
+        tool_refuse(t, g,
+                    "--until area=%gx: the first contact area is %.3g of the map, and %g times as "
+                    "much is more than the map",
+                    run->area_times, part, run->area_times);
 }
 
 /* The law of the case, from the options and its maps. */
@@ -404,6 +445,7 @@ find_law(struct run *run, const struct rc_grid *g)
         multiply(run, run->map[SLIP], run->path = largest(t, run->map[SLIP], "m"));
     if (by_energy || rolls(run->map[SLIP]))
         find_energy(run, g);
+    find_until_area(run, g);
     if (by_energy || run->energy == NULL)
         drop(run, PRESSURE);
     for (size_t k = 0; k < rc_grid_nodes(g) && run->part != NULL; k++) {
@@ -899,8 +941,10 @@ main(int argc, char **argv)
         if (!(run.list->v[k] > run.list->v[k - 1]))
             tool_usage(&run.d.t, "--%s: each number must be larger than the one before it",
                        args.cycles.n > 0 ? "cycles" : "distance");
-    if (args.cycles.n == 0) /* the energy is that of full sliding */
-        run.beside[ENERGY].channel = NULL;
+    if (args.cycles.n == 0) { /* the energy is that of full sliding */
+        run.beside[ENERGY] = run.beside[PRESSURE];
+        run.beside[run.area_times > 0 ? PRESSURE : ENERGY].channel = NULL;
+    }
     report_open(&run.steps, &run.d.t, args.steps);
     drive_open(&run.d, axes);
     while ((g = args.cycles.n > 0 ? next_cycle(&run) : next(&run)) != NULL) {

@@ -151,6 +151,18 @@ $wear --distance 1km,10km,100km --until area=0.5 --report half.tsv -o half.rcg p
 between 0.5 "$(column contact_fraction 1 half.tsv)" 0.52 "--until area"
 $wear --distance 1km,10km,100km --until area=50% -o percent.rcg pressed.rcg
 claim "  a percentage is the same" cmp <(rc-pick --channel wear half.rcg | rc-export --format csv) <(rc-pick --channel wear percent.rcg | rc-export --format csv)
+# the frame pressure of pressed.rcg has the first contact; twice its area is one fraction of the map
+twice=$(rc-pick --channel pressure pressed.rcg | rc-export --format csv | grep -v '^#' | tr ',' '\n' |
+    awk '{ n++; touch += $1 > 0 } END { printf "%.17g", 2 * touch / n }')
+$wear --distance 100km --until area=2x --report twice.tsv -o twice.rcg pressed.rcg
+between "$twice" "$(column contact_fraction 1 twice.tsv)" "$(awk "BEGIN { print $twice * 1.04 }")" "--until area=2x: twice the first contact area"
+$wear --distance 100km --until "area=$twice" -o fraction.rcg pressed.rcg
+claim "  the same as this part of the map" cmp <(rc-pick --channel wear twice.rcg | rc-export --format csv) <(rc-pick --channel wear fraction.rcg | rc-export --format csv)
+claim "  the warning names the part of the map" warns "not reached at the last distance, 1 mm: [0-9.]+ of the map is in contact, and not $(awk "BEGIN { printf \"%.3g\", $twice }")\$" \
+    rc-wear --coefficient 1e-6mm3/Nm --distance 1mm --until area=2x -o x.rcg pressed.rcg
+refuses 1 'area=1000x: the first contact area is .* of the map, and 1000 times as much is more than the map' "more than the map" "$wear --distance 1m --until area=1000x -o x.rcg pressed.rcg"
+refuses 1 'needs the first contact area, from a frame pressure' "no first contact" "rc-pick --channel height pressed.rcg | $wear --distance 1m --until area=2x -o x.rcg"
+refuses 2 'or area=2x for twice' "less than the first contact" "$wear --distance 1m --until area=0.5x -o x.rcg pressed.rcg"
 claim "  later distances are omitted" test "$(wc -l <half.tsv)" = 2
 $wear --distance 100km --until depth=30nm,uniform=1e-9 --report deep.tsv -o deep.rcg pressed.rcg
 between 30e-9 "$(column max_wear_depth 1 deep.tsv)" 30.6e-9 "--until depth"
