@@ -151,6 +151,10 @@ check_effects(struct page *run)
     const double time = page_args.effects.time;
     struct numbers yield;
 
+    if (tool_given(t, "speed") && tool_given(t, "creep"))
+        tool_usage(t, "--speed with --creep is the speed of rolling, and the section about heat is "
+                      "that of sliding: leave out one of them, or see rc-scene and rc-heat "
+                      "--rolling");
     run->yield = NAN;
     if (page_args.effects.yield != NULL &&
         unit_numbers(page_args.effects.yield, UNIT_PA, &yield, NULL) == RC_OK) {

@@ -163,6 +163,8 @@ read_creep(struct tool *t, double creep[2], double *spin)
         snprintf(one, sizeof one, "%.*s", (int)length, at);
         if (unit_number(one, n == 2 ? UNIT_SPIN : UNIT_CREEP, to[n], &t->err) != RC_OK)
             tool_usage(t, "--creep %s: %s", text, t->err.text);
+        if (n < 2)
+            creep_judge(t, one, to[n], 1);
         at = at[length] == '\0' ? NULL : at + length + 1;
     }
     if (text != NULL && commas + 1 != n)
@@ -186,6 +188,15 @@ read_difference(struct tool *t)
         tool_usage(t, "--within-temperature %s: it must be above 0, as in 10K",
                    args.within_temperature);
     return v;
+}
+
+/* True if --speed is the speed of rolling. */
+static bool
+rolls(const struct run *run)
+{
+    const struct rc_scene_data *d = &run->data;
+
+    return d->speed > 0 && (d->creep[0] != 0 || d->creep[1] != 0 || d->spin != 0);
 }
 
 static double
@@ -259,6 +270,10 @@ read_data(struct run *run)
         memcpy(d->diffusivity, args.given.diffusivity.v, sizeof d->diffusivity);
     }
     read_creep(t, d->creep, &d->spin);
+    if (rolls(run) && d->material != NULL)
+        tool_usage(t, "--speed with --creep is the speed of rolling, and --relaxation with a speed "
+                      "is for sliding on rubber: rolling on rubber is not implemented: leave out "
+                      "--speed");
     d->moving = args.given.moving != NULL && strcmp(args.given.moving, "1") == 0 ? 1 : 2;
     run->bounds = (struct rc_scene_bounds){.relative = args.within,
                                            .temperature = read_difference(t),
@@ -267,19 +282,6 @@ read_data(struct run *run)
 }
 
 /* ---- one case ---- */
-
-/* A nameless file that is deleted when it is closed. */
-static int
-file_of(struct tool *t)
-{
-    FILE *file = tmpfile();
-    int own;
-
-    if (file == NULL || (own = dup(fileno(file))) < 0)
-        tool_die(t, "no temporary file can be made: set TMPDIR to a folder with room");
-    fclose(file);
-    return own;
-}
 
 static void
 write_heights(struct tool *t, const struct rc_grid *g, int to)
@@ -366,7 +368,7 @@ name_commands(struct run *run, struct line line[], size_t n, const char *const l
         if (!l->commanded)
             continue;
         if (l->command.programs > 1 && contact < 0) {
-            contact = file_of(&run->t);
+            contact = scene_file(&run->t);
             if (!solve_contact(run, &l->command, run->in, contact))
                 continue;
         }
@@ -744,6 +746,56 @@ show_plan(struct run *run, const struct rc_grid *g, size_t step)
                               12 * rc_grid_nodes(g) * sizeof *g->v)); /* maps of three contacts */
 }
 
+/* Largest speed of a rigid surface over the other in a contact that rolls, m/s: the spin turns about the
+ * middle of the map. Without --creep the bodies slide. */
+static double
+sliding_speed(const struct run *run, const struct rc_grid *g, const double *p)
+{
+    const struct rc_scene_data *d = &run->data;
+    double far = 0;
+
+    if (!rolls(run))
+        return d->speed;
+    for (size_t k = 0; k < g->nx * g->ny; k++)
+        if (rc_in_contact(p[k]))
+            far = fmax(far, hypot(((double)(k % g->nx) - (double)(g->nx - 1) / 2) * g->dx,
+                                  ((double)(k / g->nx) - (double)(g->ny - 1) / 2) * g->dy));
+    return d->speed * (hypot(d->creep[0], d->creep[1]) + fabs(d->spin) * far);
+}
+
+/* The heat of bodies that slide at the speed of rolling becomes that of bodies that roll. Heat is made with
+ * the sliding speed, and where they stick there is none: no lower bound. Both bodies move past the contact,
+ * each with its Peclet number. Where elastic slip adds to the creepage, at the trailing edge, mu p times
+ * the local slip is up to sqrt(2) times as large (Carter 1926, Proc. R. Soc. A 112, 151). */
+static void
+make_rolling(const struct run *run, double slides, struct rc_scene_effect *e)
+{
+    const struct rc_scene_data *d = &run->data;
+    const double local = 1.5;
+    double part = 0, k = 0, still, rolling;
+
+    if (e->missing != NULL)
+        return;
+    if (args.physics.boundary.x) {
+        e->change[RC_SCENE_TEMPERATURE] = (struct rc_interval){NAN, NAN};
+        snprintf(e->unfit, sizeof e->unfit, "steady rolling needs a map that is free along x");
+    }
+    if (e->unfit[0] != '\0')
+        return;
+    for (int b = 0; b < 2; b++) { /* number 2: the Peclet number of body 2 */
+        const double peclet = e->number[2] * d->diffusivity[1] / d->diffusivity[b];
+        k += d->conductivity[b];
+        part += d->conductivity[b] * sqrt(1 + 2 * peclet);
+    }
+    e->number_name[3] = "sliding_speed";
+    e->number[3] = slides;
+    e->number[0] *= slides / d->speed;
+    still = e->number[0];
+    rolling = e->number[1] = still * k / part;
+    e->change[RC_SCENE_TEMPERATURE] =
+        (struct rc_interval){0, local * fmin(1.02 * still, 3 * rolling)};
+}
+
 static void
 do_load(struct run *run, const struct rc_grid *g, size_t step)
 {
@@ -760,6 +812,7 @@ do_load(struct run *run, const struct rc_grid *g, size_t step)
                                  value};
     struct rc_contact contact;
     const char *with = "";
+    double slides;
     size_t n = 0, effects = 0;
 
     while (rc_scene_name(effects) != NULL)
@@ -780,19 +833,24 @@ do_load(struct run *run, const struct rc_grid *g, size_t step)
     contact = *rc_scene_contact(s);
     print_warnings(run, g, &contact, rc_scene_pressure(s), args.physics.surface_estar);
     warn_of_units(run, g, &contact);
+    slides = sliding_speed(run, g, rc_scene_pressure(s));
     scene_notes(t, g, &args.given,
                 &(struct scene_notes){.contact = &contact,
                                       .pair = &problem.pair,
                                       .estar = args.physics.surface_estar,
                                       .radius = args.physics.radius,
                                       .conductivity = run->data.conductivity[0],
-                                      .within = args.within});
+                                      .within = args.within,
+                                      .entrains = run->data.speed / (rolls(run) ? 1 : 2),
+                                      .slides = slides});
     for (size_t k = 0; rc_scene_name(k) != NULL && n < LINES; k++, n++) {
         struct line *l = &line[n];
         *l = (struct line){.seconds = NAN, .convolutions = NAN, .with = ""};
         tool_progress(t, (double)k / (double)effects, "%s", rc_scene_name(k));
         l->base = strcmp(rc_scene_name(k), "yield") == 0 ? contact : *rc_scene_contact(s);
         tool_must(t, g, rc_scene_estimate(s, k, &l->effect, &t->err));
+        if (rolls(run) && strcmp(l->effect.name, "heat") == 0)
+            make_rolling(run, slides, &l->effect);
         l->verdict = rc_scene_judge(&l->effect, &run->bounds, &l->figure);
         l->with = with;
         if (l->verdict == RC_SCENE_CALLS) {
@@ -825,7 +883,7 @@ main(int argc, char **argv)
     read_data(&run);
     report_open(&run.report, &run.t, args.report);
     while ((g = tool_channel(&run.t, "height", false)) != NULL) {
-        run.in = file_of(&run.t); /* without the ball, which the commands add */
+        run.in = scene_file(&run.t); /* without the ball, which the commands add */
         write_heights(&run.t, g, run.in);
         physics_heights(&run.t, &args.physics, g);
         for (size_t k = 0; k < physics_steps(&args.physics)->n; k++)

@@ -143,11 +143,36 @@ claim "each load of a list has its table" test "$(grep -c 'case 1:' two.txt)" = 
 claim "  and each effect its row" test "$(awk 'END { print NR }' list.tsv)" = 35
 claim "every verdict ends with status 0" scene --load 240N $steel ball.rcg
 
+# ---- heat of rolling: --speed is that of rolling, and the bodies slide by the creepage ----
+
+warm="--conductivity 50W/mK,50W/mK --diffusivity 14mm2/s,14mm2/s"
+rolling="--load 240N $steel --mu 0.3 --creep 0.5%,0,0.1 --speed 30m/s $warm"
+scene $rolling ball.rcg >rolling.json
+near "$(of heat rolling.json numbers sliding_speed)" "$(awk 'BEGIN { print 30 * (0.005 + 0.1 * 227.6e-6) }')" 1e-4 "the sliding speed is that of creepage and spin"
+near "$(of heat rolling.json numbers temperature_at_rest)" "$(awk 'BEGIN { pi = atan2(0, -1); a = (3 * 240 * 7.5e-3 / (4 * 210e9 / 1.82)) ^ (1 / 3); print 3 * pi / 8 * 0.3 * 30 * (0.005 + 0.1 * a) * 240 / (pi * a * a) * a / 100 }')" 2e-3 \
+    "  and so is the heat"
+near "$(of heat rolling.json numbers peclet)" "$(awk 'BEGIN { print 30 * 227.6e-6 / 28e-6 }')" 0.02 "  but the bodies move with the speed of rolling"
+claim "nodes that stick make no heat" test "$(of heat rolling.json figures temperature low)" = 0
+rc-scene --quiet $rolling ball.rcg >rolling.txt
+claim "the command rolls" grep -q '| rc-slip --mu 0.3 --creep 0.5%,0,0.1 --steady --output pressure,dissipation | rc-heat --rolling 30m/s --conductivity 50W/mK,50W/mK --diffusivity' rolling.txt
+scene $rolling --decide 1000 ball.rcg >decided.json
+rc-solve --quiet --load 240N $steel ball.rcg |
+    rc-slip --quiet --mu 0.3 --creep 0.5%,0,0.1 --steady --output pressure,dissipation |
+    rc-heat --quiet --rolling 30m/s $warm --report - >heat.json
+near "$(of heat decided.json figures temperature high)" "$(field max_temperature heat.json)" 5e-3 "--decide computes its temperature"
+claim "  which is below the bound" awk -v t="$(field max_temperature heat.json)" -v b="$(of heat rolling.json figures temperature high)" 'BEGIN { exit !(t > 0.02 * b && t < b) }'
+claim "no heat of rolling along an axis that repeats" bash -c "rc-scene --quiet --periodic --time 1ms $rolling ball.rcg | grep -q 'frictional heat .*steady rolling needs a map that is free along x'"
+claim "a film of bodies that roll has their speed" warns 'it is 278[0-9.]* nm thick' \
+    rc-scene --load 20N --radius 10mm $steel --mu 0.05 --creep 1e-5,0 --speed 1m/s $oil fine.rcg -o x.txt
+claim "a plain creepage of 0.1 has a warning" warns 'creep 0.1: a creepage of 0.1 is 10 %: write 0.1% for 0.1 percent' rc-scene --load 240N $steel --mu 0.3 --creep 0.1,0 --dry-run ball.rcg
+refuses 2 'rolling on rubber is not implemented' "rubber that rolls" \
+    "rc-scene --load 1N --relaxation 1MPa,2MPa:1s --nu1 0.49 --E2 rigid --mu 0.3 --creep 1e-3,0 --speed 1m/s ball.rcg"
+refuses 2 'moving does not work with --creep' "one body that moves while both roll" "rc-scene $rolling --moving 1 ball.rcg"
+
 # ---- refused ----
 
 refuses 2 "difference: give it in K" "a temperature in degC as a bound" "rc-scene --load 1N --estar 1GPa --within-temperature 10degC ball.rcg"
 refuses 2 "two numbers, for body 1 and body 2|it must be" "one conductivity" "rc-scene --load 1N --estar 1GPa --conductivity 45W/mK ball.rcg"
-refuses 2 "two creepages, or these and a spin" "one creepage" "rc-scene --load 1N --estar 1GPa --creep 1e-3 ball.rcg"
-refuses 2 "two creepages, or these and a spin" "four creepages" "rc-scene --load 1N --estar 1GPa --creep 1e-3,0,1,2 ball.rcg"
+refuses 2 "two .x and y., or these and a spin" "four creepages" "rc-scene --load 1N --estar 1GPa --creep 1e-3,0,1,2 ball.rcg"
 refuses 2 "compares with a uniform body 1" "a rigid body 1" "rc-scene --load 1N --E1 rigid --layer 1um,1GPa,0.3 --E2 rigid ball.rcg"
 refuses 2 "moduli of body 1 are those of --relaxation" "two moduli of body 1" "rc-scene --load 1N --E1 1GPa --nu1 0.3 --E2 rigid --relaxation 1MPa,2MPa:1s ball.rcg"

@@ -34,7 +34,7 @@ commands() {
     done <commands.txt
 }
 everything="--mean-pressure 0.2GPa $all --tangential 0.5N --speed 1m/s --conductivity 45W/mK,45W/mK --diffusivity 12mm2/s,12mm2/s --time 1ms
-    --bending-limit 700MPa --torsion-limit 450MPa --pressure-drop 1MPa --hardness 3GPa --yield 1GPa --thickness 10um --creep 1e-4,0"
+    --bending-limit 700MPa --torsion-limit 450MPa --pressure-drop 1MPa --hardness 3GPa --yield 1GPa --thickness 10um"
 claim "each command of a scene with all effects runs" commands $everything
 claim "  and writes a file with the name of the effect" bash -c 'for effect in wear heat fatigue; do rc-info scene-$effect.rcg >/dev/null || exit 1; done'
 rc-scene --quiet --load 240N --body1 100Cr6 --body2 6061-T6 --mu 0.1 --speed 1m/s ball.rcg >typed.txt

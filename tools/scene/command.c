@@ -13,7 +13,8 @@
  * names of options of rc-scene are taken as they are. */
 static const struct {
     const char *effect, *solve, *program, *options;
-    bool relaxes;  /* --relaxation has the modulus of body 1 */
+    const char *last, *last_options; /* a third program, which reads the output of the second */
+    bool relaxes;                    /* --relaxation has the modulus of body 1 */
     bool together; /* the options of the second program are used if all are given */
     /* Names of the figures in the report of the last program, in the order of enum rc_scene_figure; of two
      * names the larger value counts. */
@@ -52,6 +53,13 @@ static const struct {
      .program = "rc-heat",
      .options = "mu speed conductivity diffusivity moving time",
      .figure = {[RC_SCENE_TEMPERATURE] = "max_temperature"}},
+    {.effect = "heat of rolling",
+     .solve = "",
+     .program = "rc-slip",
+     .options = "mu creep --steady --output pressure,dissipation",
+     .last = "rc-heat",
+     .last_options = "rolling=speed conductivity diffusivity time",
+     .figure = {[RC_SCENE_TEMPERATURE] = "max_temperature"}},
     {.effect = "dissimilar",
      .solve = "--output pressure,gap,height",
      .program = "rc-slip",
@@ -75,10 +83,12 @@ static const char contact_options[] =
     "estar E1 nu1 E2 nu2 radius cylinder periodic datum"; /* of the contact, without its load */
 
 static size_t
-row_of(const char *effect)
+row_of(struct tool *t, const char *effect)
 {
     size_t k = 0;
 
+    if (strcmp(effect, "heat") == 0 && tool_given(t, "creep"))
+        effect = "heat of rolling";
     while (k < sizeof rows / sizeof *rows && strcmp(rows[k].effect, effect) != 0)
         k++;
     return k;
@@ -123,15 +133,19 @@ value_of(struct tool *t, size_t k, char pretty[64])
     return o->type == OPT_NUMBERS && typed != NULL ? typed : tool_result_value(t, k);
 }
 
-/* Adds an option of rc-scene, if it was given, as `--name value`. */
+/* Adds an option of rc-scene, if it was given, as `--name value`; "other=name": as `--other value`. */
 static void
 add_option(struct tool *t, const char *name, const char **word, char (*text)[96], size_t *n)
 {
+    const char *own = strchr(name, '=');
+    const int shown = (int)strcspn(name, "=");
+
+    own = own == NULL ? name : own + 1;
     for (size_t k = 0; k < t->option.n; k++) {
         const struct opt *o = &t->option.row[k];
         char pretty[64];
         const char *value;
-        if (o->name == NULL || strcmp(o->name, name) != 0 || !t->option.given[k] ||
+        if (o->name == NULL || strcmp(o->name, own) != 0 || !t->option.given[k] ||
             *n + 3 >= SCENE_WORDS)
             continue;
         if (o->type == OPT_TEXTS) { /* --layer, once for each */
@@ -148,7 +162,7 @@ add_option(struct tool *t, const char *name, const char **word, char (*text)[96]
         if (o->optional && value[0] != '\0' && strcmp(value, "yes") != 0)
             snprintf(text[*n], sizeof *text, "--%s=%s", name, value);
         else
-            snprintf(text[*n], sizeof *text, "--%s", name);
+            snprintf(text[*n], sizeof *text, "--%.*s", shown, name);
         word[*n] = text[*n];
         ++*n;
         if (o->optional || o->type == OPT_FLAG)
@@ -205,13 +219,13 @@ bool
 scene_command(struct tool *t, const char *effect, const char *const load[2], const char *body,
               const char *with, struct scene_command *c)
 {
-    const size_t k = row_of(effect);
+    const size_t k = row_of(t, effect);
     const bool thin = strcmp(effect, "thin") == 0;
     size_t n = 0;
 
     if (k == sizeof rows / sizeof *rows)
         return false;
-    c->programs = rows[k].program == NULL ? 1 : 2;
+    c->programs = rows[k].program == NULL ? 1 : rows[k].last == NULL ? 2 : 3;
     c->word[0][n++] = "rc-solve";
     c->word[0][n++] = load[0];
     c->word[0][n++] = load[1];
@@ -237,6 +251,12 @@ scene_command(struct tool *t, const char *effect, const char *const load[2], con
     if (!rows[k].together || all_given(t, rows[k].options))
         add_words(t, rows[k].options, false, c->word[1], c->text[1], &n);
     c->word[1][n] = NULL;
+    if (rows[k].last == NULL)
+        return true;
+    n = 0;
+    c->word[2][n++] = rows[k].last;
+    add_words(t, rows[k].last_options, false, c->word[2], c->text[2], &n);
+    c->word[2][n] = NULL;
     return true;
 }
 
@@ -308,11 +328,65 @@ read_report(const char *object, size_t row, bool plan, struct scene_found *found
         json_real(json_member(object, plan ? "expected_convolutions" : "convolutions"));
 }
 
+int
+scene_file(struct tool *t)
+{
+    FILE *file = tmpfile();
+    int own;
+
+    if (file == NULL || (own = dup(fileno(file))) < 0)
+        tool_die(t, "no temporary file can be made: set TMPDIR to a folder with room");
+    fclose(file);
+    return own;
+}
+
+/* Why a program has failed, if this is for the contact, and not for the machine. */
+static void
+find_reason(const struct process *process, const char *program, char why[SCENE_WHY])
+{
+    const char *said = process->said == NULL ? "" : process->said, *of = strstr(said, "): ");
+    const bool about = of != NULL && of < said + strcspn(said, "\n");
+
+    if (about) /* PROGRAM: SOURCE, case 1, frame 2 (NAME): */
+        said = of + 3;
+    else if (strncmp(said, program, strlen(program)) == 0)
+        said += strlen(program) + strspn(said + strlen(program), ": ");
+    if (about || process->status == EXIT_USAGE)
+        snprintf(why, SCENE_WHY, "%s: %.*s", program, (int)strcspn(said, "\n"), said);
+}
+
+/* The output of the second of three programs, the input of the last one; -1 if it fails. */
+static int
+run_second(struct tool *t, const struct scene_command *c, const char *effect, int contact,
+           char why[SCENE_WHY])
+{
+    const char *word[SCENE_WORDS + 2];
+    struct process process = {.in = contact, .out = scene_file(t), .allowed = 1e9, .doing = effect};
+    size_t n = 0;
+    enum process_end end;
+
+    for (; c->word[1][n] != NULL; n++)
+        word[n] = c->word[1][n];
+    word[n++] = "--quiet";
+    word[n] = NULL;
+    end = process_run(t, word, &process);
+    if (end == PROCESS_INTERRUPTED)
+        tool_die(t, "interrupted");
+    if (end != PROCESS_ENDED) {
+        find_reason(&process, c->word[1][0], why);
+        close(process.out);
+        process.out = -1;
+    }
+    free(process.said);
+    return process.out;
+}
+
 bool
 scene_run(struct tool *t, const struct scene_command *c, const char *effect, int in, int contact,
           bool plan, struct scene_found *found, char why[SCENE_WHY])
 {
-    const size_t row = row_of(effect), last = c->programs - 1;
+    const size_t row = row_of(t, effect);
+    const size_t last = plan && c->programs > 2 ? 1 : c->programs - 1; /* rc-slip takes the time */
     bool fine = true;
 
     *found = (struct scene_found){.seconds = NAN, .convolutions = NAN};
@@ -325,6 +399,8 @@ scene_run(struct tool *t, const struct scene_command *c, const char *effect, int
     size_t n = 0;
     enum process_end end;
     const char *object;
+    if (last == 2 && (process.in = run_second(t, c, effect, contact, why)) < 0)
+        return false;
     for (size_t k = 0; c->word[last][k] != NULL; k++)
         word[n++] = c->word[last][k];
     word[n++] = "--quiet";
@@ -334,18 +410,13 @@ scene_run(struct tool *t, const struct scene_command *c, const char *effect, int
         word[n++] = "--dry-run";
     word[n] = NULL;
     end = process_run(t, word, &process);
+    if (last == 2)
+        close(process.in);
     object = last_object(process.said);
     if (end == PROCESS_INTERRUPTED)
         tool_die(t, "interrupted");
     if (end != PROCESS_ENDED || object == NULL) {
-        const char *said = process.said == NULL ? "" : process.said, *of = strstr(said, "): ");
-        const bool about = of != NULL && of < said + strcspn(said, "\n");
-        if (about) /* PROGRAM: SOURCE, case 1, frame 2 (NAME): */
-            said = of + 3;
-        else if (strncmp(said, c->word[last][0], strlen(c->word[last][0])) == 0)
-            said += strlen(c->word[last][0]) + strspn(said + strlen(c->word[last][0]), ": ");
-        if (about || process.status == EXIT_USAGE) /* else the machine failed, not the contact */
-            snprintf(why, SCENE_WHY, "%s: %.*s", c->word[last][0], (int)strcspn(said, "\n"), said);
+        find_reason(&process, c->word[last][0], why);
         fine = false;
     } else {
         read_report(object, row, plan, found);

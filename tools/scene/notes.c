@@ -4,12 +4,13 @@
 
 /* The least thickness of a film under a ball: Hamrock and Dowson 1977 (J. Lubr. Technol. 99, 264), and 1978
  * (J. Lubr. Technol. 100, 236) for soft bodies. One surface slides, so that it carries the fluid with half
- * the speed. Their modulus is 2 E*, and the ball has the ellipticity 1. */
+ * the speed, or both roll and carry it with theirs. The modulus of these papers is 2 E*, and the ball has
+ * the ellipticity 1. */
 static double
 film_of(const struct scene_args *a, const struct scene_notes *n)
 {
     const double modulus = 2 * n->estar, r = n->radius,
-                 u = a->viscosity * fabs(a->speed) / 2 / (modulus * r),
+                 u = a->viscosity * n->entrains / (modulus * r),
                  w = n->contact->load / (modulus * r * r);
 
     return isnan(a->piezo) ? 7.43 * r * pow(u, 0.65) * pow(w, -0.21) * (1 - 0.85 * exp(-0.31))
@@ -51,9 +52,8 @@ scene_notes(struct tool *t, const struct rc_grid *g, const struct scene_args *a,
     }
     if (!isnan(a->expansion) && n->pair->one.e > 0) {
         /* Barber 1969, Proc. R. Soc. A 312, 381: expansion over elastic curvature */
-        const double part = a->mu * fabs(a->speed) * n->estar * a->expansion *
-                            (1 + n->pair->one.nu) / n->conductivity *
-                            sqrt(n->contact->contact_area / acos(-1)) / 2;
+        const double part = a->mu * n->slides * n->estar * a->expansion * (1 + n->pair->one.nu) /
+                            n->conductivity * sqrt(n->contact->contact_area / acos(-1)) / 2;
         if (part > n->within)
             tool_warn(t,
                       "%s: thermal expansion may change the contact: it is %.2g %% of the elastic "

@@ -15,7 +15,7 @@
 enum {
     SCENE_WHY = 320, /* of a message of a tool */
     SCENE_WORDS = 96,
-    SCENE_PROGRAMS = 2
+    SCENE_PROGRAMS = 3
 };
 
 /* Data of the effects, as given; NAN or NULL: not given. */
@@ -37,6 +37,8 @@ struct scene_notes {
     const struct rc_contact *contact;
     const struct rc_pair *pair;
     double estar, radius, conductivity, within;
+    double entrains; /* m/s: mean speed of both surfaces past the contact */
+    double slides;   /* m/s: of one surface over the other                 */
 };
 void scene_notes(struct tool *tool, const struct rc_grid *g, const struct scene_args *args,
                  const struct scene_notes *about);
@@ -64,9 +66,11 @@ struct scene_found {
     double seconds, convolutions;
     bool converged;
 };
-/* Runs the programs: the first one reads `in`. With `plan` they only forecast their work; a second
- * program then reads `contact`, the elastic contact. False when one of them fails, with *why if it
- * refuses the contact. */
+/* A nameless file that is deleted when it is closed. */
+int scene_file(struct tool *tool);
+/* Runs the programs: the first one reads `in`, a second one `contact`, the elastic contact, and a third one
+ * the output of the second. With `plan` the last of the first two only forecasts its work. False when one of
+ * them fails, with *why if it refuses the contact. */
 bool scene_run(struct tool *tool, const struct scene_command *command, const char *effect, int in,
                int contact, bool plan, struct scene_found *found, char why[SCENE_WHY]);
 
