@@ -476,7 +476,7 @@ render_maps(struct tool *t, struct args *a, struct frames *frames)
     struct look look;
     struct figure f;
     struct means means = {false, 0, 0};
-    struct hertz hertz = {.half = 0};
+    struct hertz_contact hertz = {.half = 0};
     char title[256], section[SECTION_TITLE];
 
     if (a->hertz && !profile)

@@ -194,7 +194,7 @@ add_hertz(struct set *s, const struct line *along, bool along_x, double across)
 {
     const struct rc_grid *g = s->grid[0];
     double lo = line_at(along, 0), hi = line_at(along, along->n - 1);
-    struct hertz hertz;
+    struct hertz_contact hertz;
 
     if (s->n > 1 || strcmp(g->channel, "pressure") != 0)
         tool_usage(s->tool, "--hertz with --cut needs a single pressure: leave it out");
@@ -207,7 +207,7 @@ add_hertz(struct set *s, const struct line *along, bool along_x, double across)
         double x = lo + (hi - lo) * (double)k / (SAMPLES - 1);
 
         s->x[1][k] = x;
-        s->y[1][k] = hertz_pressure(&hertz, along_x ? x : across, along_x ? across : x);
+        s->y[1][k] = hertz_pressure_at(&hertz, along_x ? x : across, along_x ? across : x);
     }
 }
 

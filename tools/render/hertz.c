@@ -10,7 +10,7 @@
 /* Warns if the pressure of a map is not about its middle, where Hertz's contact is: the map may be a part of
  * the solved one. */
 static void
-warn_of_centre(struct tool *t, const struct rc_grid *g, const struct hertz *h)
+warn_of_centre(struct tool *t, const struct rc_grid *g, const struct hertz_contact *h)
 {
     const double near = 0.25; /* of the radius */
     double sum = 0, x = 0, y = 0, away;
@@ -59,7 +59,7 @@ radius_of(const char *form, const char *word)
  * period of the axis. */
 static void
 read_strip(struct tool *t, const struct rc_grid *g, const struct law_given *given, double r,
-           struct hertz *h)
+           struct hertz_contact *h)
 {
     const struct rc_boundary repeats = map_boundary(g);
     const char *form = rc_grid_get(g, "form");
@@ -84,7 +84,8 @@ read_strip(struct tool *t, const struct rc_grid *g, const struct law_given *give
 
 /* A sphere of radius R touches a disc, a^3 = 3 F R / (4 E*), p0 = 3 F / (2 pi a^2) (Hertz 1882). */
 static void
-read_circle(struct tool *t, const struct rc_grid *g, const struct law_given *given, struct hertz *h)
+read_circle(struct tool *t, const struct rc_grid *g, const struct law_given *given,
+            struct hertz_contact *h)
 {
     const double estar = modulus_of(g, given);
     const double r =
@@ -102,7 +103,8 @@ read_circle(struct tool *t, const struct rc_grid *g, const struct law_given *giv
 }
 
 void
-hertz_read(struct tool *t, const struct rc_grid *g, const struct law_given *given, struct hertz *h)
+hertz_read(struct tool *t, const struct rc_grid *g, const struct law_given *given,
+           struct hertz_contact *h)
 {
     const char *form = rc_grid_get(g, "form");
     const double cylinder = radius_of(form, "cylinder ");
@@ -124,7 +126,7 @@ hertz_read(struct tool *t, const struct rc_grid *g, const struct law_given *give
 }
 
 double
-hertz_pressure(const struct hertz *h, double x, double y)
+hertz_pressure_at(const struct hertz_contact *h, double x, double y)
 {
     const double r = h->across == 'x' ? x : h->across == 'y' ? y : hypot(x, y);
 

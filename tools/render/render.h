@@ -241,7 +241,7 @@ double law_pressure_density(const struct law_given *given, double mean, double p
 
 /* ---- hertz.c: the contact of a smooth sphere, or of a cylinder whose axis repeats ---- */
 
-struct hertz {
+struct hertz_contact {
     double half, peak; /* radius, or half width of a strip, m; the largest pressure, Pa */
     char across;       /* the axis across a strip, x or y; 0: a circle */
     char text[96];     /* "Hertz, radius 12 µm" */
@@ -249,9 +249,9 @@ struct hertz {
 
 /* From the options or the keys of a whole map; ends the tool if both lack a figure. */
 void hertz_read(struct tool *tool, const struct rc_grid *grid, const struct law_given *given,
-                struct hertz *hertz);
+                struct hertz_contact *hertz);
 /* The pressure in Pa at this distance in m from the origin. */
-double hertz_pressure(const struct hertz *hertz, double x, double y);
+double hertz_pressure_at(const struct hertz_contact *hertz, double x, double y);
 
 /* ---- wording.c: words of a figure as the command line gives them ---- */
 
