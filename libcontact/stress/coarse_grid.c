@@ -309,24 +309,31 @@ expand_row(const struct axis *a, const double *row, double *residue, double *out
     }
 }
 
-/* Adds the waves that the interpolation along an axis misses: `lines` lines of n coarse nodes. */
+/* Adds the waves that the interpolation along an axis misses: `lines` lines of n coarse nodes. The lines of a
+ * part are summed in their order, so that the sum does not depend on the number of threads. */
 static void
 add_missed(const struct axis *a, int threads, const double *u, size_t lines, size_t pitch, size_t n,
            size_t step, double nodes, double *error)
 {
-    double sum = 0;
+    enum {
+        PARTS = 256
+    };
+    double sum[PARTS] = {0}, all = 0;
 
-#pragma omp parallel for num_threads(threads) schedule(static) reduction(+ : sum)
-    for (size_t j = 0; j < lines; j++) {
-        const double *line = u + j * pitch;
-        for (size_t i = 0; i + ORDER < n; i++) {
-            double d = 0;
-            for (size_t k = 0; k <= ORDER; k++)
-                d += a->missed[k] * line[(i + k) * step];
-            sum += fabs(d);
+#pragma omp parallel for num_threads(threads) schedule(static)
+    for (size_t part = 0; part < PARTS; part++)
+        for (size_t j = lines * part / PARTS; j < lines * (part + 1) / PARTS; j++) {
+            const double *line = u + j * pitch;
+            for (size_t i = 0; i + ORDER < n; i++) {
+                double d = 0;
+                for (size_t k = 0; k <= ORDER; k++)
+                    d += a->missed[k] * line[(i + k) * step];
+                sum[part] += fabs(d);
+            }
         }
-    }
-    *error += parts * sum * nodes;
+    for (size_t part = 0; part < PARTS; part++)
+        all += sum[part];
+    *error += parts * all * nodes;
 }
 
 /* Of a wave with the phase w from coarse node to coarse node, interpolation through n nodes misses, in the
