@@ -19,7 +19,7 @@ static const char *const tables[] = {
 #undef RC_FIGURES
 };
 
-/* A frame of some model. */
+/* A frame of some model, or of rc-stress. */
 static bool
 is_frame(const char *name)
 {
@@ -31,6 +31,8 @@ is_frame(const char *name)
     bool is = false;
 
     assert_non_null(name);
+    for (int c = 0; c < RC_STRESSES; c++)
+        is |= strcmp(rc_component_names[c], name) == 0;
     for (size_t k = 0; k < sizeof models / sizeof *models; k++)
         for (const struct rc_frame_kind *f = models[k]->frame; f->name != NULL; f++)
             is |= strcmp(f->name, name) == 0;

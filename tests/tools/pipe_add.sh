@@ -64,14 +64,14 @@ near "$(field max_pressure report.json)" \
 # ---- lays: the example of a honed surface in rc-synth(1) ----
 
 lay='rc-synth selfaffine --hurst 0.8 --rms-height 0.2um --rolloff 20um --anisotropy 10 --nx 256 --dx 1um'
-$lay --direction 30 --seed 1 -o one.rcg
-$lay --direction 30 --seed 2 | tee second.rcg | rc-add one.rcg - -o honed.rcg
-rc-add --subtract honed.rcg one.rcg -o facing.rcg
+$lay --direction 30 --seed 1 -o first-lay.rcg
+$lay --direction 30 --seed 2 | tee second.rcg | rc-add first-lay.rcg - -o honed.rcg
+rc-add --subtract honed.rcg first-lay.rcg -o facing.rcg
 texture() { rc-info --areal --json "$1" >info.json && field "$2" info.json; }
 # Std is the direction of the strongest waves, across the lay
-between 110 "$(texture one.rcg std)" 130 "a lay along 30 degrees"
+between 110 "$(texture first-lay.rcg std)" 130 "a lay along 30 degrees"
 between 50 "$(texture facing.rcg std)" 70 "  is along 150 degrees in the second surface, which is mirrored"
-rc-pick --mirror x second.rcg | rc-add one.rcg - -o parallel.rcg
+rc-pick --mirror x second.rcg | rc-add first-lay.rcg - -o parallel.rcg
 between 110 "$(texture parallel.rcg std)" 130 "  and along 30 degrees where it was mirrored before"
 between 80 "$(texture honed.rcg std)" 100 "  grooves that cross have no single direction"
 
