@@ -125,7 +125,7 @@ def execute(command, data=None, timeout=None, progress=False, folder=None, start
     progress (the share of the case that is done, or None), tool and text. folder: where the command runs.
     started: a function of the process, through which another thread can end it.
     """
-    shown, failures, messages = _progress_of(progress), [], []
+    shown, failures, messages, late = _progress_of(progress), [], [], []
     if timeout is not None and not 0 <= timeout <= threading.TIMEOUT_MAX:
         raise ValueError('timeout=%r: it must be a number of seconds' % (timeout,))
     try:
@@ -143,11 +143,16 @@ def execute(command, data=None, timeout=None, progress=False, folder=None, start
             failures.append(e)
             _end(child)
 
+    def expire():
+        if child.poll() is None:
+            late.append('%s: stopped after timeout=%g s' % (command[0], timeout))
+            child.terminate()
+
     threads = [threading.Thread(target=failing, args=(_listen, child.stderr, messages, shown), daemon=True)]
     if data is not None:
         threads.append(threading.Thread(target=failing, args=(_feed, child.stdin, data), daemon=True))
     if timeout is not None:
-        threads.append(threading.Timer(timeout, child.terminate))
+        threads.append(threading.Timer(timeout, expire))
     limit = None
     try:
         if started is not None:
@@ -175,6 +180,8 @@ def execute(command, data=None, timeout=None, progress=False, folder=None, start
     if failures:
         raise failures[0]
     words = b''.join(messages).decode('utf-8', 'replace').strip()
+    if late and child.returncode not in (0, 3):
+        words = late[0]  # what the tool says of its signal tells less
     if child.returncode < 0 and not words:
         words = '%s: ended by signal %d' % (command[0], -child.returncode)
     return child.returncode, output, words

@@ -111,6 +111,7 @@ else
 fi
 claim "progress can go to a function or to a line" check progress
 claim "Ctrl-C ends a call and its tool, whatever the tool does" check interrupts
+claim "a tool that timeout= stops says so" check timeouts
 claim "arrays, keys and options that no tool can take raise an exception with a reason; all others arrive unchanged" check hostile
 claim "results, frames, errors and warnings can be pickled and copied" check pickles ball.rcg
 claim "a pool of processes gives the results of one process" check pool 6

@@ -744,6 +744,17 @@ def interrupts():
         assert not children(), (name, children())
 
 
+def timeouts():
+    """A tool that its time stops is said to have stopped for it; one that fails before keeps its own message."""
+    rough = rcg.synth('selfaffine', nx=512, dx='1um', hurst=0.8, rms_slope=0.1)
+    wanted = dict(load='1N:60N:300', estar='100GPa', tol=1e-9, timeout=0.5)
+    error = timed(20, lambda: rcg.solve(rough, **wanted))
+    assert type(error) is rcg.Error and str(error) == 'rc-solve: stopped after timeout=0.5 s' and error.status == -15, repr(error)
+    assert not children(), children()
+    error = raised(rcg.Error, rcg.solve, rough, **dict(wanted, estar='1K', timeout=60))
+    assert 'unknown unit' in str(error) and error.status == 2, error
+
+
 def hostile():
     """What cannot be sent to a tool raises an exception with a reason before the tool runs, and what can arrives unchanged."""
     a = numpy.arange(12.0).reshape(3, 4) * 1e-9
