@@ -561,11 +561,15 @@ class Result:
         import html
         head, rows = self._summary()
         cells = ''.join('<tr><td>%s</td><td>%s</td></tr>' % tuple(map(html.escape, row)) for row in rows)
+        numbers = sorted(set(map(_case, self.frames)))
+        first = [f for f in self.frames if _case(f) == numbers[0]]
         try:
             picture = '<img alt="map" src="data:image/png;base64,%s">' % base64.b64encode(
-                draw(self, width=480)).decode() if self.frames else ''
+                draw(first, width=480, quiet=True)).decode() if first else ''
         except Error as e:  # a result without a map that can be drawn is still a table
             picture = html.escape(str(e))
+        if len(numbers) > 1:
+            picture += '<p>case %d of %s</p>' % (numbers[0], ', '.join(map(str, numbers)) if numbers[0] > 1 else len(numbers))
         return '<p><b>%s</b></p>%s<table>%s</table>' % (html.escape(head), picture, cells)
 
     def to_xarray(self):

@@ -2,6 +2,7 @@
 """The checks of pipe_python.sh for the package rcg, one function each: python_rcg.py. For each line of its input it runs
 the check whose name and arguments are in the file asked, each with a zero byte behind it, in a process of its own. The
 outputs of the check go to said.out and said.err, and its exit status is printed. So numpy is loaded once."""
+import base64
 import concurrent.futures
 import copy
 import functools
@@ -475,7 +476,13 @@ def pictures(name):
     assert rcg.render(result, channel='pressure')._repr_png_()[1:4] == b'PNG'
     rcg.render(result, 'curve.svg', curve='load:contact_area')
     assert b'<svg' in content('curve.svg')
-    assert 'data:image/png' in result._repr_html_() and 'contact_area' in repr(result.cases[0])
+    with warnings.catch_warnings():
+        warnings.simplefilter('error')  # the page of a notebook, which shows the first case and says so
+        shown = result._repr_html_()
+        assert 'case' not in result.cases[0]._repr_html_().split('<table>')[0].split('</b>')[1]
+        assert '<p>case 2 of 2, 3</p>' in rcg.Result('rc-solve', [], frames=[f for f in result if f.keys.get('case') in '23'])._repr_html_()
+    picture = bytes(rcg.render(result.cases[0], width=480))
+    assert '<p>case 1 of 3</p>' in shown and base64.b64encode(picture).decode() in shown and 'contact_area' in repr(result.cases[0])
     rcg.export(result, 'pressure.npy', channel='pressure', case=1)
     assert (numpy.load('pressure.npy') == result.cases[0].pressure).all()
 
