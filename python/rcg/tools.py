@@ -519,9 +519,10 @@ class Result:
     def __getattr__(self, name):
         if name.startswith('_'):
             raise AttributeError(name)
-        maps = [f.values for f in self.frames if f.channel == name or python_name(f.channel) == name]
+        maps = [f for f in self.frames if f.channel == name or python_name(f.channel) == name]
         if maps:
-            return maps[0] if len(maps) == 1 else numpy.stack(maps)
+            _alike(maps)
+            return maps[0].values if len(maps) == 1 else numpy.stack([f.values for f in maps])
         report = self.report
         if name in report:
             return report[name]
@@ -543,9 +544,9 @@ class Result:
         rows = []
         for channel in self.channels:
             all_of = [f for f in self.frames if f.channel == channel]
-            f = all_of[0]
-            rows.append((channel, '%s%d x %d, %.4g to %.4g %s' % (
-                '%d of ' % len(all_of) if len(all_of) > 1 else '', f.values.shape[1], f.values.shape[0],
+            f, sizes = all_of[0], _sizes(all_of)
+            rows.append((channel, '%s%s%s, %.4g to %.4g %s' % (
+                '%d of ' % len(all_of) if len(all_of) > 1 else '', 'the sizes ' * (len(sizes) > 1), _some(sizes),
                 min(numpy.nanmin(g.values) for g in all_of), max(numpy.nanmax(g.values) for g in all_of), f.unit)))
         if len(self.lines) == 1:
             rows += [(name, '%.4g' % self.lines[0][name]) for name in SHOWN_FIGURES
@@ -587,6 +588,7 @@ class Result:
             cases = sorted({case for case, _ in found})
             depths = sorted({depth for _, depth in found if depth == depth})
             f = next(iter(found.values()))
+            _alike(found.values(), spacings=True)
             ny, nx = f.values.shape
             cube = numpy.full((len(cases), max(1, len(depths)), ny, nx), numpy.nan, f.values.dtype)
             for (case, depth), one in found.items():
@@ -643,6 +645,22 @@ AXES = ('load', 'mean_pressure', 'approach', 'time', 'distance', 'position', 'cr
 
 def _case(f):
     return int(f.keys.get('case', '1'))
+
+
+def _sizes(frames):
+    return list(dict.fromkeys('%d x %d' % f.values.shape[::-1] for f in frames))
+
+
+def _some(texts):
+    return ', '.join(texts[:3]) + ', ...' * (len(texts) > 3)
+
+
+def _alike(frames, spacings=False):
+    """Refuses frames that make no common array, or with `spacings` have no common positions."""
+    steps = dict.fromkeys('%.6g x %.6g %s' % (f.dx, f.dy, f.dunit) for f in frames) if spacings else ()
+    for what, found in (('size', _sizes(frames)), ('spacing', list(steps))):
+        if len(found) > 1:
+            raise Error('cases differ in %s (%s): use result.cases' % (what, _some(found)))
 
 
 def _column(values):

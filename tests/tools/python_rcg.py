@@ -414,6 +414,17 @@ def files(name, scan):
     assert [case.channels[0] for case in mixed.cases] == ['pressure', 'pressure', 'height']
     assert solved.units['pressure'] == 'Pa' and solved.units['contact_area'] == 'm2'
     assert 'empty' in str(raised(ValueError, rcg.open, []))
+    # maps of several sizes
+    sizes = [(9, 7), (8, 6), (9, 7), (5, 5), (4, 4)]
+    for k, (nx, ny) in enumerate(sizes):
+        rcg.write('size-%d.rcg' % k, rcg.frame('height', numpy.full((ny, nx), float(k)), 1e-6))
+    scans = ['size-%d.rcg' % k for k in range(5)]
+    two, all_ = rcg.open(scans[:2]), rcg.open(scans)
+    assert '  2 of the sizes 9 x 7, 8 x 6, 0 to 1 m>' in repr(two), two
+    assert '  5 of the sizes 9 x 7, 8 x 6, 5 x 5, ..., 0 to 4 m>' in repr(all_), all_
+    error = raised(rcg.Error, lambda: two.height)
+    assert str(error) == 'cases differ in size (9 x 7, 8 x 6): use result.cases', error
+    assert [case.height.shape[::-1] for case in all_.cases] == sizes and '2 of 9 x 7, ' in repr(rcg.open(scans[:3:2]))
 
 
 def named_materials():
@@ -662,6 +673,11 @@ def data_sets(name):
     assert numpy.allclose(cube['load'], [0.5, 1], rtol=1e-9) and cube['load'].attrs['units'] == 'N' and 'mean_pressure' in cube.coords
     assert cube.swap_dims(case='load').pressure.sel(load=1, method='nearest').shape == ball.height.shape
     assert 'load' not in one.coords
+    for other, words in ((rcg.pick(ball, crop='0,0,30,47'), 'size (33 x 47, 30 x 47)'),
+                         (rcg.frame('height', ball.height, '1um'), 'spacing (1.1e-06 x 1.29e-06 m, 1e-06 x 1e-06 m)')):
+        rcg.write('other.rcg', other)
+        error = raised(rcg.Error, rcg.open([name, 'other.rcg']).to_xarray)
+        assert str(error) == 'cases differ in %s: use result.cases' % words, error
     for dx in ('1.1um', (1.1, 'um'), 1.1e-6, ('1.1um', '0.0011mm'), '1.1e-6'):
         assert rcg.stream.steps(dx) == (1.1e-6, 1.1e-6), dx
     for dx in ('1.1', (1.1, 'um', 3), '1.1ium', 'um', ''):
