@@ -577,7 +577,8 @@ class Result:
         """A Dataset with a variable a channel; dimensions case and depth where there are several.
 
         x and y begin in the middle of the map, as on pictures. Several cases have their load, time or another figure
-        that the command gave as a coordinate too: result.to_xarray().swap_dims(case='load').
+        that the command gave as a coordinate too; swap_dims makes it the index:
+        result.to_xarray().swap_dims(case='load').sel(load=20).
         """
         import xarray
         parts = {}
@@ -611,7 +612,9 @@ class Result:
         units = self._units()
         found = {}
         for name in AXES:
-            values = [numbers.get(case, {}).get(name) for case in cases]
+            lines = [numbers.get(case, {}) for case in cases]
+            asked = [line.get('asked_' + name) for line in lines]  # without rounding: sel() compares exactly
+            values = [line.get(name) for line in lines] if None in asked else asked
             if None not in values and len(set(values)) > 1:
                 found[name] = ('case', values, {'units': units[name]} if units.get(name) else {})
         return found

@@ -671,7 +671,11 @@ def data_sets(name):
     assert (rcg.pick(table_of(height), dx=1e-6, crop='0,0,33,47').height == ball.height).all()
     assert abs(float(cube.x.mean())) < 1e-12 and abs(float(cube.y[0]) + (ball.height.shape[0] - 1) / 2 * ball.dy) < 1e-12
     assert numpy.allclose(cube['load'], [0.5, 1], rtol=1e-9) and cube['load'].attrs['units'] == 'N' and 'mean_pressure' in cube.coords
-    assert cube.swap_dims(case='load').pressure.sel(load=1, method='nearest').shape == ball.height.shape
+    listed = [0.3, 0.7, 1, 2]  # whose computed loads differ by rounding
+    several = rcg.solve(ball, load=listed, estar='114GPa', quiet=True)
+    assert list(several.to_xarray()['load']) == listed != list(several.load)
+    for load, case in zip(listed, several.cases):
+        assert (several.to_xarray().swap_dims(case='load').pressure.sel(load=load).values == case.pressure).all()
     assert 'load' not in one.coords
     for other, words in ((rcg.pick(ball, crop='0,0,30,47'), 'size (33 x 47, 30 x 47)'),
                          (rcg.frame('height', ball.height, '1um'), 'spacing (1.1e-06 x 1.29e-06 m, 1e-06 x 1e-06 m)')):
