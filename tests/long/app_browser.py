@@ -122,6 +122,37 @@ def by_keyboard(page):
         file.write('\n'.join(page.locator('#steps .command code').all_text_contents()) + '\n')
 
 
+def sections(page):
+    """The stresses have depths that follow from the pressure; the map shows uneven depths where they are."""
+    page.check('#views input[value=Map]', force=True)
+    command = page.text_content('details:has(> summary code:text("rc-stress")) .command code')
+    ok('the depths of the stresses follow from the pressure', '--section y=0 --depths auto ' in command, command)
+    name = next(name for name in page.locator('#channel option').all_text_contents() if name.startswith('mises'))
+    page.select_option('#channel', label=name)
+    shown(page, 'Map mises')
+    page.focus('#map')
+    page.keyboard.press('0')
+    page.keyboard.press('ArrowUp')
+    page.keyboard.press('ArrowDown')
+    depths = page.evaluate('() => frame.depths.split(",").map(Number)')
+    read = re.match('x .*m, depth ([0-9.]+) µm: [0-9.]+ [kM]?Pa$', page.inner_text('#at'))
+    ok('  half way down the picture is half of the depth', read and abs(float(read[1]) * 2e-6 / depths[-1] - 1) < 0.02, page.inner_text('#at'))
+    steps = [b - a for a, b in zip(depths, depths[1:])]
+    ok('  the depths are uneven', max(steps) > 10 * min(steps), '%g to %g' % (min(steps), max(steps)))
+    ok('  a section is not cropped', not page.is_visible('#crop'))
+    picture(page, 'section')
+    # values that are linear in the depth stay so
+    off = page.evaluate('''() => {
+        const depths = [1e-6, 1.5e-6, 3e-6, 3.0000000000001e-6, 9e-6], values = depths.flatMap(z => [2 * z + 1e-6, 5e-6 - z]);
+        const {ny, dy, top, values: made} = evenly({section: 'y', nx: 2, ny: 5, depths: depths.join()}, values);
+        const wrong = (r, c) => made[2 * r + c] - [2 * (top + r * dy) + 1e-6, 5e-6 - top - r * dy][c];
+        return [ny, top + (ny - 1) * dy, Math.max(...Array.from({length: 2 * ny}, (_, k) => Math.abs(wrong(k >> 1, k & 1))))];
+    }''')
+    ok('  rows between the depths are linear', off[0] == 1024 and abs(off[1] - 9e-6) < 1e-18 and off[2] < 1e-17, str(off))
+    even = page.evaluate('''() => evenly({section: 'y', nx: 1, ny: 3, depths: '0,1e-06,2e-06'}, [3, 7, 1]).values.join()''')
+    ok('  even depths keep their values', even == '3,7,1', even)
+
+
 def words(page):
     """The forms have words, materials and no indenter; a spike does not take the colours."""
     labels = page.locator('#steps .option label').all_text_contents()
@@ -344,7 +375,7 @@ def large(page):
 with sync_playwright() as playwright:
     wide = Browser(playwright)
     page = wide.open()
-    for check in (by_keyboard, words, errors, effects, accuracy, remove, crop, spikes, compare, large):
+    for check in (by_keyboard, sections, words, errors, effects, accuracy, remove, crop, spikes, compare, large):
         try:
             check(page)
         except Exception as e:

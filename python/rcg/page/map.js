@@ -41,6 +41,23 @@ function clipped(values, low, high) {
   return part(0.995) - part(0.005) < (high - low) / 2 && part(0.995) > part(0.005) ? [part(0.005), part(0.995)] : [low, high];
 }
 
+// A section with rows of even depths, at most 1024 or one in the smallest step; between two rows it is linear.
+function evenly(section, values) {
+  const {nx, ny} = section, depths = section.depths.split(',').map(Number), top = depths[0], all = depths.at(-1) - top;
+  const least = Math.min(...depths.slice(1).map((depth, k) => depth - depths[k]).filter(step => step > 0));
+  const rows = ny > 1 ? Math.min(Math.round(all / least) + 1, 1024) : 1, dy = rows > 1 ? all / (rows - 1) : section.dy;
+  const made = new Float64Array(rows * nx);
+  for (let r = 0, k = 0; r < rows; r++) {
+    while (k + 2 < ny && depths[k + 1] <= top + r * dy) k++;
+    const part = rows > 1 ? Math.min((top + r * dy - depths[k]) / (depths[k + 1] - depths[k]), 1) : 0;
+    for (let c = 0; c < nx; c++) {
+      const above = values[k * nx + c];
+      made[r * nx + c] = part > 0 ? (1 - part) * above + part * values[(k + 1) * nx + c] : above;
+    }
+  }
+  return {...section, ny: rows, dy, top, values: made};
+}
+
 function extremes(values) {
   let low = Infinity, high = -Infinity;
   for (const v of values) {
@@ -127,11 +144,12 @@ class MapView {
   }
   read() {
     if (!this.frame) return;
-    const {nx, ny, dx, dy, unit, dunit, values} = this.frame;
+    const {nx, ny, dx, dy, unit, dunit, values, section, top} = this.frame;
     const [c, r] = this.node(...(this.pointer ?? this.room().middle)).map(Math.floor);
-    const [x, y] = [(c - (nx - 1) / 2) * dx, (r - (ny - 1) / 2) * dy].map(place => shown(place, dunit));
-    const inside = c >= 0 && r >= 0 && c < nx && r < ny;
-    this.tell(inside ? `x ${x}, y ${y}: ${shown(values[r * nx + c], unit)}` : '');
+    const down = section ? top + r * dy : (r - (ny - 1) / 2) * dy;
+    const [across, below] = [(c - (nx - 1) / 2) * dx, down].map(place => shown(place, dunit));
+    const inside = c >= 0 && r >= 0 && c < nx && r < ny, names = {x: ['y', 'depth'], y: ['x', 'depth']}[section] ?? ['x', 'y'];
+    this.tell(inside ? `${names[0]} ${across}, ${names[1]} ${below}: ${shown(values[r * nx + c], unit)}` : '');
   }
   draw() {
     const {canvas, frame, low, high, table} = this, dense = devicePixelRatio, began = performance.now();

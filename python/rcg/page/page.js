@@ -9,7 +9,7 @@ const STEPS = {
   pick: ['Crop, resample, turn'],
   detrend: ['Level and filter', {poly: '2', spikes: '5', fill: true}],
   solve: ['Press', {load: '1N', body1: 'steel', body2: 'steel', hardness: '6GPa'}],
-  stress: ['Stresses below', {section: 'y=0', depths: '0:40um:41'}],
+  stress: ['Stresses below', {section: 'y=0', depths: 'auto'}],
   slip: ['Friction', {mu: '0.3', tangential: '0.1N'}],
   wear: ['Wear', {coefficient: '1e-7mm3/Nm', distance: '1m'}],
   heat: ['Flash temperatures', {mu: '0.3', speed: '1m/s', body1: 'steel', body2: 'steel'}],
@@ -323,11 +323,12 @@ async function spiky(f) {
 }
 async function showMap(f, valid) {
   const {channel, unit} = f, size = `${f.nx} × ${f.ny} nodes`, keep = keeps(channel);
+  $('crop').hidden = Boolean(f.section); // it is not a part of the scan
   if (f.nx * f.ny > 1 << 25)
     throw new Error(`The map has ${size}, the page draws at most 33 million: choose Figure, or resample it.`);
   const values = await valuesOf(f);
   if (!valid()) return;
-  await map.show({...f, values}, keep, async (low, high) => {
+  await map.show(f.section ? evenly(f, values) : {...f, values}, keep, async (low, high) => {
     const answer = await ask('colours', {channel, unit, low, high});
     const g = make('canvas', {width: 257, height: 1}).getContext('2d');
     g.drawImage(await createImageBitmap(await answer.blob()), 0, 0);
