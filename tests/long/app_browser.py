@@ -106,7 +106,10 @@ def by_keyboard(page):
         if view == 'Curves':
             ok('  one load is a value, no curve', 'contact area' in page.inner_text('#numbers') and not page.is_visible('#picture'), page.inner_text('#numbers'))
     numbers = page.inner_text('#numbers')
-    ok('  numbers have units', re.search(r'contact_area\t[0-9]{1,4}(\.[0-9]+)? µm²', numbers), numbers[:60].replace('\n', ' '))
+    ok('  numbers have titles and units', re.search(r'Contact area\t[0-9]{1,4}(\.[0-9]+)? µm²', numbers), numbers[:60].replace('\n', ' '))
+    raw = page.locator('#numbers th').evaluate_all('all => all.map(th => th.firstChild.textContent).filter(text => /_|^[a-z]/.test(text))')
+    ok('  no title is the name of a key', not raw, ', '.join(raw))
+    ok('  the list of all figures has the names for curves', 'contact_area' in page.locator('#numbers details th code').all_text_contents())
     ok('  the first table is short', page.locator('#numbers > table tr').count() <= 10 and 'figures of the report' in numbers)
     page.focus('#views input:checked')
     page.keyboard.press('ArrowRight')

@@ -41,6 +41,14 @@ const TITLES = {
   'rc-detrend cylinder': 'Remove cylinder', 'rc-add spikes': 'Remove spikes of both scans above',
   psd: 'Power spectrum', areal: 'Areal parameters', output: 'Frames to write', mean: 'Mean',
 };
+// Titles of figures beside those of the tables.
+const FIGURES = {
+  shift_x: 'Shift along x', shift_y: 'Shift along y', shift_error: 'Uncertainty of the shift (95 %)',
+  rotation_error: 'Uncertainty of the rotation (95 %)', tilt_x: 'Tilt along x', tilt_y: 'Tilt along y',
+  residual: 'Residual of the unchanged part', volume: 'Volume of the change',
+  volume_error: 'Uncertainty of the volume (95 %)', overlap: 'Part that overlaps', changed: 'Part that has changed',
+  missing: 'Part that is missing', nx: 'Nodes along x', ny: 'Nodes along y', dx: 'Spacing along x', dy: 'Spacing along y',
+};
 // What the page says of the states of steps and of runs.
 const STATES = {running: 'running', short: 'accuracy not reached', failed: 'failed', stopped: 'cancelled'};
 const WORDS = {waiting: 'Waiting for other runs …', done: 'Done.', stopped: 'Cancelled.',
@@ -96,6 +104,8 @@ const clash = (rows, a, b) => a !== b && rows.some(row => row.name === a && excl
 // Words for people: the title of an option, and its help with the words that it takes.
 const named = (name, tool) => TITLES[`${tool} ${name}`] ?? TITLES[name] ??
   name[0].toUpperCase() + name.slice(1).replaceAll('-', ' ');
+const figured = (name, tool) => tables[tool]?.figures.find(row => row.name === name)?.title ?? FIGURES[name] ??
+  name[0].toUpperCase() + name.slice(1).replaceAll('_', ' ');
 // A message of a tool names options as a shell has them: the form has titles.
 const spoken = (words, tool) => words.replace(/--([a-zA-Z][a-zA-Z0-9-]*)/g, (whole, name) =>
   (tables[tool]?.options.some(row => row.name === name) ? `“${named(name, tool)}” (${whole})` : whole));
@@ -386,7 +396,7 @@ async function showMade(f, valid) {
   $('picture').hidden = !$('numbers').hidden;
   $('look').firstChild.replaceWith(command(header('X-Command')));
   $('at').textContent = header('X-Words');
-  if (numbers) return showNumbers(lines, text);
+  if (numbers) return showNumbers(lines, text, one);
   if (!$('numbers').hidden) return showPoint(...lines, curve.split(/[:,]/));
   URL.revokeObjectURL($('picture').src);
   Object.assign($('picture'), {src: URL.createObjectURL(blob), alt: `${view} of ${f.channel}`});
@@ -413,18 +423,20 @@ function sliders(f, option, redo) {
 const FIRST = ['load', 'mean_pressure', 'contact_area', 'contact_fraction', 'max_pressure', 'approach', 'mean_gap',
   'nodes_per_patch', 'pressure_error_estimate', 'converged', 'volume', 'volume_error', 'shift_x', 'shift_y', 'rotation',
   'residual', 'overlap', 'changed'];
-// A report has a column for each figure, the page a line. Curves take the same names.
-function showNumbers([heads, ...rows], textContent) {
+// A report has a column for each figure, the page a line. Curves take the names in the list of all figures.
+function showNumbers([heads, ...rows], textContent, {tool}) {
   const lines = heads.map((head, k) => [head.split('/'), rows.map(row => row[k])]);
   const known = lines.filter(([, values]) => values.some(value => value !== '' && value !== 'NaN'));
   const first = known.filter(([[name]]) => FIRST.includes(name)), all = make('details', {});
-  all.append(make('summary', {textContent: `All ${known.length} figures of the report`}), numberTable(known));
-  $('numbers').replaceChildren(...(first.length ? [numberTable(first), all] : [numberTable(known)]),
+  const table = (some, code) => numberTable(some, name =>
+    [figured(name, tool), ...(code ? [' ', make('code', {textContent: name})] : [])]);
+  all.append(make('summary', {textContent: `All ${known.length} figures of the report`}), table(known, true));
+  $('numbers').replaceChildren(...(first.length ? [table(first, false), all] : [table(known, true)]),
     make('pre', {textContent}));
 }
 const valued = (value, unit) => (value === '' || isNaN(value) ? value : shown(+value, unit.join('/') || '1', 4));
-function numberTable(lines) {
-  return make('table', {}, ...lines.map(([[name, ...unit], values]) => make('tr', {}, make('th', {textContent: name}),
+function numberTable(lines, head) {
+  return make('table', {}, ...lines.map(([[name, ...unit], values]) => make('tr', {}, make('th', {}, ...head(name)),
     ...values.map(value => make('td', {textContent: valued(value, unit)})))));
 }
 // One load has no curve: the value of each column, in words.
