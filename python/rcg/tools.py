@@ -67,7 +67,7 @@ def place(tool):
     if os.sep in tool or not tool.startswith('rc-'):
         return tool
     if 'RC_BIN' in os.environ:
-        return os.path.join(os.environ['RC_BIN'], tool)
+        return os.path.abspath(os.path.join(os.environ['RC_BIN'], tool))  # tools may run in another folder
     if not _found:
         _found.update(_installed())
     return _found.get(tool, tool)

@@ -38,6 +38,12 @@ refuses 2 'unrecognized arguments: --token' "an unknown option" "'$python' -m rc
 refuses 1 'rc-app: none.x3p: No such file' "a missing file" "'$python' -m rcg.app --no-browser none.x3p"
 refuses 1 'rc-app: rc-solve: not found' "missing tools" "RC_BIN=/nowhere '$python' -m rcg.app --no-browser"
 refuses 1 'rc-app: --port 70000: ' "an impossible port" "'$python' -m rcg.app --no-browser --port 70000"
+# The file is missing, so that it ends: it has found its tools and its package before.
+clone=$(sed -n 's,^    \(RC_BIN=build/tools .* python3 -m rcg.app scan.x3p\)$,\1,p' "$RC_SOURCE/README.md")
+refuses 1 'rc-app: scan.x3p: No such file' "README starts it in a clone" "env -u PYTHONPATH -u RC_BIN bash -c 'cd \"$RC_SOURCE\" && $(
+    sed "s,build/tools,\"$RC_BIN\",; s,python3,\"$python\",; s,app,& --no-browser," <<<"$clone")'"
+claim "  the tools that a relative RC_BIN names run in other folders" says '^rc-info ' env "RC_BIN=$(basename "$RC_BIN")" \
+    bash -c 'cd "$1/.." && "$0" -c "from rcg import tools; print(tools.execute([\"rc-info\", \"--version\"], folder=\"/\")[1].decode())"' "$python" "$RC_BIN"
 claim "  no temporary folder is left" bash -c '[ -z "$(ls "$TMPDIR")" ]'
 
 # ---- the page ----
