@@ -49,6 +49,10 @@ SECOND = {'name': 'second', 'argument': 'FILE', 'result': True,
           'help': 'the scan to compare with, a file on this page, read with the options of the first step'}
 SPIKES = {'name': 'spikes', 'argument': 'T', 'result': True,
           'help': 'first drop spikes of both scans that stand alone by T deviations, with rc-detrend --spikes'}
+WHEN = {'name': 'measured', 'argument': 'WHEN', 'result': True, 'type': 'choice', 'only_words': True,
+        'words': ['after', 'before'],
+        'help': 'whether the second scan is from after or before the first one; the change is the later one less the '
+                'earlier one'}
 MAKERS = ('rc-render', 'rc-info', 'rc-export', 'rc-report', 'rc-scene', 'rc-cost')
 OF_SURFACE = ('rc-report', 'rc-scene', 'rc-cost')  # about the surface that is pressed
 REPORTS = ('rc-scene', 'rc-cost')  # their report is the result
@@ -80,7 +84,7 @@ def tables():
             report = any(o['name'] == 'report' for o in row['options'])
             if name == 'rc-add':  # its operand B
                 plain = {key: type(value)() for key, value in options[0].items()}
-                options[:0] = [dict(plain, **SECOND), dict(plain, **SPIKES)]
+                options[:0] = [dict(plain, **row) for row in (SECOND, WHEN, SPIKES)]
             found[name] = dict(row, options=options, step=step, report=step and report)
     return found
 
@@ -134,9 +138,13 @@ class Step:
         stem = '%d-%s' % (number, tool[3:])
         self.tool, self.output = tool, stem + '.rcg'
         sources, self.before = [source], []  # before: the commands that prepare the scans of a comparison
+        self.later = None  # the scan from which the other one is subtracted, 'first' or 'second'
         if tool == 'rc-add':
             second, spikes = self.second(options, files), [option for option in options if option[0] == 'spikes']
-            options = [option for option in options if option[0] not in ('second', 'spikes')]
+            words_of(tool, [option for option in options if option[0] == 'measured'], files)
+            if ['subtract', True] in options:
+                self.later = 'first' if ['measured', 'before'] in options else 'second'
+            options = [option for option in options if option[0] not in ('second', 'measured', 'spikes')]
             read = '%d-second.rcg' % number
             sources.append(second['shown'] if second['stream'] else read)
             if not second['stream']:
@@ -145,6 +153,8 @@ class Step:
                 clean = '%d-%s-clean.rcg' % (number, name)
                 self.before.append(['rc-detrend'] + words_of('rc-detrend', spikes, files) + ['-o', clean, sources[k]])
                 sources[k] = clean
+            if self.later == 'second':
+                sources.reverse()
         reports = tables()[tool]['report'] and (tool != 'rc-add' or any(name == 'align' for name, _ in options))
         self.report = stem + '.tsv' if reports else None
         report = ['--report', self.report] if self.report else []

@@ -168,18 +168,25 @@ def words(page):
 
 def compare(page):
     """A second scan: its difference is shown, with the volume first; Curves says what it needs; the form of the cylinder."""
-    page.set_input_files('#file', place('worn.x3p'))
-    page.wait_for_selector('#source:has-text("worn.x3p")')
+    page.set_input_files('#file', place('new.x3p'))
+    page.wait_for_selector('#source:has-text("new.x3p")')
     page.check('#views input[value=Map]', force=True)
     shown(page, 'Map height')
     page.select_option('#add', value='rc-add')
-    page.locator('[data-name=second] input[type=file]').set_input_files(place('new.x3p'))
-    page.wait_for_selector('#said:has-text("new.x3p is on this page now")')
+    page.locator('[data-name=second] input[type=file]').set_input_files(place('worn.x3p'))
+    page.wait_for_selector('#said:has-text("worn.x3p is on this page now")')
+    when = page.locator('[data-name=measured] select')
+    ok('the second scan was measured after the first one',
+       when.input_value() == 'after' and when.locator('option').all_text_contents() == ['after', 'before'])
     page.keyboard.press('Control+Enter')
     page.wait_for_selector('body[data-run$=done]', state='attached')
     page.wait_for_selector('#channel option:has-text("rc-add")', state='attached')
     page.wait_for_timeout(2000)
-    ok('the result of an added step is shown', page.locator('#channel option:checked').inner_text() == 'height, after rc-add')
+    ok('the result of an added step is shown', page.locator('#channel option:checked').inner_text() == 'change of height (second scan less first), after rc-add')
+    ok('  1 µm of wear is a change of −1 µm', abs(page.evaluate('''async () => {
+        const values = (await valuesOf(frame)).filter(v => v === v).sort();
+        return values[Math.floor(values.length / 50)];
+    }''') + 1e-6) < 2e-7, page.inner_text('#at'))
     page.check('#views input[value=Figure]', force=True)
     shown(page, 'Figure height')
     ok('  a spike does not take the colours of its figure', '--clip' in page.inner_text('#look .command code'), page.inner_text('#look .command code'))
@@ -191,7 +198,11 @@ def compare(page):
     page.check('#views input[value=Numbers]', force=True)
     page.wait_for_selector('#numbers table')
     first = page.locator('#numbers > table th').all_text_contents()
-    ok('  the volume is among the first numbers', 'volume' in first and len(first) <= 10, ', '.join(first))
+    said = page.inner_text('#numbers .hint')
+    removed = re.match('The change is the second scan less first: below 0 material was removed. Removed on balance: ([0-9]+) µm³ ± ', said)
+    ok('  the removed volume is that of the groove less that of the spike', removed and abs(float(removed[1]) - (1200 - 100)) < 1, said)
+    picture(page, 'compare-numbers')
+    ok('  the volume is among the first numbers', 'Volume of the change' in first and len(first) <= 10, ', '.join(first))
     page.select_option('select[aria-label="Add an option of rc-detrend"]', value='cylinder')
     labels = page.locator('#steps .option label').all_text_contents()
     ok('rc-detrend removes a cylinder', 'Remove cylinder' in labels and 'Roller of radius' not in labels, ', '.join(labels))

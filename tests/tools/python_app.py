@@ -305,42 +305,51 @@ def compare():
     for name, values in (('new', whole[30:190, 30:190]), ('worn', whole[33:193, 25:185] - scar + 4e-6)):
         rcg.export(rcg.frame('height', values, '1um'), 'scans/%s.x3p' % name)
     new, worn = uploaded('scans/new.x3p'), uploaded('scans/worn.x3p')
-    given = [['second', 'new.x3p'], ['subtract', True], ['align', True]]
+    given = [['second', 'worn.x3p'], ['measured', 'after'], ['subtract', True], ['align', True]]
     contact = [['load', '0.1N'], ['body1', 'steel'], ['body2', 'steel']]
     asked = steps(('rc-import', []), ('rc-detrend', LEVEL), ('rc-solve', contact)) + [{'tool': 'rc-add', 'options': given, 'from': 1}]
-    run = ended(found('steps', body={'file': worn, 'steps': asked, 'start': True})['run'])
+    run = ended(found('steps', body={'file': new, 'steps': asked, 'start': True})['run'])
     assert run['state'] == 'done', run
     command = run['steps'][3]['command']
-    assert command == ('rc-import -o 4-second.rcg new.x3p && '
-                       'rc-add --subtract --align --report 4-add.tsv -o 4-add.rcg 1-import.rcg 4-second.rcg'), command
+    assert command == ('rc-import -o 4-second.rcg worn.x3p && '
+                       'rc-add --subtract --align --report 4-add.tsv -o 4-add.rcg 4-second.rcg 1-import.rcg'), command
+    assert run['steps'][3]['later'] == 'second' and run['steps'][1]['later'] is None, run
     place = {'run': run['number'], 'step': 3}
     heads, row = [line.split('\t') for line in ask('file', dict(place, of='report'))[2].decode().splitlines()]
     figures = dict(zip((head.split('/')[0] for head in heads), row))
     volume = -scar.sum() * 1e-12
     assert abs(float(figures['volume']) - volume) <= float(figures['volume_error']) < 0.05 * abs(volume), (figures, volume)
     assert abs(abs(float(figures['shift_x'])) - 5e-6) < 5e-8 and abs(abs(float(figures['shift_y'])) - 3e-6) < 5e-8, figures
-    subprocess.run('rc-import -o 1-import.rcg worn.x3p && ' + command, shell=True, check=True, cwd='scans')
+    subprocess.run('rc-import -o 1-import.rcg new.x3p && ' + command, shell=True, check=True, cwd='scans')
     with open('scans/4-add.rcg', 'rb') as file:
         assert file.read() == ask('file', dict(place, of='stream'))[2]
     assert [head['channel'] for head in found('frames', place)] == ['height']
+    # the same change where the second scan is the earlier one; sums keep the first scan first
+    asked[3]['options'] = [['second', 'new.x3p'], ['measured', 'before'], ['subtract', True], ['align', True]]
+    again = ended(found('steps', body={'file': worn, 'steps': asked, 'start': True})['run'])
+    assert again['steps'][3]['command'].endswith(' 1-import.rcg 4-second.rcg') and again['steps'][3]['later'] == 'first', again
+    assert ask('file', {'run': again['number'], 'step': 3, 'of': 'report'})[2].decode().splitlines()[1].split('\t')[2:] == row[2:], row
+    asked[3]['options'] = [['second', 'worn.x3p']]
+    both = found('steps', body={'file': new, 'steps': asked, 'start': False})['commands'][3]
+    assert both.endswith(' && rc-add -o 4-add.rcg 1-import.rcg 4-second.rcg'), both
     # spikes of both scans are dropped before
     spiky = [values.copy() for values in (whole[30:190, 30:190], whole[33:193, 25:185] - scar + 4e-6)]
     spiky[0][20:150:16, 17::23] += 9e-6
     spiky[1][30:150:16, 9::19] -= 9e-6
     for name, values in zip(('new2', 'worn2'), spiky):
         rcg.export(rcg.frame('height', values, '1um'), 'scans/%s.x3p' % name)
-    uploaded('scans/new2.x3p')
-    asked[3]['options'] = [['second', 'new2.x3p'], ['spikes', '5'], ['subtract', True], ['align', True]]
-    run = ended(found('steps', body={'file': uploaded('scans/worn2.x3p'), 'steps': asked, 'start': True})['run'])
+    uploaded('scans/worn2.x3p')
+    asked[3]['options'] = [['second', 'worn2.x3p'], ['spikes', '5'], ['subtract', True], ['align', True]]
+    run = ended(found('steps', body={'file': uploaded('scans/new2.x3p'), 'steps': asked, 'start': True})['run'])
     assert run['state'] == 'done', run
     command = run['steps'][3]['command']
-    assert command == ('rc-import -o 4-second.rcg new2.x3p && rc-detrend --spikes 5 -o 4-first-clean.rcg 1-import.rcg && '
+    assert command == ('rc-import -o 4-second.rcg worn2.x3p && rc-detrend --spikes 5 -o 4-first-clean.rcg 1-import.rcg && '
                        'rc-detrend --spikes 5 -o 4-second-clean.rcg 4-second.rcg && rc-add --subtract --align '
-                       '--report 4-add.tsv -o 4-add.rcg 4-first-clean.rcg 4-second-clean.rcg'), command
+                       '--report 4-add.tsv -o 4-add.rcg 4-second-clean.rcg 4-first-clean.rcg'), command
     place = {'run': run['number'], 'step': 3}
     heads, row = [line.split('\t') for line in ask('file', dict(place, of='report'))[2].decode().splitlines()]
     cleaned = dict(zip((head.split('/')[0] for head in heads), row))
-    subprocess.run('rc-import -o 1-import.rcg worn2.x3p && ' + command, shell=True, check=True, cwd='scans')
+    subprocess.run('rc-import -o 1-import.rcg new2.x3p && ' + command, shell=True, check=True, cwd='scans')
     with open('scans/4-add.rcg', 'rb') as file:
         changed = file.read()
         assert changed == ask('file', dict(place, of='stream'))[2]
@@ -353,8 +362,8 @@ def compare():
         stream = found('upload', {'name': 'first.rcg'}, file.read())['name']
     asked[3]['options'] = [['second', stream], ['subtract', True]]
     run = ended(found('steps', body={'file': worn, 'steps': asked, 'start': True})['run'])
-    assert run['steps'][3]['command'] == 'rc-add --subtract -o 4-add.rcg 1-import.rcg first.rcg' and run['state'] == 'done', run
-    for wrong, words in (([['subtract', True]], 'choose the second scan'), ([['second', 'none.x3p']], '--second none.x3p: this file is not on this page'),
+    assert run['steps'][3]['command'] == 'rc-add --subtract -o 4-add.rcg first.rcg 1-import.rcg' and run['state'] == 'done', run
+    for wrong, words in (([['second', stream], ['measured', 'later']], '--measured'), ([['subtract', True]], 'choose the second scan'), ([['second', 'none.x3p']], '--second none.x3p: this file is not on this page'),
                          ([['second', '../new.x3p']], 'this file is not on this page'), ([['second', True]], 'this file is not on this page')):
         asked[3]['options'] = wrong
         refused(400, words, 'steps', body=json.dumps({'file': worn, 'steps': asked, 'start': False}))

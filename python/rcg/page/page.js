@@ -16,7 +16,7 @@ const STEPS = {
   fatigue: ['Fatigue', {'bending-limit': '600MPa', 'torsion-limit': '400MPa', pass: 'x', depths: 'auto'}],
   deflect: ['Displacement'],
   leak: ['Leakage', {viscosity: '1mPas', 'pressure-drop': '100kPa'}],
-  add: ['Compare with a second scan', {second: '', subtract: true, align: true}],
+  add: ['Compare with a second scan', {second: '', measured: 'after', subtract: true, align: true}],
 };
 // Views, and the options of rc-render (for Numbers, of rc-info) that they begin with.
 const VIEWS = {
@@ -37,7 +37,8 @@ const TITLES = {
   distance: 'Sliding distance', displacement: 'Displacement along the surface', creep: 'Creepage',
   hardness: 'Hardness', conductivity: 'Thermal conductivities', diffusivity: 'Thermal diffusivities',
   'bending-limit': 'Endurance limit in bending', 'torsion-limit': 'Endurance limit in torsion', speed: 'Sliding speed', pass: 'Passes along', view: 'Direction of view', cut: 'Cut at',
-  second: 'Second scan', subtract: 'Subtract it', align: 'Shift and turn it onto the first',
+  second: 'Second scan', measured: 'Second scan measured', subtract: 'Change between the scans',
+  align: 'Shift and turn one onto the other',
   'rc-detrend cylinder': 'Remove cylinder', 'rc-add spikes': 'Remove spikes of both scans above',
   psd: 'Power spectrum', areal: 'Areal parameters', output: 'Frames to write', mean: 'Mean',
 };
@@ -49,6 +50,8 @@ const FIGURES = {
   volume_error: 'Uncertainty of the volume (95 %)', overlap: 'Part that overlaps', changed: 'Part that has changed',
   missing: 'Part that is missing', nx: 'Nodes along x', ny: 'Nodes along y', dx: 'Spacing along x', dy: 'Spacing along y',
 };
+// A change, by the scan that was measured later.
+const LESS = {first: 'first scan less second', second: 'second scan less first'};
 // What the page says of the states of steps and of runs.
 const STATES = {running: 'running', short: 'accuracy not reached', failed: 'failed', stopped: 'cancelled'};
 const WORDS = {waiting: 'Waiting for other runs …', done: 'Done.', stopped: 'Cancelled.',
@@ -268,7 +271,9 @@ const collect = trying(async () => {
   const {number} = run, found = [], kept = $('channel').dataset.kept;
   for (const [step, one] of run.steps.entries()) {
     for (const [n, f] of (well(one) ? await json('frames', {run: number, step}) : []).entries()) {
-      const name = [f.channel, 'after ' + one.tool, f.case && 'case ' + f.case, f.load && shown(+f.load, 'N'),
+      const change = f.channel === 'height' && one.later;
+      const name = [change ? `change of height (${LESS[change]})` : f.channel, 'after ' + one.tool,
+        f.case && 'case ' + f.case, f.load && shown(+f.load, 'N'),
         f.depth && shown(+f.depth, 'm') + ' deep'].filter(Boolean).join(', ');
       found.push({dunit: 'm', ...f, nx: +f.nx, ny: +f.ny, dx: +f.dx, dy: +f.dy, step, n, name});
     }
@@ -424,14 +429,18 @@ const FIRST = ['load', 'mean_pressure', 'contact_area', 'contact_fraction', 'max
   'nodes_per_patch', 'pressure_error_estimate', 'converged', 'volume', 'volume_error', 'shift_x', 'shift_y', 'rotation',
   'residual', 'overlap', 'changed'];
 // A report has a column for each figure, the page a line. Curves take the names in the list of all figures.
-function showNumbers([heads, ...rows], textContent, {tool}) {
+function showNumbers([heads, ...rows], textContent, {tool, later}) {
   const lines = heads.map((head, k) => [head.split('/'), rows.map(row => row[k])]);
   const known = lines.filter(([, values]) => values.some(value => value !== '' && value !== 'NaN'));
   const first = known.filter(([[name]]) => FIRST.includes(name)), all = make('details', {});
   const table = (some, code) => numberTable(some, name =>
     [figured(name, tool), ...(code ? [' ', make('code', {textContent: name})] : [])]);
   all.append(make('summary', {textContent: `All ${known.length} figures of the report`}), table(known, true));
-  $('numbers').replaceChildren(...(first.length ? [table(first, false), all] : [table(known, true)]),
+  const [volume, error] = ['volume/m3', 'volume_error/m3'].map(head => +rows[0]?.[heads.indexOf(head)]);
+  const lost = later && volume && rows.length === 1 ? [hint(
+    `The change is the ${LESS[later]}: below 0 material was removed. ${volume < 0 ? 'Removed' : 'Added'} on balance: ` +
+    `${shown(Math.abs(volume), 'm3', 4)} ± ${shown(error, 'm3', 2)} (95 %).`)] : [];
+  $('numbers').replaceChildren(...lost, ...(first.length ? [table(first, false), all] : [table(known, true)]),
     make('pre', {textContent}));
 }
 const valued = (value, unit) => (value === '' || isNaN(value) ? value : shown(+value, unit.join('/') || '1', 4));
