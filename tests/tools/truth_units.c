@@ -442,9 +442,23 @@ test_shown(void **state)
         {9.99 * 1048576, "10 MiB"},
         {10.4 * 1048576, "10 MiB"},
     };
+    static const struct {
+        double share;
+        int digits;
+        const char *shown;
+    } shares[] = {
+        {0, 2, "0 %"},          {1.32e-4, 2, "0.013 %"}, {1.32e-9, 2, "0.00000013 %"},
+        {0.05, 3, "5 %"},       {0.0999, 2, "10 %"},     {0.0999, 3, "9.99 %"},
+        {0.5, 1, "50 %"},       {1.374, 2, "137 %"},     {12345.678, 2, "1234568 %"},
+        {-0.0314, 2, "-3.1 %"}, {1e-30, 2, "0 %"},       {1e300, 2, "1e+302 %"},
+        {INFINITY, 2, "inf %"}, {NAN, 2, "unknown"},
+    };
     char text[SHOWN_NUMBER];
 
     (void)state;
+    for (size_t k = 0; k < sizeof shares / sizeof *shares; k++)
+        assert_string_equal(shown_percent_to(text, shares[k].share, shares[k].digits),
+                            shares[k].shown);
     for (size_t k = 0; k < sizeof numbers / sizeof *numbers; k++)
         assert_string_equal(shown_in_unit_to(text, numbers[k].value, numbers[k].unit),
                             numbers[k].shown);

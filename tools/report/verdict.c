@@ -22,13 +22,13 @@ put_contact(struct page *run)
     page_last(run, loads, "load");
     fputs(", a mean pressure of ", out);
     page_last(run, loads, "mean_pressure");
-    fprintf(out, ", the bodies touch on %.3g %% of the map, ", 100 * fraction);
+    fprintf(out, ", the bodies touch on %s of the map, ", shown_percent(fraction, 3));
     page_last(run, loads, "contact_area");
     fputs(". The largest pressure is ", out);
     page_last(run, loads, "max_pressure");
     if (isfinite(p->hardness) && bound > 0)
-        fprintf(out, ": the hardness, at which %.3g %% of the contact yields. ",
-                100 * bound / area);
+        fprintf(out, ": the hardness, at which %s of the contact yields. ",
+                shown_percent(bound / area, 3));
     else if (isfinite(p->hardness))
         fputs(", below the hardness: nothing yields at the surface. ", out);
     else
@@ -45,12 +45,8 @@ put_contact(struct page *run)
                     stress > run->yield ? "the volume yields, which these figures do not include"
                                         : "the volume stays elastic");
     }
-    fprintf(out, "The estimated error of the pressure is %.2g %%",
-            100 * page_last_number(run, loads, "pressure_error_estimate"));
-    if (!isnan(page_last_number(run, loads, "contact_area_error_estimate")))
-        fprintf(out, ", that of the area %.2g %%",
-                100 * page_last_number(run, loads, "contact_area_error_estimate"));
-    fputs(".\n", out);
+    fprintf(out, "The estimated error of the solution on this grid, in the pressure, is %s.\n",
+            shown_percent(page_last_number(run, loads, "pressure_error_estimate"), 2));
 }
 
 /* Errors and bars above this share are named. */
@@ -76,25 +72,25 @@ put_contact_limits(struct page *run, size_t *n)
     char text[PAGE_CELL], unit[PAGE_CELL];
     const struct {
         bool holds;
-        const char *format;
-        double value;
+        const char *format, *value;
     } limit[] = {
         {page_last_cell(run, loads, "converged", text, unit) && strcmp(text, "false") == 0,
-         "the solver stopped before its tolerance", 0},
-        {nodes < few, "only %.0f nodes touch, so that the grid decides", nodes},
-        {nodes >= few && patch < 4, "a contact patch has only %.2g nodes, so that the grid decides",
-         patch},
+         "the solver stopped before its tolerance", ""},
+        {nodes < few, "only %s nodes touch, so that the grid decides", shown_number(nodes, 2, "")},
+        {nodes >= few && patch < 4, "a contact patch has only %s nodes, so that the grid decides",
+         shown_number(patch, 2, "")},
         {rc_repeats(page_args.physics.boundary) == 0 && edge > 0.01,
-         "the edge of the map carries %.3g %% of the load, so that a larger map has another result",
-         100 * edge},
+         "the edge of the map carries %s of the load, so that a larger map has another result",
+         shown_percent(edge, 3)},
         {slope > 0.3,
-         "the RMS slope where the bodies touch is %.2g, beyond the theory of small slopes", slope},
+         "the RMS slope where the bodies touch is %s, beyond the theory of small slopes",
+         shown_number(slope, 2, "")},
         {page_last_number(run, loads, "max_pressure") > page_args.physics.surface_estar / 10,
-         "the largest pressure is beyond a tenth of E*, where strains are not small", 0},
+         "the largest pressure is beyond a tenth of E*, where strains are not small", ""},
         {page_args.relaxation != NULL && page_has_readers(run),
-         "the sections of other effects are those of the contact before creep", 0},
+         "the sections of other effects are those of the contact before creep", ""},
         {run->assumed, "no elasticity was given, so that the values are those of steel on steel",
-         0},
+         ""},
     };
 
     for (size_t k = 0; k < sizeof limit / sizeof *limit; k++)
@@ -125,8 +121,8 @@ has_verdicts(struct page *run)
     return false;
 }
 
-/* The change by a finer grid, of rc-scene, but for few nodes, which put_contact_limits names. False: it is not
- * known. */
+/* The change by a finer grid, of rc-scene, but for few nodes, which put_contact_limits names. False: it is
+ * not known. */
 static bool
 put_grid_limit(struct page *run, size_t *n)
 {
@@ -148,7 +144,7 @@ put_grid_limit(struct page *run, size_t *n)
     if (!isfinite(high))
         fprintf(out, "the change of the %s by a finer grid is unknown", figure);
     else if (high < 10)
-        fprintf(out, "a finer grid changes the %s by up to %.2g %%", figure, 100 * high);
+        fprintf(out, "a finer grid changes the %s by up to %s", figure, shown_percent(high, 2));
     else
         fprintf(out, "a finer grid changes the %s by up to %.2g times", figure, high);
     return true;
@@ -198,8 +194,8 @@ put_errors(struct page *run, size_t *n)
             continue;
         if (errors++ == 0)
             begin_limit(run->page.file, n);
-        fprintf(run->page.file, "%s %.3g %% under %s", errors == 1 ? "the estimated error is" : ",",
-                100 * error, heading);
+        fprintf(run->page.file, "%s %s under %s", errors == 1 ? "the estimated error is" : ",",
+                shown_percent(error, 3), heading);
     }
 }
 

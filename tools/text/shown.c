@@ -45,6 +45,31 @@ shown_in_unit_to(char text[SHOWN_NUMBER], double value, const char *unit)
     return text;
 }
 
+const char *
+shown_percent_to(char text[SHOWN_NUMBER], double share, int digits)
+{
+    const double percent = 100 * share, large = 1e15;
+    const int most = 15; /* decimals */
+    char rounded[SHOWN_NUMBER];
+    int decimals;
+    size_t n;
+
+    if (isnan(share))
+        return strcpy(text, "unknown");
+    snprintf(rounded, sizeof rounded, "%.*e", digits - 1, percent);
+    if (!(fabs(percent) < large)) {
+        snprintf(text, SHOWN_NUMBER, "%.*g %%", digits, percent);
+        return text;
+    }
+    decimals = digits - 1 - atoi(strchr(rounded, 'e') + 1);
+    decimals = decimals < 0 ? 0 : decimals > most ? most : decimals;
+    n = (size_t)snprintf(text, SHOWN_NUMBER, "%.*f", decimals, percent);
+    while (decimals > 0 && text[n - 1] == '0') /* as %g */
+        n--;
+    snprintf(text + (text[n - 1] == '.' ? n - 1 : n), 3, " %%");
+    return text;
+}
+
 void
 shown_words(FILE *out, const char *text, size_t n)
 {

@@ -19,6 +19,10 @@ const char *shown_number_to(char text[SHOWN_NUMBER], double value, int digits, c
 /* "1.29 um": six digits and the unit. */
 const char *shown_in_unit_to(char text[SHOWN_NUMBER], double value, const char *unit);
 #define shown_in_unit(value, unit) shown_in_unit_to((char[SHOWN_NUMBER]){""}, value, unit)
+/* "0.012 %", "137 %" for 0.00012, 1.37: this many digits, but all before the decimal point. An exponent only
+ * above 1e15 %. NaN: "unknown". */
+const char *shown_percent_to(char text[SHOWN_NUMBER], double share, int digits);
+#define shown_percent(share, digits) shown_percent_to((char[SHOWN_NUMBER]){""}, share, digits)
 /* Text from a file, up to n bytes, without control characters of a terminal. */
 void shown_words(FILE *out, const char *text, size_t n);
 /* A word of a command, in quotes for a shell if it needs them. */
