@@ -149,6 +149,8 @@ check_effects(struct page *run)
 {
     struct tool *t = &run->t;
     const double time = page_args.effects.time;
+    const char *given = page_args.effects.yield != NULL ? page_args.effects.yield
+                                                        : materials_value(t, MATERIAL_YIELD);
     struct numbers yield;
 
     if (tool_given(t, "speed") && tool_given(t, "creep"))
@@ -156,8 +158,7 @@ check_effects(struct page *run)
                       "that of sliding: leave out one of them, or see rc-scene and rc-heat "
                       "--rolling");
     run->yield = NAN;
-    if (page_args.effects.yield != NULL &&
-        unit_numbers(page_args.effects.yield, UNIT_PA, &yield, NULL) == RC_OK) {
+    if (given != NULL && unit_numbers(given, UNIT_PA, &yield, NULL) == RC_OK) {
         run->yield = yield.v[0];
         free(yield.v);
     }

@@ -113,9 +113,17 @@ area=$(awk 'BEGIN { pi = atan2(0, -1); print pi * (0.75 * 20 * 3e-3 / (210e9 / 1
 near "$(said effects-of.html | sed 's/.*% of the map, \([0-9.]*\) mm2.*/\1/')" "$area" 0.03 "the first paragraph has the area of the contact"
 near "$(said effects-of.html | sed 's/.*The largest pressure is \([0-9.]*\) GPa.*/\1e9/')" "$p0" 0.03 "  the largest pressure"
 near "$(said effects-of.html | sed 's/.*the largest Mises stress is \([0-9.]*\) GPa.*/\1e9/')" "$(awk -v p="$p0" 'BEGIN { print 0.62 * p }')" 0.03 "  the largest Mises stress"
-claim "  below the yield stress" says 'below the yield stress of 3 GPa: the volume stays elastic' said effects-of.html
+claim "  below the yield stress" says ', 0\.3[67][0-9]* times the yield stress of 3 GPa: the volume stays elastic' said effects-of.html
 rc-report --quiet --load 20N --E1 210GPa --nu1 0.3 --E2 210GPa --nu2 0.3 --yield 500MPa -o yields.html steel.rcg
-claim "  above it" says 'above the yield stress of 500 MPa: the volume yields' said yields.html
+claim "  above it" says 'times the yield stress of 500 MPa: the volume yields' said yields.html
+near "$(said yields.html | sed 's/.*, \([0-9.]*\) times the yield stress.*/\1/')" "$(awk -v p="$p0" 'BEGIN { print 0.62 * p / 500e6 }')" 0.03 "    by this factor"
+claim "  a named material has the yield stress of its table" says 'times the yield stress of 215 MPa: the volume yields' \
+    bash -c 'rc-report --quiet --load 20N --body1 stainless-steel --body2 rigid steel.rcg'
+printf 'name\tE\tnu\tyield\nhard\t210GPa\t0.3\t8GPa\nunknown\t210GPa\t0.3\t-\n' >materials.tsv
+named() { rc-report --quiet --load 20N --materials materials.tsv --body1 "$@" --body2 rigid steel.rcg; }
+claim "    also of a table of the user" says ', 0\.2[0-9]* times the yield stress of 8 GPa: the volume stays elastic' named hard
+claim "    --yield goes before" says 'times the yield stress of 500 MPa: the volume yields' named hard --yield 500MPa
+claim "    without one the verdict names the stress" says 'a material with a lower yield stress yields there' named unknown
 claim "  what yields at a hardness" says '1.5 GPa: the hardness, at which [0-9.]* % of the contact yields' said steel.html
 claim "  the error" says 'The estimated error of the solution on this grid, in the pressure, is 0\.0[0-9]* %\.' said steel.html
 claim "  and what limits the trust" says 'What limits .*: the edge of the map carries [0-9.]* % of the load.*; no elasticity was given' said page/brass.html

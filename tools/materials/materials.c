@@ -412,6 +412,12 @@ fill(struct tool *t, const struct fill *f, const struct material *const m[BODIES
     tool_set_option(t, f->option, text);
 }
 
+const char *
+materials_value(struct tool *t, enum material_property p)
+{
+    return value_of(named(t, 0), p);
+}
+
 void
 materials_fill(struct tool *t)
 {

@@ -31,5 +31,7 @@ extern const struct opt material_options[], material_options_of_one[];
 
 /* For tool_info.fill: sets those options of tool_info.of_materials that the line does not give. */
 void materials_fill(struct tool *tool);
+/* A property of the material of body 1, as on a command line, after materials_fill; NULL: it has none. */
+const char *materials_value(struct tool *tool, enum material_property property);
 
 #endif

@@ -49,7 +49,7 @@ struct page {
     size_t givens;
     char times[4 * RC_NUMBER_SIZE]; /* of a creep curve */
     char stress[8192];              /* the report of the stresses below all of the map */
-    double yield;                   /* the given yield stress; NAN: none */
+    double yield;                   /* the yield stress of body 1; NAN: unknown */
     const char *shown;              /* the file of the part that is written */
     struct text {
         char *text;

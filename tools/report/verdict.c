@@ -40,8 +40,8 @@ put_contact(struct page *run)
         if (!(run->yield > 0))
             fputs(": a material with a lower yield stress yields there. ", out);
         else
-            fprintf(out, ", %s the yield stress of %s: %s. ",
-                    stress > run->yield ? "above" : "below", shown_in_unit(run->yield, "Pa"),
+            fprintf(out, ", %.3g times the yield stress of %s: %s. ", stress / run->yield,
+                    shown_in_unit(run->yield, "Pa"),
                     stress > run->yield ? "the volume yields, which these figures do not include"
                                         : "the volume stays elastic");
     }
