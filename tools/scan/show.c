@@ -44,10 +44,20 @@ put_grid(const struct scan *s, FILE *out)
               out);
     else if (isnan(s->ratio))
         fputs("# grid: the slope does not change: the waves end on this map\n", out);
-    else
-        fprintf(out, "# grid: the slope changes by %.2f of the change before: %s\n", s->ratio,
-                s->unlimited ? "shorter waves than this grid has may follow"
-                             : "the waves end on this map");
+    else {
+        fprintf(out, "# grid: %s",
+                s->unlimited
+                    ? "the map has waves as short as its nodes: a finer scan would show more"
+                    : "the waves end on this map");
+        if (s->slope[1] > 0 && s->slope[2] > 0)
+            fprintf(
+                out,
+                " (its rms slope grows by %s from a quarter to half of the nodes a side, and by %s "
+                "from half to all)",
+                shown_percent(s->slope[1] / s->slope[2] - 1, 2),
+                shown_percent(s->slope[0] / s->slope[1] - 1, 2));
+        putc('\n', out);
+    }
 }
 
 static void
