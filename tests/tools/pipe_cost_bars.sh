@@ -115,6 +115,8 @@ read -r first second <<<"$(sed -n 's/^# grid:.*grows by \([0-9.]*\) % from a qua
 near "$second" "$(awk -v a="$(slope_on 128)" -v b="$(slope_on 64)" 'BEGIN { print 100 * (a / b - 1) }')" 0.03 "  by how much the slope grows with the last doubling of the nodes"
 near "$first" "$(awk -v a="$(slope_on 64)" -v b="$(slope_on 32)" 'BEGIN { print 100 * (a / b - 1) }')" 0.03 "  and with the one before"
 claim "  its figures have no bar and say why" bash -c "grep -Eq '^contact_area .* m2 +- .*no limit with the grid' fractal.txt"
+claim "  with the spacing to quote" grep -q '^contact_area .*no limit with the grid: quote it with its spacing, 1 um$' fractal.txt
+claim "  and the part of the noise" test "$(of contact_area noise_relative fractal.json | grep -c '^[0-9]')" = 1
 claim "  in the report too" test "$(of contact_area bar fractal.json)/$(of contact_area limit fractal.json)/$(of contact_area waves_end fractal.json)" = null/false/false
 
 claim "a SIGMA that is too large for the map is named" bash -c "

@@ -57,6 +57,7 @@ bars_again() {
             exit($n < 4)'
 }
 claim "--noise puts the bars of rc-cost on the page" bars_again
+claim "  and says what they are" bash -c 'grep -q "<p>In 90 % of the cases the value of the true surface is within the bar" noisy.html && ! grep -q "Noise alone" noisy.html'
 claim "  which has none without it" lacks 'Noise of' once.html
 refuses 2 'noise takes a standard deviation and a length' "three numbers of --noise" "rc-report --noise 1nm,1um,1um brass.txt"
 
@@ -138,7 +139,12 @@ near "$(said jagged.html | sed 's/.*the estimated error is \([0-9.]*\) % under F
     "  the error of rc-fatigue by the sampling"
 claim "  the change by a finer grid of rc-scene" test "$(said jagged.html | sed 's/.*: a finer grid changes the \([a-z ]*\) by up to \([0-9.]*\) %;.*/\1 \2/')" = \
     "$(rc-scene --quiet $roller jagged.rcg | sed -n 's/^  finer grid .*: changes the \([a-z ]*\) by .* to \([0-9.]*\) %/\1 \2/p')"
-claim "  bars without a limit on the grid" says 'the bar of the largest pressure is unknown: no limit with the grid' said jagged.html
+claim "  bars without a limit on the grid" says 'the largest pressure has no limit with the grid: quote it with its spacing, 4 um \(noise alone changes it by [0-9.]* %\)' said jagged.html
+rc-cost --quiet --noise 2nm --resolution --report jagged-bars.json -o x.txt jagged.rcg -- rc-solve $roller
+share() { perl -MJSON::PP -ne 'my $r = decode_json($_); print 100 * $r->{noise_relative} if $r->{what} eq "figure" && $r->{name} eq "max_pressure"' jagged-bars.json; }
+near "$(said jagged.html | sed 's/.*the largest pressure has no limit[^(]*(noise alone changes it by \([0-9.]*\) %).*/\1/')" "$(share)" 5e-3 "    with the part of the noise of rc-cost"
+near "$(sed -n 's/.*<td>max pressure<.*<td>noise alone \([0-9.]*\) %<.*no limit with the grid: quote it with its spacing, 4 um<.*/\1/p' jagged.html)" "$(share)" 5e-3 "    in the table too"
+claim "    where no figure has a bar, the page does not explain bars" bash -c '! grep -q "is within the bar" jagged.html && grep -q "<p>Noise alone: in 90 %" jagged.html'
 claim "  not that nothing limits" bash -c '! grep -q "found nothing that limits" jagged.html'
 near "$(said noisy.html | sed 's/.*the bar of the largest pressure is \([0-9.]*\) %.*/\1/')" \
     "$(awk -F '"bar_relative": ' '/"figure", "name": "max_pressure"/ { print 100 * $2 }' bars.json)" 5e-3 "  the bars of rc-cost"

@@ -282,7 +282,8 @@ page_show_table(struct page *run, FILE *in, const char *columns, const char *unu
     free(line);
 }
 
-/* Shows the figures of the last case that have a bar, or a note why they have none. */
+/* Shows the figures of the last case that have a bar. Without a limit with the grid they have only the part
+ * of the noise, and a note. */
 void
 page_show_bars(struct page *run, FILE *in, const char *a, const char *b)
 {
@@ -293,15 +294,18 @@ page_show_bars(struct page *run, FILE *in, const char *a, const char *b)
         UNIT,
         VALUE,
         SHARE,
+        NOISE,
         DOMINANT,
+        LIMIT,
         WHY,
         CELLS
     };
-    static const char *const names[CELLS] = {"what",  "case",         "name",     "unit",
-                                             "value", "bar_relative", "dominant", "why"};
+    static const char *const names[CELLS] = {"what",  "case",         "name",           "unit",
+                                             "value", "bar_relative", "noise_relative", "dominant",
+                                             "limit", "why"};
     FILE *out = run->page.file;
     char *line = NULL;
-    size_t room = 0, at[CELLS] = {0};
+    size_t room = 0, at[CELLS] = {0}, bars = 0, unlimited = 0;
 
     (void)a, (void)b;
     if (is_empty(in)) {
@@ -309,14 +313,14 @@ page_show_bars(struct page *run, FILE *in, const char *a, const char *b)
         return;
     }
     fprintf(out,
-            "<p>Noise of %s in the heights, and the grid, change the figures of the last load. In "
-            "90 %% of "
-            "the cases the value of the true surface is within this bar:</p>\n<table>\n"
+            "<p>Noise of %s in the heights, and the grid, change the figures of the last "
+            "load:</p>\n<table>\n"
             "<tr><th>figure</th><th>value</th><th>bar</th><th>mostly by</th><th></th></tr>\n",
             shown_in_unit(page_args.noise.v[0], "m"));
     for (size_t row = 0; getline(&line, &room, in) > 0; row++) {
         char *cell[PAGE_WORDS] = {NULL}, *rest = line;
         const char *own[CELLS];
+        bool limit;
 
         for (size_t k = 0; k < PAGE_WORDS && *rest != '\0'; k++) {
             cell[k] = rest;
@@ -333,20 +337,35 @@ page_show_bars(struct page *run, FILE *in, const char *a, const char *b)
             continue;
         for (char *c = cell[at[NAME]]; (c = strchr(c, '_')) != NULL;)
             *c = ' ';
+        limit = strcmp(own[LIMIT], "false") != 0;
+        bars += *own[SHARE] != '\0';
+        unlimited += !limit;
         fputs("<tr><td>", out);
         page_text(out, own[NAME]);
         fprintf(out, "</td><td>%.4g ", strtod(own[VALUE], NULL));
         page_text(out, own[UNIT]);
-        if (*own[SHARE] == '\0')
-            fputs("</td><td>-</td><td>", out);
+        fputs("</td><td>", out);
+        if (*own[SHARE] != '\0')
+            fputs(shown_percent(strtod(own[SHARE], NULL), 3), out);
+        else if (!limit && *own[NOISE] != '\0')
+            fprintf(out, "noise alone %s", shown_percent(strtod(own[NOISE], NULL), 3));
         else
-            fprintf(out, "</td><td>%.3g %%</td><td>", 100 * strtod(own[SHARE], NULL));
-        page_text(out, own[DOMINANT]);
+            putc('-', out);
+        fputs("</td><td>", out);
+        page_text(out, *own[SHARE] == '\0' ? "" : own[DOMINANT]);
         fputs("</td><td>", out);
         page_text(out, own[WHY]);
         fputs("</td></tr>\n", out);
     }
     fputs("</table>\n", out);
+    if (bars > 0)
+        fputs("<p>In 90 % of the cases the value of the true surface is within the bar.</p>\n",
+              out);
+    if (unlimited > 0)
+        fputs("<p>Noise alone: in 90 % of the cases the value of a scan with this spacing and "
+              "without "
+              "noise is within this range. A finer scan may have any other value.</p>\n",
+              out);
     free(line);
 }
 

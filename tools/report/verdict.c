@@ -199,6 +199,22 @@ put_errors(struct page *run, size_t *n)
     }
 }
 
+static const char bars[] = "bars.tsv";
+
+/* A figure without a limit with the grid: the part of the noise is known. */
+static void
+put_unlimited(struct page *run, const char *title, const char *const row[][2])
+{
+    FILE *out = run->page.file;
+    char text[PAGE_CELL];
+
+    fprintf(out, "the %s has ", title);
+    if (page_cell(run, bars, "why", row, text))
+        page_text(out, text);
+    if (page_cell(run, bars, "noise_relative", row, text) && strcmp(text, "NaN") != 0)
+        fprintf(out, " (noise alone changes it by %s)", shown_percent(strtod(text, NULL), 3));
+}
+
 /* The bars of the figures of this paragraph. False: they were asked for and are not there. */
 static bool
 put_bars(struct page *run, size_t *n)
@@ -206,9 +222,7 @@ put_bars(struct page *run, size_t *n)
     static const struct {
         const char *name, *title;
     } figure[] = {{"max_pressure", "largest pressure"}, {"contact_area", "contact area"}};
-    static const char bars[] = "bars.tsv";
     char text[PAGE_CELL];
-    size_t large = 0;
 
     if (page_args.noise.n == 0)
         return true;
@@ -220,12 +234,12 @@ put_bars(struct page *run, size_t *n)
         const double bar = strtod(text, NULL);
         if (bar <= share)
             continue;
-        if (large++ == 0)
-            begin_limit(run->page.file, n);
-        else
-            fputs(", ", run->page.file);
+        begin_limit(run->page.file, n);
         if (!isnan(bar))
-            fprintf(run->page.file, "the bar of the %s is %.3g %%", figure[k].title, 100 * bar);
+            fprintf(run->page.file, "the bar of the %s is %s", figure[k].title,
+                    shown_percent(bar, 3));
+        else if (page_cell(run, bars, "limit", row, text) && strcmp(text, "false") == 0)
+            put_unlimited(run, figure[k].title, row);
         else {
             fprintf(run->page.file, "the bar of the %s is unknown", figure[k].title);
             if (page_cell(run, bars, "why", row, text) && strcmp(text, "NaN") != 0) {
@@ -274,7 +288,7 @@ put_limits(struct page *run)
     char sections[PAGE_CELL];
     FILE *out = run->page.file;
     size_t n = 0;
-    bool judged, bars;
+    bool judged;
 
     if (*name_sections(run, is_inaccurate, sections) != '\0') {
         begin_limit(out, &n);
@@ -287,7 +301,7 @@ put_limits(struct page *run)
     put_contact_limits(run, &n);
     judged = put_grid_limit(run, &n);
     put_errors(run, &n);
-    if (!(bars = put_bars(run, &n))) {
+    if (!put_bars(run, &n)) {
         begin_limit(out, &n);
         fputs("the bars of the measurement were not computed", out);
     }

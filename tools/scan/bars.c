@@ -55,6 +55,11 @@ scan_judge_grid(struct scan *s)
         s->ratio = change > smooth * s->slope[0] ? INFINITY : NAN;
     s->unlimited =
         s->slope[0] == 0 ? s->sigma > 0 : s->ratio > ends && change > smooth * s->slope[0];
+    snprintf(s->note, sizeof s->note,
+             "no limit with the grid: quote it with its spacing, %sm%s%s%s",
+             shown_number(g->dx, 4, "m"), g->dx == g->dy || g->ny == 1 ? "" : " by ",
+             g->dx == g->dy || g->ny == 1 ? "" : shown_number(g->dy, 4, "m"),
+             g->dx == g->dy || g->ny == 1 ? "" : "m");
 }
 
 /* ---- figures ---- */
@@ -225,7 +230,7 @@ find_bar(struct scan *s, struct scan_bar *b)
         b->bar = 0;
         b->dominant = SCAN_SOURCES;
     }
-    b->note = b->unlimited ? "no limit with the grid"
+    b->note = b->unlimited ? s->note
               : unknown    ? "unknown on some of the maps"
               : b->here    ? "on this area"
                            : "";

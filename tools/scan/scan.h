@@ -60,6 +60,7 @@ struct scan {
     double noise_slope[3];
     double ratio;    /* of the changes of the slope; NAN: unknown */
     bool unlimited;  /* the waves do not end on this map */
+    char note[128];  /* of its figures */
     size_t missing;  /* nodes of the first map */
     size_t noises;   /* that noise_slope is the mean square of */
     bool images[2];  /* the maps are reflected along x, y */

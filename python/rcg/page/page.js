@@ -557,14 +557,15 @@ const measure = studying('bars', async () => {
   const answer = await made('rc-cost', words, 'bars.json');
   const rows = (await answer.text()).trim().split('\n').map(line => JSON.parse(line)), number = +(frame?.case ?? 1);
   const figures = rows.filter(row => row.what === 'figure' && row.case === number && (row.bar_relative || row.why));
-  const per = value => (value ? `± ${shown(100 * value, '1', 2)} %` : '');
+  const per = value => (value ? `± ${shown(100 * value, '1', 2)} %` : ''), any = figures.some(row => row.bar_relative);
+  const bar = row => (row.limit === false && row.noise_relative ? 'noise alone ' + per(row.noise_relative) : per(row.bar_relative));
   $('bars').replaceChildren(command(decodeURIComponent(answer.headers.get('X-Command'))),
     make('table', {}, ...figures.map(row => make('tr', {}, make('th', {textContent: row.name.replaceAll('_', ' ')}),
-      ...[shown(row.value, row.unit ?? '1', 4), per(row.bar_relative), row.dominant ? 'mostly by ' + row.dominant : '',
+      ...[shown(row.value, row.unit ?? '1', 4), bar(row), row.bar_relative && row.dominant ? 'mostly by ' + row.dominant : '',
         row.why ?? ''].map(textContent => make('td', {textContent}))))),
-    hint('In 90 % of the cases the value of the true surface is within the bar.'));
+    ...(any ? [hint('In 90 % of the cases the value of the true surface is within the bar.')] : []));
   document.body.dataset.measured = figures.length;
-  tell('The table below the result has the bars.');
+  tell(any ? 'The table below the result has the bars.' : 'No figure has a bar: the table below the result says why.');
 });
 
 // ---- the beginning ----
