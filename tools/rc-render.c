@@ -477,7 +477,7 @@ render_maps(struct tool *t, struct args *a, struct frames *frames)
     struct figure f;
     struct means means = {false, 0, 0};
     struct hertz_contact hertz = {.half = 0};
-    char title[256], section[SECTION_TITLE];
+    char title[CHANNEL_TITLE], section[SECTION_TITLE];
 
     if (a->hertz && !profile)
         hertz_read(t, first, &a->style.given, &hertz);
@@ -500,10 +500,9 @@ render_maps(struct tool *t, struct args *a, struct frames *frames)
     if (a->hillshade && !profile)
         subtitle_add(&subtitle, "shaded, light from the upper left", "");
     f.paper.subtitle = wording_subtitle(&a->style.paper, subtitle.text);
-    snprintf(title, sizeof title, "%.80s about the contact", look.what.title);
+    channel_title(&look.what, window[0].contact ? "about the contact" : "", title);
     if (a->style.paper.title == NULL)
-        f.paper.title = subtitle_section(section, frames->grid, frames->n,
-                                         window[0].contact ? title : look.what.title);
+        f.paper.title = subtitle_section(section, frames->grid, frames->n, title);
     if (profile)
         warn_of_profile(t, a);
     if (a->raw)

@@ -68,6 +68,14 @@ claim "a very small contact sets the window" rc-render --width 1200 -o s.svg spe
 axes s.svg -43 -27 -75 -59 "is windowed by itself"
 claim "  the title says so" says 'Contact pressure about the contact' cat s.svg
 claim "  the title has its share of the map" says '0.64 % of the map' cat s.svg
+made 200 200 pressure Pa "$keys" '$i >= 60 && $i < 70 && $j >= 30 && $j < 36 ? ($i < 64 ? 2e9 : -1e9) : 0' >net.rcg
+rc-render --width 1200 -o net.svg net.rcg
+claim "  the meaning of a sign comes after the place" says '>Net pressure about the contact \(tension negative\)</text>' cat net.svg
+rc-render --width 1200 --window all -o net.svg net.rcg
+claim "  or after the title" says '>Net pressure \(tension negative\)</text>' cat net.svg
+claim "  the colour bar has the unit alone" says '>Net pressure \(GPa\)</text>' cat net.svg
+rc-render --cut y=-66um -o net.svg net.rcg
+claim "  a curve along a line too" says '>Net pressure along y = .* \(tension negative\)</text>' cat net.svg
 claim "--window all draws the whole map" rc-render --width 1200 --window all -o a.svg speck.rcg
 axes a.svg -100 100 -100 100 "of it"
 claim "  its title has no share" says '>Contact pressure</text>' cat a.svg

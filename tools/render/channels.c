@@ -5,6 +5,7 @@
 #include "render.h"
 
 #include <math.h>
+#include <stdio.h>
 #include <string.h>
 
 #define SIGMA "\xcf\x83"
@@ -98,7 +99,8 @@ channel_of(const struct rc_grid *g, const struct survey *s)
         } else if (strcmp(c.name, "height") == 0 && is_change(g)) {
             c.title = "Change of height";
         } else if (strcmp(c.name, "pressure") == 0 && both) {
-            c.title = "Net pressure, tension negative"; /* bodies that attract each other */
+            c.title = "Net pressure"; /* of bodies that attract each other */
+            c.sign = "tension negative";
             c.colormap = "bluered";
             c.from_zero = false;
             c.none = "no net pressure";
@@ -107,4 +109,13 @@ channel_of(const struct rc_grid *g, const struct survey *s)
     }
     return (struct channel){
         .name = g->channel, .title = g->channel, .colormap = both ? "bluered" : "viridis"};
+}
+
+const char *
+channel_title(const struct channel *c, const char *words, char text[CHANNEL_TITLE])
+{
+    snprintf(text, CHANNEL_TITLE, "%.80s%s%.80s%s%s%s", c->title, *words == '\0' ? "" : " ", words,
+             c->sign == NULL ? "" : " (", c->sign == NULL ? "" : c->sign,
+             c->sign == NULL ? "" : ")");
+    return text;
 }

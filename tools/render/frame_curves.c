@@ -217,7 +217,7 @@ cut_draw(struct tool *t, struct rc_grid *const *grid, size_t n, const char *cut,
 {
     struct set s = {.tool = t, .grid = grid, .n = n, .style = style};
     struct graph graph = {.n = n, .y.lo = lo, .y.hi = hi, .x.lo = NAN, .x.hi = NAN};
-    char text[TICKS_TEXT + 32], quantity[8], note[512] = "", title[SECTION_TITLE];
+    char text[TICKS_TEXT + 32], quantity[8], note[512] = "", words[80], title[CHANNEL_TITLE];
     struct canvas *canvas;
     double *bottom = NULL;
 
@@ -245,8 +245,9 @@ cut_draw(struct tool *t, struct rc_grid *const *grid, size_t n, const char *cut,
                  scale_value(line_at(over, at), over->unit));
         if (k == 0 && style->paper.title != NULL)
             subtitle_add(&s.subtitle, "along ", text);
+        snprintf(words, sizeof words, "along %.60s", text);
         if (k == 0)
-            snprintf(title, sizeof title, "%.80s along %.60s", s.channel.title, text);
+            channel_title(&s.channel, words, title);
         if (style->hertz) {
             add_hertz(&s, along, along_x, line_at(over, at));
             graph.n = 2;
@@ -363,7 +364,7 @@ histogram_draw(struct tool *t, struct rc_grid *const *grid, const struct rc_grid
     struct set s = {.tool = t, .grid = grid, .touch = touch, .n = n, .style = style};
     bool pressure = strcmp(grid[0]->channel, "pressure") == 0;
     double lo, hi, step, first, mean = 0;
-    char note[1024] = "", unit[64], title[LABEL];
+    char note[1024] = "", unit[64], title[CHANNEL_TITLE];
     struct ticks ticks;
     size_t bins, used = 0;
     struct graph graph = {.x.lo = NAN, .x.hi = NAN, .y.lo = NAN, .y.hi = NAN, .note = note};
@@ -390,7 +391,7 @@ histogram_draw(struct tool *t, struct rc_grid *const *grid, const struct rc_grid
         tool_note(t, "%s", note);
     graph.n = n + add_distribution(&s, mean, lo, first + (double)bins * step);
     snprintf(unit, sizeof unit, "1/%.40s", grid[0]->unit);
-    snprintf(title, sizeof title, "%s distribution", s.channel.title);
+    channel_title(&s.channel, "distribution", title);
     graph.x.quantity = s.channel.title;
     graph.x.unit = grid[0]->unit;
     graph.y.quantity = "Probability density";

@@ -25,10 +25,18 @@ struct channel {
     const char *missing; /* the meaning of a missing value; NULL: not measured */
     const char *is[2];   /* the meanings of 1 and 2 for categories; NULL: no categories */
     const char *axis;    /* title of a curve; NULL: the title */
+    const char *sign;    /* the meaning of the sign, for titles; NULL: none */
 };
 
 /* An unknown channel has its own name as title, and diverging colours if its values have both signs. */
 struct channel channel_of(const struct rc_grid *grid, const struct survey *survey);
+enum {
+    CHANNEL_TITLE = 256
+};
+/* The title with these words behind it, and the meaning of the sign: "Net pressure about the contact (tension
+ * negative)". */
+const char *channel_title(const struct channel *channel, const char *words,
+                          char text[CHANNEL_TITLE]);
 
 /* ---- window.c ---- */
 
