@@ -24,6 +24,10 @@ claim "  other titles are larger" bash -c '
     awk "BEGIN { exit !($(size word.svg) < 0.98 * $(size long.svg)) }"'
 sed 's/^unit=m/unit=m4/; s/^channel=height/channel=psd/' map.rcg | reseal >power.rcg
 claim "m4 is written with a raised power" bash -c 'rc-render -o power.svg power.rcg && says " m</tspan><tspan dy=\"-[0-9.]*\" font-size=\"[0-9.]*\">4</tspan>" cat power.svg'
+printf 'load/N\tcontact_radius/m\tindentation/m\n1\t1e-3\t1e-6\n2\t2e-3\t2e-6\n' >radius.tsv
+rc-render --width 200mm --curve load:contact_radius -o radius.svg radius.tsv
+claim "a curve of rc-solve has its title in words" says '>Contact radius against load</text>' cat radius.svg
+claim "  and its axis" says '>Contact radius \(mm\)</text>' cat radius.svg
 private=$(printf '\364\217\277\275')
 for ending in svg pdf; do
     claim "a character that no font has causes a message, $ending" warns "no font has the characters '$private'" \

@@ -431,6 +431,11 @@ report_named(struct report *r, const struct figures *from, const char *names)
 
 static const struct rc_figure own[] = {
     {.name = "nodes_per_patch", .title = "Nodes per patch"},
+    {.name = "contact_area_corrected", .unit = "m2", .title = "Contact area, corrected"},
+    {.name = "contact_radius", .unit = "m", .title = "Contact radius"},
+    {.name = "stiffness", .unit = "N/m", .title = "Stiffness"},
+    {.name = "indentation", .unit = "m", .title = "Indentation"},
+    {.name = "residual_indentation", .unit = "m", .title = "Residual indentation"},
     {.name = "contact_area_inside", .unit = "m2", .title = "Contact area inside the taper"},
     {.name = "contact_fraction_inside", .title = "Contact fraction inside the taper"},
     {.name = "min_displacement", .unit = "m", .title = "Least displacement"},
