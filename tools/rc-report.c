@@ -110,6 +110,20 @@ find_file(struct page *run, const char *option, const char *word)
     return run->named[k].path == NULL ? word : run->named[k].path;
 }
 
+/* A value as it was typed, or as the table of materials has it; `si` if it was neither. */
+static const char *
+as_typed(const struct tool *t, const char *option, const char *si)
+{
+    for (size_t k = 0; k < t->option.n; k++) {
+        const struct opt *o = &t->option.row[k];
+
+        if (o->name != NULL && (o->type == OPT_NUMBER || o->type == OPT_NUMBERS) &&
+            strcmp(o->name, option + 2) == 0 && t->option.text[k] != NULL)
+            return t->option.text[k];
+    }
+    return si;
+}
+
 /* Gives rc-solve the options of the contact, and rc-scene those with the last load and the data of
  * effects. */
 static void
@@ -139,7 +153,9 @@ divide_words(struct page *run)
         if (!of_scene)
             run->contact[run->contacts++] = all[k];
         if (!of_page && !modulus)
-            run->scene[run->scenes++] = value ? run->load : all[k];
+            run->scene[run->scenes++] = value            ? run->load
+                                        : name || k == 0 ? all[k]
+                                                         : as_typed(&run->t, all[k - 1], all[k]);
     }
 }
 

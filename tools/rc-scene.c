@@ -351,11 +351,11 @@ decide(struct run *run, struct line *l, const struct rc_contact *c, const struct
 static void
 name_commands(struct run *run, struct line line[], size_t n, const char *const load[2])
 {
-    RC_OWNED char *body = tool_room(&run->t, 4, RC_NUMBER_SIZE, "a command");
+    char body[3 * 64], thickness[64], e[64], nu[64];
     int contact = -1;
 
-    snprintf(body, 4 * RC_NUMBER_SIZE, "%s,%s,%s", rc_number(run->data.thickness),
-             rc_number(args.physics.pair.one.e), rc_number(args.physics.pair.one.nu));
+    snprintf(body, sizeof body, "%.60s,%.60s,%.60s", scene_value(&run->t, "thickness", thickness),
+             scene_value(&run->t, "E1", e), scene_value(&run->t, "nu1", nu));
     for (size_t k = 0; k < n; k++) {
         struct line *l = &line[k];
         struct scene_found found;

@@ -81,6 +81,10 @@ p0=$(awk 'BEGIN { pi = atan2(0, -1); print (6 * 20 * (210e9 / 1.82) ^ 2 / (pi ^ 
 near "$(sed -n 's/.*<th>hardness<.*calls for it: changes the largest pressure by \([0-9.]*\) %.*/\1/p' effects.html)" \
     "$(awk -v p="$p0" 'BEGIN { print 100 * (1 - 1.5e9 / p) }')" 0.02 "  of the last load: the hardness lowers the largest pressure to 1.5 GPa"
 claim "  with the command that computes it" grep -q '<pre>rc-solve --load 20N .*--hardness 1.5GPa surface.rcg -o scene-hardness.rcg</pre>' effects.html
+rc-report --load 20N --body1 stainless-steel --body2 rigid --hardness 129HV --E1 1.93e5MPa -o typed.html steel.rcg 2>typed.txt
+claim "  as it was typed" grep -q '<pre>rc-solve --load 20N --E1 1.93e5MPa --nu1 0.29 --E2 rigid --hardness 129HV surface.rcg -o scene-hardness.rcg</pre>' typed.html
+claim "  a message about an option is said once" test "$(grep -c -- '--hardness 129HV is' typed.txt)" = 1
+claim "  also on the page" test "$(sed -n '/<h2>Accuracy/,/<h2>Limits/p' typed.html | grep -c -- '--hardness 129HV is')" = 1
 claim "  like bodies do not feel friction" grep -q 'friction of dissimilar bodies</th><td>negligible: changes nothing' effects.html
 claim "  and the data that other effects need" grep -q 'Data are missing for: .*partial slip (--tangential)' effects.html
 claim "  rc-solve does not get them" bash -c '! grep "^rc-solve.*--yield" steel.html | grep -v "<pre>"'

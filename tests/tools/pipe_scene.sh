@@ -74,7 +74,7 @@ between "$(of pull-off pulls.json figures pull_off low)" "$(tail -n 1 own.json |
 claim "hard balls of millimetres do not stick" test "$(scene --load 5N $steel --adhesion 0.05,exponential,100nm ball.rcg >pulls.json; of pull-off pulls.json verdict)" = negligible
 
 scene --load 240N $steel --thickness 0.5mm ball.rcg >thin.json
-claim "the command of a thin body has its layer" grep -q '"--E1", "rigid", "--layer", "0.0005,210000000000,0.3"' thin.json
+claim "the command of a thin body has its layer" grep -q '"--E1", "rigid", "--layer", "0.5mm,210GPa,0.3"' thin.json
 $(effect thin thin.json | perl -MJSON::PP -e 'local $/; print join " ", @{JSON::PP->new->decode(<STDIN>)->{command}}') --quiet --report own.json -o x.rcg ball.rcg
 rc-solve --quiet --load 240N $steel --report e.json -o x.rcg ball.rcg
 near "$(of thin thin.json figures max_pressure high)" "$(awk -v a="$(field max_pressure own.json)" -v b="$(field max_pressure e.json)" 'BEGIN { d = a / b - 1; print d < 0 ? -d : d }')" 1e-3 \

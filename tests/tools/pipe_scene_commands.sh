@@ -40,6 +40,10 @@ claim "  and writes a file with the name of the effect" bash -c 'for effect in w
 rc-scene --quiet --load 240N --body1 100Cr6 --body2 6061-T6 --mu 0.1 --speed 1m/s ball.rcg >typed.txt
 claim "a hardness has the number of its table" grep -q -- '--hardness 107HV ball.rcg -o scene-hardness.rcg' typed.txt
 claim "  and other values their units" grep -q 'rc-heat --mu 0.1 --speed 1m/s --conductivity 46.6W/mK,167W/mK --diffusivity 12.6mm2/s,69mm2/s -o scene-heat.rcg' typed.txt
+rc-scene --quiet --load 240N --E1 2.1e5MPa --nu1 0.30 --E2 rigid --hardness 129HV ball.rcg >typed.txt
+claim "  values stand as they were typed" grep -q -- '^      rc-solve --load 240N --E1 2.1e5MPa --nu1 0.30 --E2 rigid --hardness 129HV ball.rcg -o scene-hardness.rcg' typed.txt
+rc-scene --quiet --mean-pressure 0.2GPa --periodic $all --layer 1.0um,100GPa,0.30 --layer 500nm,150GPa,0.25 rough.rcg >typed.txt
+claim "  also layers" grep -q -- '--layer 1.0um,100GPa,0.30 --layer 500nm,150GPa,0.25' typed.txt
 claim "  with a coat" commands $everything --layer 1um,100GPa,0.3
 claim "  which rc-heat refuses: no command, and the reason" grep -q '^      no tool computes it: rc-heat: its body 1 has layers' table.txt
 claim "  with a viscosity the leak has a flow" bash -c "rc-scene --quiet --periodic $(echo $everything) --viscosity 1mPas rough.rcg | grep -q 'rc-leak --pressure-drop 1MPa --viscosity'"

@@ -403,7 +403,7 @@ add_step(struct tool *t, const struct opt *o, struct steps *steps, const char *t
         value = text == NULL ? -1 : option_word_index(o, choice(t, o, text), strlen(text));
     else if (o->type == OPT_STEP && o->arg != NULL)
         value = o->unit == UNIT_NONE && !o->real ? whole(t, o, text) : number(t, o, text);
-    steps->step[steps->n++] = (struct step){.opt = o, .value = value, .text = text};
+    steps->step[steps->n++] = (struct step){.opt = o, .value = value, .text = text, .typed = text};
 }
 
 static void

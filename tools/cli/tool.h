@@ -123,7 +123,8 @@ struct steps {
     struct step {
         const struct opt *opt;
         double value;
-        const char *text; /* argument of OPT_TEXTS; the history gets its present text */
+        const char *text;  /* argument of OPT_TEXTS; the history gets its present text */
+        const char *typed; /* this argument on the command line */
     } step[TOOL_STEPS];
     size_t n;
 };

@@ -135,6 +135,34 @@ write_command(const struct page *run, const struct command *c)
     putc('\n', out);
 }
 
+/* Messages about options, "rc-solve: --hardness 129HV is ...", are said once: each command repeats them. The
+ * others remain. */
+static void
+leave_repeated(struct page *run, char *said)
+{
+    char *to = said, *line = said, *next;
+
+    if (fflush(run->said.file) != 0)
+        tool_die(&run->t, "out of memory");
+    for (; *line != '\0'; line = next) {
+        const char *option = strstr(line, ": --");
+        RC_OWNED char *text = NULL;
+        size_t n = strcspn(line, "\n");
+
+        n += line[n] == '\n';
+        next = line + n;
+        if (option != NULL && option == line + strcspn(line, ":") && option < next) {
+            if ((text = strndup(option, (size_t)(next - option))) == NULL)
+                tool_die(&run->t, "out of memory");
+            if (run->said.text != NULL && strstr(run->said.text, text) != NULL)
+                continue;
+        }
+        memmove(to, line, n);
+        to += n;
+    }
+    *to = '\0';
+}
+
 /* Repeats the messages of a command, and ends as it did if it failed. */
 static void
 take_messages(struct page *run, const char *name, enum process_end end, struct process *p,
@@ -146,6 +174,8 @@ take_messages(struct page *run, const char *name, enum process_end end, struct p
         page_remove_folder(); /* the signal ends this tool, which then does nothing else */
     if (end == PROCESS_INTERRUPTED || end == PROCESS_DIED)
         tool_die(t, "%s was ended by a signal", name);
+    if (p->said != NULL && end != PROCESS_FAILED)
+        leave_repeated(run, p->said);
     if (p->said != NULL && (end == PROCESS_FAILED || !t->quiet))
         fputs(p->said, stderr);
     if (end == PROCESS_FAILED && !may_fail) {

@@ -2,7 +2,6 @@
 /* Commands that compute an effect: what they need, their forecasts and their results. */
 #include "scene.h"
 
-#include <ctype.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -117,7 +116,7 @@ scene_number_in_unit(double value, enum unit unit, char text[64])
     return text;
 }
 
-/* The value of an option: 210GPa for 2.1e11 Pa, else as it was typed. */
+/* The value of an option as it was typed, or as its table has it; else 210GPa for 2.1e11 Pa. */
 static const char *
 value_of(struct tool *t, size_t k, char pretty[64])
 {
@@ -125,12 +124,18 @@ value_of(struct tool *t, size_t k, char pretty[64])
     const char *typed = t->option.text[k];
     const double *v = tool_value(t, o);
 
-    if (o->type == OPT_NUMBER && !isinf(*v)) {
-        const char *value = scene_number_in_unit(*v, o->unit, pretty);
-        const bool plain = isdigit((unsigned char)value[strlen(value) - 1]) != 0;
-        return plain && typed != NULL ? typed : value;
-    }
+    if (o->type == OPT_NUMBER && !isinf(*v))
+        return typed != NULL ? typed : scene_number_in_unit(*v, o->unit, pretty);
     return o->type == OPT_NUMBERS && typed != NULL ? typed : tool_result_value(t, k);
+}
+
+const char *
+scene_value(struct tool *t, const char *name, char pretty[64])
+{
+    for (size_t k = 0; k < t->option.n; k++)
+        if (t->option.row[k].name != NULL && strcmp(t->option.row[k].name, name) == 0)
+            return value_of(t, k, pretty);
+    return "";
 }
 
 /* Adds an option of rc-scene, if it was given, as `--name value`; "other=name": as `--other value`. */
@@ -153,7 +158,7 @@ add_option(struct tool *t, const char *name, const char **word, char (*text)[96]
             for (size_t i = 0; i < steps->n && *n + 3 < SCENE_WORDS; i++) {
                 snprintf(text[*n], sizeof *text, "--%s", name);
                 word[*n] = text[*n];
-                word[*n + 1] = steps->step[i].text;
+                word[*n + 1] = steps->step[i].typed;
                 *n += 2;
             }
             continue;

@@ -51,6 +51,8 @@ struct scene_command {
 };
 /* 210GPa for 2.1e11 Pa, if this is exactly the same number; else its digits. */
 const char *scene_number_in_unit(double value, enum unit unit, char text[64]);
+/* The value of an option as it was typed, or as its table has it; else as scene_number_in_unit. */
+const char *scene_value(struct tool *tool, const char *name, char pretty[64]);
 /* Makes the command. `load`: the option of the load and its value for this case; `body`: body 1 as a layer;
  * `with`: names of options of effects that are accepted before. False: no program computes this effect. */
 bool scene_command(struct tool *tool, const char *effect, const char *const load[2],
