@@ -44,6 +44,16 @@ rc-scene --quiet --load 240N --E1 2.1e5MPa --nu1 0.30 --E2 rigid --hardness 129H
 claim "  values stand as they were typed" grep -q -- '^      rc-solve --load 240N --E1 2.1e5MPa --nu1 0.30 --E2 rigid --hardness 129HV ball.rcg -o scene-hardness.rcg' typed.txt
 rc-scene --quiet --mean-pressure 0.2GPa --periodic $all --layer 1.0um,100GPa,0.30 --layer 500nm,150GPa,0.25 rough.rcg >typed.txt
 claim "  also layers" grep -q -- '--layer 1.0um,100GPa,0.30 --layer 500nm,150GPa,0.25' typed.txt
+# the errors of a coarse grid are told by the command itself
+rc-synth sphere --nx 32 --dx 20um --radius 7.5mm -o coarse.rcg
+rc-scene --quiet --load 240N $steel coarse.rcg >grid.txt
+sed -n 's/^      \(rc-solve .* -o scene-grid.rcg\).*/\1/p' grid.txt >grid.sh
+claim "the command for a finer grid tells the errors by the grid" bash -c 'grep -q -- "--discretization --verbose" grid.sh &&
+    eval "$(cat grid.sh) --report grid.json" 2>told.txt && grep -q "estimated error by the grid: contact area [0-9.]* %, largest pressure [0-9.]* %, approach [0-9.]* %" told.txt'
+told() { sed -n "s/.*estimated error by the grid: .*$1 \([0-9.]*\) %.*/\1e-2/p" told.txt; }
+for figure in contact_area max_pressure approach; do
+    near "$(told "$(sed 's/max_/largest /; s/_/ /' <<<$figure)")" "$(field ${figure}_error_estimate grid.json)" 0.06 "  those of the report: $figure"
+done
 claim "  with a coat" commands $everything --layer 1um,100GPa,0.3
 claim "  which rc-heat refuses: no command, and the reason" grep -q '^      no tool computes it: rc-heat: its body 1 has layers' table.txt
 claim "  with a viscosity the leak has a flow" bash -c "rc-scene --quiet --periodic $(echo $everything) --viscosity 1mPas rough.rcg | grep -q 'rc-leak --pressure-drop 1MPa --viscosity'"

@@ -19,7 +19,7 @@ static const struct {
      * names the larger value counts. */
     const char *figure[RC_SCENE_FIGURES];
 } rows[] = {
-    {.effect = "grid", .solve = "--discretization"},
+    {.effect = "grid", .solve = "--discretization --verbose"}, /* its errors are a note */
     {.effect = "tilt",
      .solve = "--tilt free",
      .figure = {"contact_area", "max_pressure", "approach"}},
@@ -211,7 +211,8 @@ add_words(struct tool *t, const char *words, bool relaxes, const char **word, ch
             continue;
         }
         plain = name[0] == '-' && strcmp(name, "--discretization") != 0 &&
-                strcmp(name, "--pull-off") != 0 && strcmp(name, "--steady") != 0;
+                strcmp(name, "--verbose") != 0 && strcmp(name, "--pull-off") != 0 &&
+                strcmp(name, "--steady") != 0;
         if (*n + 1 < SCENE_WORDS) {
             snprintf(text[*n], sizeof *text, "%s", name);
             word[*n] = text[*n];

@@ -30,7 +30,12 @@ static void
 judge(struct run *run, const char *where, const struct solution *s)
 {
     const struct rc_contact *c = &s->contact;
+    const struct rc_discretization *d = &c->discretization;
 
+    tool_note(&run->d.t,
+              "%s: estimated error by the grid: contact area %s, largest pressure %s, approach %s",
+              where, shown_percent(d->contact_area, 2), shown_percent(d->max_pressure, 2),
+              shown_percent(d->approach, 2));
     if (c->edge_pressure > 0 && !c->hardness_active)
         course_warn(
             &run->d.course, "no error of the grid at the edge of the map",
