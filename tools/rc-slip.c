@@ -145,8 +145,6 @@ main(int argc, char **argv)
 
     tool_start(&run.d.t, &info, argc, argv, &args);
     check_arguments(&run);
-    if (ranks_of(&run.d.t) != NULL && run.motion != &slip_motion_path)
-        tool_usage(&run.d.t, "rolling does not work on several processes: take one process");
     run.d.beside = beside;
     drive_open(&run.d, NULL);
     while (tool_interrupted() == 0 &&

@@ -213,6 +213,20 @@ rc_ranks_sum_before(const struct rc_ranks *ranks, double v)
     return sum;
 }
 
+void
+rc_ranks_in_turn(const struct rc_ranks *ranks, rc_ranks_adds *add, const void *ctx, size_t n,
+                 double *sums)
+{
+    const size_t count = rc_ranks_count(ranks), own = rc_ranks_own(ranks);
+
+    for (size_t r = 0; r < count; r++) {
+        if (r == own)
+            add(ctx, sums);
+        if (count > 1)
+            rc_ranks_share(ranks, r, n * sizeof *sums, sums);
+    }
+}
+
 /* ---- sums over a map ---- */
 
 double

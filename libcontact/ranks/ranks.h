@@ -29,6 +29,8 @@
  *   extension             each rank makes its rows of coarser grids, with the neighbouring rows; the first
  *                         grid that is small, or on which a rank would begin with an odd row, is sent to
  *                         all ranks as a whole, and from there on each does the same (pyramid.c)
+ *   coarser grids of      each rank thins the pressure of its rows, which then move to their owners there;
+ *   rolling               tractions of the coarser rows beside its own are fetched (rolling/model.c)
  *   nested start          rows of the coarser grid are moved to the ranks that own them there; each rank
  *                         solves small grids alone, after a message that all have the memory (nested.c)
  *   padded gap            with adhesion the rows of the map move to the ranks that have them as rows of the
@@ -236,6 +238,12 @@ double rc_ranks_sum_before(const struct rc_ranks *ranks, double v);
 /* Several totals, and in place the largest of several more values, at once. */
 void rc_ranks_totals(const struct rc_ranks *ranks, size_t n, const struct rc_total *totals,
                      double *sums, size_t mosts, double *most);
+
+/* Adds to n sums, rank after rank, what `add` adds for the rows held here: the order, and so the rounding, is
+ * that of one process. Each rank waits for those before it; for figures, not for iterations. */
+typedef void rc_ranks_adds(const void *ctx, double *sums);
+void rc_ranks_in_turn(const struct rc_ranks *ranks, rc_ranks_adds *add, const void *ctx, size_t n,
+                      double *sums);
 
 /* ---- sums over a map ---- */
 

@@ -81,9 +81,11 @@ struct rolling {
     struct rc_model base;
     struct rc_rolling_problem problem;
     struct rc_shear shear;
-    size_t n, stage, level, levels;
+    size_t n, stage, level, levels; /* n: nodes held here */
     struct level at[LEVELS];
     double *p;
+    double *touched; /* of a column: 1 with a load, else 0          */
+    size_t *dealt;   /* on ranks: rows of two grids, for each rank  */
     double pressure_error, inner_convolutions, convolutions; /* convolutions: until the last go */
     struct rc_rolling_figures coarse;                        /* of the second finest grid        */
     double coarse_error;                                     /* N: of the iteration on this grid */
@@ -97,7 +99,7 @@ struct rolling {
     double own;           /* error of this step, relative to its tractions                  */
     struct errors errors; /* those of the earlier steps                                  */
     bool again;           /* a state was read: its contact must be solved again */
-    bool resumes;         /* and the grid of the state starts from its tractions */
+    bool resumes;         /* and the finest grid starts from its tractions */
     struct rc_rolling_figures f;
 };
 
@@ -194,7 +196,7 @@ from_middle(const struct level *l, size_t k, double ahead, double at[2])
     const struct rc_shape *s = &l->d->shape;
 
     at[0] = l->x + (double)(k % s->nx) * s->dx + ahead;
-    at[1] = l->y + (double)(k / s->nx) * s->dy;
+    at[1] = l->y + (double)(l->d->t->rows.first + k / s->nx) * s->dy;
     for (int c = 0; c < 2; c++)
         if (l->period[c] > 0)
             at[c] -= l->period[c] * round(at[c] / l->period[c]);
@@ -217,20 +219,25 @@ static bool
 spans_period(const struct level *l, double length)
 {
     const double size[2] = {l->d->shape.dx + length, l->d->shape.dy};
-    bool low[2] = {false, false}, high[2] = {false, false};
+    double reaches[2][2] = {{0}}; /* by axes: from below, from above */
 
-    for (size_t k = 0; k < l->d->n && l->period[0] + l->period[1] > 0; k++) {
+    if (!(l->period[0] + l->period[1] > 0))
+        return false;
+    for (size_t k = 0; k < l->d->n; k++) {
         double at[2];
         if (!(l->d->g[k] > 0))
             continue;
         from_middle(l, k, 0.5 * length, at);
         for (int c = 0; c < 2; c++) {
             const double end = 0.5 * (l->period[c] - size[c]), near = 1e-9 * l->period[c];
-            low[c] |= l->period[c] > 0 && (at[c] < near - end || at[c] > end + near);
-            high[c] |= l->period[c] > 0 && (at[c] > end - near || at[c] < -end - near);
+            if (l->period[c] > 0 && (at[c] < near - end || at[c] > end + near))
+                reaches[c][0] = 1;
+            if (l->period[c] > 0 && (at[c] > end - near || at[c] < -end - near))
+                reaches[c][1] = 1;
         }
     }
-    return (low[0] && high[0]) || (low[1] && high[1]);
+    rc_ranks_each_most(l->d->t->rows.ranks, 4, reaches[0]);
+    return reaches[0][0] * reaches[0][1] + reaches[1][0] * reaches[1][1] > 0;
 }
 
 /* ---- errors along a path ---- */
@@ -329,6 +336,22 @@ beside(size_t k, size_t up, size_t n, size_t m)
     return at < m ? at : 0;
 }
 
+/* The rows of the coarser grid, of m, in the places of the first k rows of the finer one, of n. */
+static size_t
+rows_within(size_t k, size_t n, size_t m)
+{
+    const size_t first = first_of(n, m);
+
+    return n == m ? k : k > first ? (k - first + 1) / 2 : 0;
+}
+
+/* The first row of rank r. */
+static size_t
+dealt(const struct rc_shape *s, const struct rc_ranks *ranks, size_t r)
+{
+    return rc_rows_dealt(s->ny, rc_rows_unit(s->nx), rc_ranks_count(ranks), r);
+}
+
 /* m: the middle of the map, as the position of the contact is counted. */
 static double
 middle_of(const struct rolling *f)
@@ -367,7 +390,8 @@ make_level(struct rolling *f, size_t l, struct rc_err *err)
         return RC_OK;
     boundary.datum *=
         f->problem.path ? 1 / (sqrt(shape.dx) * sqrt(shape.dy)) : 0; /* (1 - S) 1 = 0 */
-    at->d = rc_steady_new(&(struct rc_shape){shape.nx, shape.ny, sqrt(shape.dx / shape.dy),
+    at->d = rc_steady_new(f->base.rows.ranks,
+                          &(struct rc_shape){shape.nx, shape.ny, sqrt(shape.dx / shape.dy),
                                              sqrt(shape.dy / shape.dx)},
                           boundary, &inside, f->problem.force, f->problem.path, o->threads, err);
     if (at->d == NULL)
@@ -379,16 +403,31 @@ make_level(struct rolling *f, size_t l, struct rc_err *err)
 
 /* The pressure of every second node, in proportion to the load of the finer grid. */
 static void
-thin(const struct level *fine, const double *p, struct level *to, double *less)
+thin(const struct rolling *f, const struct level *fine, const double *p, struct level *to,
+     double *less)
 {
+    const struct rc_ranks *ranks = f->base.rows.ranks;
     const struct rc_shape *s = &fine->d->shape, *t = &to->d->shape;
-    double all = rc_sum(p, s->nx * s->ny) * s->dx * s->dy, sum;
+    const struct rc_rows *rows = &fine->d->t->rows;
+    const size_t before = rows_within(rows->first, s->ny, t->ny),
+                 end = rows_within(rows->first + rows->n, s->ny, t->ny);
+    double *own = ranks == NULL ? less : fine->d->step.way[0]; /* larger than these rows */
+    double all = rc_ranks_sum_of(ranks, p, fine->d->n) * s->dx * s->dy, sum;
 
-    for (size_t j = 0; j < t->ny; j++)
+    for (size_t j = before; j < end; j++)
         for (size_t i = 0; i < t->nx; i++)
-            less[j * t->nx + i] = p[place_of(j, s->ny, t->ny) * s->nx + place_of(i, s->nx, t->nx)];
-    sum = rc_sum(less, t->nx * t->ny) * t->dx * t->dy;
-    for (size_t k = 0; k < t->nx * t->ny && sum > 0; k++)
+            own[(j - before) * t->nx + i] =
+                p[(place_of(j, s->ny, t->ny) - rows->first) * s->nx + place_of(i, s->nx, t->nx)];
+    if (ranks != NULL) {
+        const size_t count = rc_ranks_count(ranks);
+        for (size_t r = 0; r <= count; r++) {
+            f->dealt[r] = rows_within(dealt(s, ranks, r), s->ny, t->ny);
+            f->dealt[count + 1 + r] = dealt(t, ranks, r);
+        }
+        rc_ranks_move(ranks, t->nx * sizeof *own, f->dealt, f->dealt + count + 1, 0, own, less);
+    }
+    sum = rc_ranks_sum_of(ranks, less, to->d->n) * t->dx * t->dy;
+    for (size_t k = 0; k < to->d->n && sum > 0; k++)
         less[k] *= all / sum;
 }
 
@@ -426,37 +465,51 @@ pose_level(struct rolling *f, struct level *l, const double *p)
 
 /* Loaded nodes one behind the other, on average. */
 static double
-run_of(const struct rc_shape *s, const double *p)
+run_of(const struct rc_steady *d, const double *p)
 {
-    size_t loaded = 0, runs = 0;
+    double sum[2] = {0, 0}; /* loaded nodes, runs */
 
-    for (size_t k = 0; k < s->nx * s->ny; k++) {
-        loaded += p[k] > 0;
-        runs += p[k] > 0 && ((k + 1) % s->nx == 0 || !(p[k + 1] > 0));
+    for (size_t k = 0; k < d->n; k++) {
+        sum[0] += p[k] > 0;
+        sum[1] += p[k] > 0 && ((k + 1) % d->shape.nx == 0 || !(p[k + 1] > 0));
     }
-    return runs > 0 ? (double)loaded / (double)runs : 0;
+    rc_ranks_each_sum(d->t->rows.ranks, 2, sum);
+    return sum[1] > 0 ? sum[0] / sum[1] : 0;
 }
 
 /* The length of the contact in columns; *end: the column behind its last one. On a periodic map all columns
  * but the longest row of free ones. */
 static size_t
-columns_of(const struct rc_shape *s, const double *p, bool repeats, size_t *end)
+columns_of(const struct rolling *f, bool repeats, size_t *end)
 {
-    size_t first = s->nx, gap = 0;
+    const size_t nx = f->base.shape.nx;
+    size_t first = nx, gap = 0;
 
+    memset(f->touched, 0, nx * sizeof *f->touched);
+    for (size_t k = 0; k < f->n; k++)
+        if (f->p[k] > 0)
+            f->touched[k % nx] = 1;
+    rc_ranks_each_most(f->base.rows.ranks, nx, f->touched);
     *end = 0;
-    for (size_t i = 0; i < s->nx; i++) {
-        size_t j = 0;
-        while (j < s->ny && !(p[j * s->nx + i] > 0))
-            j++;
-        if (j == s->ny)
+    for (size_t i = 0; i < nx; i++) {
+        if (f->touched[i] == 0)
             continue;
         gap = first < i && i - *end > gap ? i - *end : gap;
         first = i < first ? i : first;
         *end = i + 1;
     }
-    gap = first + s->nx - *end > gap ? first + s->nx - *end : gap;
-    return repeats ? s->nx - gap : *end - first;
+    gap = first + nx - *end > gap ? first + nx - *end : gap;
+    return repeats ? nx - gap : *end - first;
+}
+
+/* The sum of the largest forces of all nodes. */
+static void
+add_limits(const void *of, double *limit)
+{
+    const struct rolling *f = of;
+
+    for (size_t k = 0; k < f->n; k++)
+        *limit += f->at->d->g[k] * f->base.shape.dx * f->base.shape.dy;
 }
 
 static enum rc_status
@@ -465,9 +518,10 @@ carries(const struct rolling *f, struct rc_err *err)
     const double *at = f->base.to.at, size = hypot(at[RC_TANGENTIAL_X], at[RC_TANGENTIAL_Y]);
     double limit = 0;
 
-    for (size_t k = 0; k < f->n && f->problem.force; k++)
-        limit += f->at->d->g[k] * f->base.shape.dx * f->base.shape.dy;
-    return !f->problem.force || size < limit
+    if (!f->problem.force)
+        return RC_OK;
+    rc_ranks_in_turn(f->base.rows.ranks, add_limits, f, 1, &limit);
+    return size < limit
                ? RC_OK
                : rc_err_set(
                      err,
@@ -522,11 +576,11 @@ pose(struct rolling *f, struct rc_err *err)
     const size_t come = path ? (size_t)fmax(moved, 0) : 1;
     size_t end;
 
-    if (!rc_any(p, f->n))
+    if (!(rc_ranks_most(f->base.rows.ranks, rc_any(p, f->n)) > 0))
         return rc_err_set(err, "no node is in contact, so that nothing rolls: give a larger load");
     if (moved < 0)
         return rc_err_set(err, "the map moves back by %g columns: rolling is towards +x", -moved);
-    f->rolled = f->length / ((double)columns_of(s, p, !free_map, &end) * s->dx);
+    f->rolled = f->length / ((double)columns_of(f, !free_map, &end) * s->dx);
     if (free_map && end + come > s->nx)
         return rc_err_set(
             err,
@@ -541,32 +595,66 @@ pose(struct rolling *f, struct rc_err *err)
         if (make_level(f, f->levels, err) != RC_OK)
             return RC_FAIL;
         if (l > f->at) {
-            thin(l - 1, p, l, l->d->step.old[0]);
+            thin(f, l - 1, p, l, l->d->step.old[0]);
             p = l->d->step.old[0];
         }
         pose_level(f, l, p);
-        more = f->levels + 1 < LEVELS && run_of(&l->d->shape, p) >= RUN;
+        more = f->levels + 1 < LEVELS && run_of(l->d, p) >= RUN;
     }
     return check_spin(f, err) == RC_OK ? carries(f, err) : RC_FAIL;
 }
 
+/* Finds q and g of the coarser grid in the rows beside those of the finer one that are held here. Returns the
+ * first of these rows. On ranks they are fetched to maps of the finer grid that its iteration has not begun to
+ * use, and which are larger. */
+static size_t
+rows_beside(const struct rolling *f, const struct level *from, const struct level *to,
+            const double *v[3])
+{
+    const struct rc_ranks *ranks = f->base.rows.ranks;
+    const struct rc_shape *s = &from->d->shape, *t = &to->d->shape;
+    const size_t count = rc_ranks_count(ranks);
+    size_t *held = f->dealt, *first = held + count + 1, *n = first + count;
+    double *const room[3] = {to->d->u[0], to->d->u[1], to->d->step.way[0]};
+
+    v[0] = from->d->q[0];
+    v[1] = from->d->q[1];
+    v[2] = from->d->g;
+    if (ranks == NULL)
+        return 0;
+    for (size_t r = 0; r <= count; r++)
+        held[r] = dealt(s, ranks, r);
+    for (size_t r = 0; r < count; r++) {
+        const size_t j = dealt(t, ranks, r), end = dealt(t, ranks, r + 1);
+        first[r] = j < end ? beside(j, 0, t->ny, s->ny) : 0;
+        n[r] = j < end ? beside(end - 1, 1, t->ny, s->ny) + 1 - first[r] : 0;
+    }
+    for (int k = 0; k < 3; k++) {
+        rc_ranks_fetch(ranks, s->nx * sizeof **v, held, first, n, v[k], room[k]);
+        v[k] = room[k];
+    }
+    return first[rc_ranks_own(ranks)];
+}
+
 /* The start of a grid: the q/g of the coarser one. */
 static void
-refine(const struct level *from, struct level *to)
+refine(const struct rolling *f, const struct level *from, struct level *to)
 {
     const struct rc_shape *s = &from->d->shape, *t = &to->d->shape;
+    const double *v[3]; /* q, g */
+    const size_t first = rows_beside(f, from, to, v);
 
     for (size_t k = 0; k < to->d->n; k++) {
+        const size_t j = to->d->t->rows.first + k / t->nx;
         size_t at = 0;
         for (size_t up = 0; up < 4; up++) { /* the first neighbour with a load */
-            at = beside(k / t->nx, up / 2, t->ny, s->ny) * s->nx +
+            at = (beside(j, up / 2, t->ny, s->ny) - first) * s->nx +
                  beside(k % t->nx, up % 2, t->nx, s->nx);
-            if (from->d->g[at] > 0)
+            if (v[2][at] > 0)
                 break;
         }
         for (int c = 0; c < 2; c++)
-            to->d->q[c][k] =
-                from->d->g[at] > 0 ? from->d->q[c][at] / from->d->g[at] * to->d->g[k] : 0;
+            to->d->q[c][k] = v[2][at] > 0 ? v[c][at] / v[2][at] * to->d->g[k] : 0;
     }
     for (int c = 0; c < 2; c++)
         to->d->v[c] = from->d->v[c] * step_of(to) / step_of(from);
@@ -590,7 +678,7 @@ begin(struct rolling *f)
             l->d->v[c] = 0;
         rc_steady_guess(l->d);
     } else if (!f->resumes) {
-        refine(l + 1, l);
+        refine(f, l + 1, l);
     }
     (f->resumes ? rc_steady_begin_again : rc_steady_begin)(l->d);
     f->resumes = false;
@@ -623,39 +711,63 @@ look_at_ellipse(const struct rolling *f, double area, double ratio, double none,
     rc_fastsim(to->ellipse, g, to->kalker, to->limit, to->creep, to->spin, to->fastsim_force);
 }
 
+/* Sums over a grid, of which some have two components. */
+enum {
+    LIMIT,
+    MOMENT,
+    FORCE,
+    NODES = FORCE + 2, /* with load                       */
+    DISTANCES,         /* of these nodes from the middle  */
+    SQUARES = DISTANCES + 2,
+    SUMS = SQUARES + 2
+};
+
+static void
+add_nodes(const void *of, double *sum)
+{
+    const struct level *l = of;
+    const struct rc_steady *d = l->d;
+    const double cell = d->shape.dx * d->shape.dy;
+
+    for (size_t k = 0; k < d->n; k++) {
+        double at[2];
+        if (!(d->g[k] > 0))
+            continue;
+        from_middle(l, k, 0, at);
+        sum[LIMIT] += d->g[k] * cell;
+        sum[MOMENT] += (at[0] * d->q[1][k] - at[1] * d->q[0][k]) * cell;
+        sum[NODES]++;
+        for (int c = 0; c < 2; c++) {
+            sum[FORCE + c] += d->q[c][k] * cell;
+            sum[DISTANCES + c] += at[c];
+            sum[SQUARES + c] += at[c] * at[c];
+        }
+    }
+}
+
 /* The figures of one grid. Second moments of the contact are about its middle. */
 static void
 look_at(const struct rolling *f, const struct level *l, struct rc_rolling_figures *to)
 {
     const struct rc_steady *d = l->d;
-    const struct rc_shape *s = &d->shape;
-    const double cell = s->dx * s->dy, spin = spin_of(f), none = spans_period(l, 0) ? NAN : 0;
-    double n = 0, m[4] = {0};
+    const double spin = spin_of(f), none = spans_period(l, 0) ? NAN : 0;
+    double sum[SUMS] = {0}, moment[2];
 
     *to = (struct rc_rolling_figures){.load = f->f.load, .spin = spin};
     for (int c = 0; c < 2; c++)
         to->creep[c] = !f->problem.force ? f->base.to.at[RC_CREEP_X + c]
                        : l->length > 0   ? d->v[c] / step_of(l)
                                          : NAN;
-    for (size_t k = 0; k < d->n; k++) {
-        double at[2];
-        if (!(d->g[k] > 0))
-            continue;
-        from_middle(l, k, 0, at);
-        to->limit += d->g[k] * cell;
-        to->moment += (at[0] * d->q[1][k] - at[1] * d->q[0][k]) * cell;
-        for (int c = 0; c < 2; c++) {
-            to->force[c] += d->q[c][k] * cell;
-        }
-        n++;
-        for (int c = 0; c < 2; c++) {
-            m[c] += at[c];
-            m[2 + c] += at[c] * at[c];
-        }
+    rc_ranks_in_turn(f->base.rows.ranks, add_nodes, l, SUMS, sum);
+    to->limit = sum[LIMIT];
+    to->moment = sum[MOMENT];
+    for (int c = 0; c < 2; c++) {
+        to->force[c] = sum[FORCE + c];
+        moment[c] = sum[SQUARES + c] - sum[DISTANCES + c] * sum[DISTANCES + c] / sum[NODES];
     }
     to->power = to->force[0] * to->creep[0] + to->force[1] * to->creep[1] + to->moment * spin;
     to->moment += none;
-    look_at_ellipse(f, n * cell, sqrt((m[2] - m[0] * m[0] / n) / (m[3] - m[1] * m[1] / n)), none,
+    look_at_ellipse(f, sum[NODES] * (d->shape.dx * d->shape.dy), sqrt(moment[0] / moment[1]), none,
                     to);
     to->stick_nodes = d->found.stick;
     to->slip_nodes = d->found.slipping;
@@ -684,32 +796,42 @@ extrapolate(const struct rolling *f, struct rc_rolling_figures *to)
                  : NAN;
 }
 
+/* Sums: friction energy, with and without the parts that rc_steady_dissipated() leaves out. */
+static void
+add_dissipation(const void *of, double *sum)
+{
+    const struct level *l = of;
+    const double unit = l->d->shape.dx * l->d->shape.dy / step_of(l);
+
+    for (size_t k = 0; k < l->d->n; k++) {
+        sum[0] += rc_steady_dissipated(l->d, k, true) * unit;
+        sum[1] += rc_steady_dissipated(l->d, k, false) * unit;
+    }
+}
+
 /* Finds the friction energy, and the factor by which that of the nodes that slip becomes all of it. In
  * a steady state of similar bodies it is the supplied energy. */
 static void
 find_dissipation(struct rolling *f, struct rc_rolling_figures *to)
 {
-    const struct level *l = f->at;
-    const double unit = l->d->shape.dx * l->d->shape.dy / step_of(l);
-    double all = 0, slips = 0;
+    double sum[2] = {0, 0}, all;
 
-    for (size_t k = 0; k < f->n; k++) {
-        all += rc_steady_dissipated(l->d, k, true) * unit;
-        slips += rc_steady_dissipated(l->d, k, false) * unit;
-    }
-    if (!f->problem.path && l->d->t->shear.beta == 0)
-        all = to->power;
-    f->dissipates = slips > 0 && all > 0 ? all / slips : 1;
-    to->power_slip = f->dissipates * slips;
+    rc_ranks_in_turn(f->base.rows.ranks, add_dissipation, f->at, 2, sum);
+    all = !f->problem.path && f->at->d->t->shear.beta == 0 ? to->power : sum[0];
+    f->dissipates = sum[1] > 0 && all > 0 ? all / sum[1] : 1;
+    to->power_slip = f->dissipates * sum[1];
 }
 
 static double
 all_convolutions(const struct rolling *f)
 {
+    const struct rc_shape *s = &f->base.shape;
     double sum = f->inner_convolutions;
 
-    for (size_t k = 0; k < LEVELS && f->at[k].d != NULL; k++)
-        sum += f->at[k].d->t->convolutions * (double)f->at[k].d->n / (double)f->n;
+    for (size_t k = 0; k < LEVELS && f->at[k].d != NULL; k++) {
+        const struct rc_shape *own = &f->at[k].d->shape;
+        sum += f->at[k].d->t->convolutions * (double)(own->nx * own->ny) / (double)(s->nx * s->ny);
+    }
     return sum;
 }
 
@@ -718,11 +840,12 @@ find_figures(struct rolling *f)
 {
     struct rc_rolling_figures *to = &f->f;
 
-    to->load = rc_sum(f->p, f->n) * f->base.shape.dx * f->base.shape.dy;
+    to->load =
+        rc_ranks_sum_of(f->base.rows.ranks, f->p, f->n) * f->base.shape.dx * f->base.shape.dy;
     if (f->at->d == NULL || f->stage < ROLLING || f->again)
         return;
     for (size_t k = f->level; k > 0; k--) /* the best so far */
-        refine(&f->at[k], &f->at[k - 1]);
+        refine(f, &f->at[k], &f->at[k - 1]);
     look_at(f, f->at, to);
     find_dissipation(f, to);
     extrapolate(f, to);
@@ -803,7 +926,6 @@ step_contact(struct rolling *f, struct rc_err *err)
 {
     struct rc_model *inner = f->base.inner;
     const enum rc_status status = f->problem.known != NULL ? RC_OK : rc_model_step(inner, err);
-    const size_t level = f->level;
 
     if (status == RC_MORE || status == RC_FAIL)
         return status;
@@ -819,10 +941,7 @@ step_contact(struct rolling *f, struct rc_err *err)
         memcpy(f->p, f->problem.known->p, f->n * sizeof *f->p);
     if (pose(f, err) != RC_OK)
         return RC_FAIL;
-    if (f->resumes && level >= f->levels)
-        return rc_err_set(err, "the state has %zu coarser grids, and this contact has %zu", level,
-                          f->levels - 1);
-    f->level = f->resumes ? level : f->levels - 1;
+    f->level = f->resumes ? 0 : f->levels - 1;
     if (f->resumes && f->problem.path && f->stage == THERE)
         return there(f);
     begin(f);
@@ -837,7 +956,7 @@ step(struct rc_model *m, struct rc_err *err)
 
     if (f->again) {
         f->again = false;
-        f->resumes = true;
+        f->resumes = f->level == 0; /* coarser grids begin again */
         f->pressure_error = 0;
         return step_contact(f, err);
     }
@@ -951,25 +1070,37 @@ set_heights(struct rc_model *m, const double *h, struct rc_err *err)
 static void
 exchange_faces(struct rc_steady *d, struct rc_state *s)
 {
+    const double *from = NULL;
+    double *to = NULL;
+
     RC_STATE_COUNTS(s, &d->found.stick, &d->found.slipping);
-    for (size_t k = 0; k < d->n; k++) {
-        size_t face = d->face[k];
-        rc_state_count(s, &face, RC_FACE_SLIP);
-        d->face[k] = (unsigned char)face;
-    }
+    if (rc_state_reads(s))
+        from = rc_state_read_map(s, d->n);
+    else
+        to = rc_state_map(s, d->n, NULL);
+    for (size_t k = 0; k < d->n && to != NULL; k++)
+        to[k] = d->face[k];
+    for (size_t k = 0; k < d->n && from != NULL; k++)
+        if (from[k] == RC_FACE_OFF || from[k] == RC_FACE_STICK || from[k] == RC_FACE_SLIP)
+            d->face[k] = (unsigned char)from[k];
+        else
+            rc_state_refuse(s, "a face is out of range");
 }
 
 /* The tractions due to v, which may be those of an earlier step. */
 static void
 exchange_border(struct rc_steady *d, struct rc_state *s)
 {
-    rc_state_count(s, &d->motion.slipping, d->n);
+    rc_state_count(s, &d->motion.slipping, d->shape.nx * d->shape.ny);
     rc_state_finite(s, 4, d->motion.of_sum);
-    for (size_t k = 0; k < 4 * d->n; k++) {
-        float *at = d->motion.due[k / 2 % 2][k % 2] + k / 4;
-        double due = *at;
-        rc_state_finite(s, 1, &due);
-        *at = (float)due;
+    for (int m = 0; m < 4; m++) {
+        float *due = d->motion.due[m / 2][m % 2];
+        const double *from = rc_state_reads(s) ? rc_state_read_map(s, d->n) : NULL;
+        double *to = from == NULL ? rc_state_map(s, d->n, NULL) : NULL;
+        for (size_t k = 0; k < d->n && to != NULL; k++)
+            to[k] = due[k];
+        for (size_t k = 0; k < d->n && from != NULL; k++)
+            due[k] = (float)from[k];
     }
 }
 
@@ -978,7 +1109,7 @@ state(struct rc_model *m, struct rc_state *s)
 {
     struct rolling *f = (struct rolling *)m;
     const bool path = f->problem.path, border = f->problem.force && !path && !rc_state_is_copy(s);
-    struct level *l;
+    struct rc_steady *d;
     bool there;
 
     rc_state_count(s, &f->stage, THERE);
@@ -990,7 +1121,7 @@ state(struct rc_model *m, struct rc_state *s)
     rc_state_finite(s, AGES, f->errors.age);
     rc_state_finite(s, 2, f->coarse.force);
     rc_state_finite(s, 2, f->coarse.creep);
-    if (rc_state_refused(s))
+    if (!rc_state_agree(s, f->base.rows.ranks))
         return;
     if (rc_state_reads(s)) {
         f->resumes = false;
@@ -998,37 +1129,35 @@ state(struct rc_model *m, struct rc_state *s)
         f->convolutions = all_convolutions(f);
         f->length = f->rolls && path ? m->to.at[RC_POSITION] - m->from.at[RC_POSITION] : 0;
     }
-    if (f->stage != ROLLING && f->stage != THERE && !(path && f->rolls))
+    if (f->level > 0 || (f->stage != ROLLING && f->stage != THERE && !(path && f->rolls)))
         return;
-    l = &f->at[f->level];
     if (rc_state_reads(s)) {
         struct rc_err err;
-        if (make_level(f, f->level, &err) != RC_OK) {
+        if (make_level(f, 0, &err) != RC_OK) {
             rc_state_refuse(s, "memory is short");
             return;
         }
     }
+    d = f->at->d;
     there = path && f->stage == THERE;
-    if (!rc_state_holds(s, (there ? 9 : path ? 4 : border ? 6 : 2) * l->d->n + (border ? 13 : 8)))
-        return;
-    rc_state_finite(s, 2, l->d->v);
-    RC_STATE_OPEN(s, &l->d->found.estimate);
-    RC_STATE_SIZES(s, &l->d->found.left);
-    RC_STATE_COUNTS(s, &l->d->found.steps, &l->d->found.fallbacks);
+    rc_state_finite(s, 2, d->v);
+    RC_STATE_OPEN(s, &d->found.estimate);
+    RC_STATE_SIZES(s, &d->found.left);
+    RC_STATE_COUNTS(s, &d->found.steps, &d->found.fallbacks);
     for (int c = 0; c < 2; c++) {
         if (path) { /* a step that has not ended begins again */
-            rc_state_finite(s, l->d->n, l->d->path.last[c]);
-            rc_state_finite(s, l->d->n, l->d->step.old[c]);
+            rc_state_map(s, d->n, d->path.last[c]);
+            rc_state_map(s, d->n, d->step.old[c]);
         }
         if (!path || there)
-            rc_state_finite(s, l->d->n, l->d->q[c]);
+            rc_state_map(s, d->n, d->q[c]);
         if (there)
-            rc_state_finite(s, l->d->n, l->d->u[c]);
+            rc_state_map(s, d->n, d->u[c]);
     }
     if (there)
-        exchange_faces(l->d, s);
+        exchange_faces(d, s);
     if (border)
-        exchange_border(l->d, s);
+        exchange_border(d, s);
 }
 
 static void
@@ -1072,7 +1201,8 @@ plan(const struct rc_model *m, const struct rc_point *most, struct rc_expected *
     if (o->known == NULL && rc_model_plan(m->inner, &inner, expected, err) != RC_OK)
         return RC_FAIL;
     each = rc_conv_seconds(&m->shape, &(struct rc_conv_options){.boundary = o->law.boundary,
-                                                                .threads = o->law.threads});
+                                                                .threads = o->law.threads,
+                                                                .ranks = f->base.rows.ranks});
     expected->seconds += work * (o->path ? 1 : RC_ROLLING_PASSES) * each;
     expected->convolutions += work;
     expected->memory += (size_t)(maps * (double)f->n) * sizeof(double);
@@ -1106,10 +1236,9 @@ const struct rc_model_row rc_model_rolling = {
 static enum rc_status
 make(struct rolling *f, struct rc_err *err)
 {
+    const struct rc_ranks *ranks = f->base.rows.ranks;
     struct rc_friction_law *o = &f->problem.law;
 
-    if (f->base.rows.ranks != NULL)
-        return rc_err_set(err, "rolling cannot share its maps among processes: take one process");
     if (rc_friction_solver_check(&f->base.shape, o, &f->shear, err) != RC_OK ||
         rc_model_same_boundary(&f->base, o->boundary, err) != RC_OK)
         return RC_FAIL;
@@ -1117,9 +1246,12 @@ make(struct rolling *f, struct rc_err *err)
         return rc_err_set(err, "steady rolling on a map that is periodic along x has no leading "
                                "edge, where free surface "
                                "comes in: take a boundary that is free along x");
-    f->n = f->base.shape.nx * f->base.shape.ny;
+    f->n = rc_model_nodes(&f->base);
     o->tol = o->tol > 0 ? o->tol : usual_tol[f->problem.path];
     f->p = rc_store_zeros(&f->base.own, f->n, sizeof *f->p);
+    f->touched = rc_store_take(&f->base.own, f->base.shape.nx, sizeof *f->touched);
+    if (ranks != NULL)
+        f->dealt = rc_store_take(&f->base.own, 3 * (rc_ranks_count(ranks) + 1), sizeof *f->dealt);
     return rc_model_room(&f->base, err);
 }
 

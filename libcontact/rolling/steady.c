@@ -206,7 +206,7 @@ precondition(struct rc_steady *d, float *const v[2], float *const u[2], float *c
         if (sweep > 0)
             rc_extension_extend(d->m, u);
 #pragma omp parallel for num_threads(d->threads) schedule(static)
-        for (size_t j = 0; j < d->shape.ny; j++) {
+        for (size_t j = 0; j < d->t->rows.n; j++) {
             const float *e[2] = {NULL, NULL};
             if (sweep > 0)
                 rc_extension_row(d->m, j, e);
@@ -729,19 +729,31 @@ rc_steady_guess(struct rc_steady *d)
     }
 }
 
+/* Sums: g, nodes with load. */
+static void
+add_limits(const void *ctx, double *sum)
+{
+    const struct rc_steady *d = ctx;
+
+    for (size_t k = 0; k < d->n; k++) {
+        sum[0] += d->g[k];
+        sum[1] += d->g[k] > 0;
+    }
+}
+
 static void
 prepare(struct rc_steady *d, bool again)
 {
-    double loaded = 0;
+    double sum[2] = {0, 0};
 
-    d->motion.limit = 0;
+    rc_ranks_in_turn(d->t->rows.ranks, add_limits, d, 2, sum);
+    d->motion.limit = sum[0];
+    d->motion.weight = sqrt(sum[1]);
     d->motion.kept = again;
     d->motion.slipping = again ? d->motion.slipping : SIZE_MAX;
     for (size_t k = 0; k < d->n; k++) {
         const bool on = d->g[k] > 0;
         d->face[k] = on ? STICK : OFF;
-        loaded += on;
-        d->motion.limit += d->g[k];
         for (int c = 0; c < 2 && !on; c++) {
             d->q[c][k] = 0;
             for (size_t m = 0; m <= STEPS; m++)
@@ -754,7 +766,6 @@ prepare(struct rc_steady *d, bool again)
         if (!again)
             rc_onto_disc(d->g[k], false, &d->q[0][k], &d->q[1][k]);
     }
-    d->motion.weight = sqrt(loaded);
     find_slip(d);
     look(d);
     estimate(d);
@@ -858,7 +869,8 @@ allocate(struct rc_steady *d)
 
     d->g = rc_store_zeros(&d->own, (1 + 2 * count) * d->n, sizeof *d->g);
     d->face = rc_store_take(&d->own, 2 * d->n, 1);
-    if (rc_sums_new(&d->rows, NULL, d->shape.ny, SUMS, 0, d->threads) != RC_OK || d->own.failed)
+    if (rc_sums_new(&d->rows, d->t->rows.ranks, d->t->rows.n, SUMS, 0, d->threads) != RC_OK ||
+        d->own.failed)
         return false;
     memset(d->face, OFF, 2 * d->n);
     for (size_t k = 0; k < 2 * count; k++)
@@ -879,26 +891,26 @@ allocate(struct rc_steady *d)
 }
 
 struct rc_steady *
-rc_steady_new(const struct rc_shape *shape, struct rc_boundary boundary,
-              const struct rc_shear *shear, bool force, bool path, size_t threads,
-              struct rc_err *err)
+rc_steady_new(const struct rc_ranks *ranks, const struct rc_shape *shape,
+              struct rc_boundary boundary, const struct rc_shear *shear, bool force, bool path,
+              size_t threads, struct rc_err *err)
 {
     RC_OWN(rc_steady, d) = calloc(1, sizeof *d);
 
-    if (d == NULL)
-        return rc_err_null(err, "out of memory for rolling");
+    if (rc_ranks_need(ranks, d != NULL, err, "out of memory for rolling") != RC_OK)
+        return NULL;
     d->shape = *shape;
-    d->n = shape->nx * shape->ny;
     d->asked.force = force;
     d->asked.path = path;
-    if ((d->t = rc_tangential_new(NULL, shape, boundary, shear, threads, err)) == NULL)
+    if ((d->t = rc_tangential_new(ranks, shape, boundary, shear, threads, err)) == NULL)
         return NULL;
+    d->n = shape->nx * d->t->rows.n;
     d->threads = d->t->threads;
     d->self = self_of(d->t);
     if (!path && (d->m = rc_extension_new(d->t, err)) == NULL)
         return NULL;
-    if (!allocate(d))
-        return rc_err_null(err, "out of memory for rolling of %zu x %zu nodes", shape->nx,
-                           shape->ny);
-    return rc_give(&d);
+    return rc_ranks_need(ranks, allocate(d), err, "out of memory for rolling of %zu x %zu nodes",
+                         shape->nx, shape->ny) == RC_OK
+               ? rc_give(&d)
+               : NULL;
 }

@@ -55,8 +55,8 @@ struct rc_steady_motion {
 };
 
 struct rc_steady {
-    struct rc_shape shape;
-    size_t n;
+    struct rc_shape shape; /* the whole map */
+    size_t n;              /* nodes of maps, held here */
     int threads;
     struct rc_tangential *t;
     double self; /* B of a node on itself, the mean of both directions */
@@ -91,10 +91,10 @@ struct rc_steady {
 };
 
 /* T in units of the cell over E*. path: for rc_steady_set_out, else for rc_steady_step. NULL when memory is
- * short. */
-struct rc_steady *rc_steady_new(const struct rc_shape *shape, struct rc_boundary boundary,
-                                const struct rc_shear *shear, bool force, bool path, size_t threads,
-                                struct rc_err *err);
+ * short. All ranks call each function but the last one together. */
+struct rc_steady *rc_steady_new(const struct rc_ranks *ranks, const struct rc_shape *shape,
+                                struct rc_boundary boundary, const struct rc_shear *shear,
+                                bool force, bool path, size_t threads, struct rc_err *err);
 void rc_steady_free(struct rc_steady *d); /* NULL is allowed */
 RC_OWNER(rc_steady)
 /* A first q, along the motion: half of what friction can carry, or E* times the creepage, about as much

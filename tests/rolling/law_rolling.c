@@ -25,7 +25,7 @@ rough(uint64_t way, double tol)
 {
     const struct rc_shape shape = {NX, NY, 1, 1};
     const struct rc_shear shear = {1, 0.4, 0};
-    struct rc_steady *d = rc_steady_new(&shape, RC_FREE, &shear, false, false, 1, &err);
+    struct rc_steady *d = rc_steady_new(NULL, &shape, RC_FREE, &shear, false, false, 1, &err);
     uint64_t seed = 3;
 
     assert_non_null(d);

@@ -72,6 +72,44 @@ claim "friction, several threads" same "RC_THREADS=2 $slip --tangential 30mN,30m
 # Spectra in double and in single precision have other columns on each process; on the ball only one has contact.
 claim "friction of a ball" same "$slip --nu 0.3 --tangential 20uN,10uN pressed-ball.rcg"
 
+# Rolling has coarser grids, whose rows belong to other processes, where the contact is 32 nodes long. A profile is on one
+# process. Where the map repeats along y, an odd number of rows stays, and the coarse cells are not square.
+roll="rc-slip --mu 0.3 --quiet --tol 3e-2 --output pressure,traction-x,traction-y,slip-x,slip-y,state,slip,dissipation"
+steady="$roll --steady"
+rolls="$roll --nu 0.3"
+rc-synth sphere --nx 69 --ny 97 --dx 1um --dy 1.1um --radius 400um |
+    rc-solve --quiet --E1 3GPa --nu1 0.3 --E2 3GPa --nu2 0.3 --load 20mN -o rolls-alike.rcg
+rc-pick --crop 0,0,60,66 rolls-alike.rcg >at-edge.rcg
+rc-synth sphere --nx 66 --ny 98 --dx 1um --radius 400um -o even-ball.rcg
+rc-solve --quiet --E1 3GPa --nu1 0.3 --E2 rigid --load 10mN -o rolls-unlike.rcg even-ball.rcg
+rc-solve --quiet --periodic=y --estar 1GPa --load 10mN -o rolls-repeated.rcg even-ball.rcg
+for rows in 75 76; do
+    rc-synth selfaffine --nx 91 --ny $rows --dx 1um --hurst 0.8 --rms-slope 0.02 --short-cut 8um --seed 5 |
+        rc-solve --quiet --periodic=y --cylinder 1mm --E1 3GPa --nu1 0.3 --E2 $([ $rows = 75 ] && echo 3GPa --nu2 0.3 || echo rigid) --load 500N/m -o line-$rows.rcg
+done
+rc-synth cylinder --nx 200 --ny 1 --dx 1um --radius 1mm --direction 90 | rc-solve --quiet --periodic=y --estar 1GPa --load 2kN/m -o line-profile.rcg
+rc-solve --quiet --estar 1GPa --radius 200um --load 1mN --travel=-4um,-3um,-1um rough.rcg -o way.rcg
+rc-solve --quiet --estar 1GPa --radius 200um --load 1mN --travel=-3um,0,3um --window 110x37 rough.rcg -o way-window.rcg
+rc-solve --quiet --periodic --E1 3GPa --nu1 0.3 --E2 rigid --radius 200um --load 1mN --travel=-3um,0,3um rough.rcg -o way-unlike.rcg
+ranks="2 3 4" claim "rolling, steady: a contact on one process" same "$steady --nu 0.3 --creep 1e-3,5e-4,300 pressed-ball.rcg"
+claim "  coarser grids, with spin" same "$steady --creep 2e-3,1e-3,200 rolls-alike.rcg"
+claim "    there are such grids" grep -q '"discretization_error_estimate": [0-9]' shared.json
+claim "  a force" same "$steady --creep-force 3mN,1mN rolls-alike.rcg"
+claim "  creepages from stick to full slip, several threads" same \
+    "RC_THREADS=2 $steady --tau-max 30MPa --creep 1e-4:5e-2:log:3,0,0:200:3 rolls-alike.rcg"
+claim "  dissimilar bodies, even rows" same "$steady --creep 2e-3,-1e-3,200 rolls-unlike.rcg"
+claim "  dissimilar bodies, a force" same "$steady --creep-force 1mN,0.5mN rolls-unlike.rcg"
+claim "  spin on a map that repeats along y" same "$steady --nu 0.3 --creep 1e-3,0,300 rolls-repeated.rcg"
+claim "  a line contact, odd rows of a map that repeats" same "$steady --creep 1e-3,1e-3 line-75.rcg"
+claim "    a force" same "$steady --creep-force 3mN,1mN line-75.rcg"
+claim "  a line contact, even rows, dissimilar bodies" same "$steady --creep 1e-3,1e-3 line-76.rcg"
+claim "  a profile" same "$steady --nu 0.3 --creep 1e-3,1e-3 line-profile.rcg"
+ranks="2 3 4" claim "rolling over a path, with spin" same "$rolls --creep 1e-3,5e-4,300 way.rcg"
+claim "  a force" same "$rolls --creep-force 0.1mN,0.05mN way.rcg"
+claim "  in a window that moves, several threads" same "RC_THREADS=2 $rolls --creep 1e-3,5e-4 way-window.rcg"
+claim "  periodic, dissimilar bodies" same "$roll --creep 1e-3,5e-4 way-unlike.rcg"
+claim "    a force" same "$roll --creep-force 0.1mN,5uN way-unlike.rcg"
+
 # A pass along y needs columns of all processes; positions need the neighbouring rows. The results of positions have more
 # columns than the map, and therefore other rows on each process.
 fatigue="rc-fatigue --nu 0.3 --bending-limit 20MPa --torsion-limit 12MPa --criteria crossland,dangvan,papadopoulos,findley,amplitude --planes --life 3 --quiet"
@@ -154,7 +192,12 @@ claim "  of wear" kept "$wear --distance 1mm pressed.rcg"
 # The states of the first point have no maps.
 claim "  of adhesion with a hardness" kept "$stick --estar 2MPa --load 2mN,0.1mN --history --hardness 0.4MPa small-ball.rcg" "0 0.7"
 claim "  of friction" kept "rc-slip --nu 0.3 --mu 0.3 --quiet --tol 0.1 --increments 1 --tangential 20uN --output pressure,traction-x,dissipation pressed-ball.rcg"
+# A state on a coarser grid has no maps, and begins the point again.
+claim "  of steady rolling" kept "$steady --creep 1e-3,0 rolls-alike.rcg" "0.3 0.9"
+claim "  of rolling over a path" kept "$rolls --creep 1e-3,5e-4 way.rcg" "0.5 0.8"
 if before_release; then
+    claim "  of steady rolling, a force" kept "$steady --creep-force 1mN,0.5mN rolls-unlike.rcg" "0.3 0.6 0.9"
+    claim "  of rolling over a path, a force" kept "$roll --creep-force 0.1mN,5uN way-unlike.rcg" "0.4 0.8"
     claim "  of adhesion, pulled off" kept "$stick --estar 2MPa --load 2mN,0.1mN --pull-off small-ball.rcg"
     claim "  of friction, loads and forces" kept "$slip --path '0.3N,0,0;0.3N,50mN,0;0.2N,30mN,20mN' --increments 4 similar.rcg"
     claim "  of friction, dissimilar bodies" kept "$slip --tangential 30mN --increments 2 dissimilar--periodic.rcg"
@@ -178,7 +221,13 @@ claim "  the message is printed once" test "$(grep -c 'along one axis' refuses.e
 refuses 1 'several processes needs a periodic map' "sliding on a free map" "$run $speed 10um/s --load 1mN -o no.rcg ball.rcg"
 claim "  the message is printed once" test "$(grep -c 'needs a periodic' refuses.err)" = 1
 refuses 1 'rotate the map with rc-pick --rotate 90' "  along y" "$run $speed 10um/s --along y --periodic --mean-pressure 20kPa -o no.rcg rough.rcg"
-refuses 2 'rolling does not work on several processes' "rolling" "$run $slip --creep 1e-3,0 --steady -o no.rcg similar.rcg"
+refuses 1 'the contact reaches the leading edge of the map, column 59 of 60' "rolling, a contact at the edge" \
+    "$run $steady --creep 1e-3,0 -o no.rcg at-edge.rcg"
+claim "  the message is printed once" test "$(grep -c 'leading edge' refuses.err)" = 1
+refuses 1 'the contact reaches half a period from its middle' "  spin of a line contact" "$run $steady --creep 1e-3,0,9 -o no.rcg line-75.rcg"
+refuses 1 'friction carries less than' "  a force above the limit" "$run $steady --creep-force 9N -o no.rcg rolls-alike.rcg"
+sed 's/^dx=1e-06$/dx=4e-06/' way.rcg >long-cells.rcg
+refuses 1 'processes cannot share the map' "  a path on long cells" "$run $rolls --creep 1e-3,0 -o no.rcg long-cells.rcg"
 refuses 1 'friction carries less than' "a force above the limit" "$run $slip --tangential 9N -o no.rcg similar.rcg"
 claim "  the message is printed once" test "$(grep -c 'carries less' refuses.err)" = 1
 relax="rc-solve --periodic --relaxation 1MPa,9MPa:1s --nu1 0.5 --E2 rigid --mean-pressure 20kPa --time 0,1s --increments 2 --quiet"
@@ -212,6 +261,8 @@ export ASAN_OPTIONS="${ASAN_OPTIONS-}:verify_asan_link_order=0"
 claim "allocations of one process fail: yield" memory "${yield/1GPa/0.5GPa} --load 40mN ball.rcg"
 claim "  adhesion" memory "$stick --estar 2MPa --load 0.1mN --tol 1e-3 small-ball.rcg"
 claim "  friction" memory "rc-slip --nu 0.3 --mu 0.3 --quiet --tol 0.1 --tangential 20uN pressed-ball.rcg"
+claim "  steady rolling" memory "$steady --nu 0.3 --creep-force 50uN,5uN pressed-ball.rcg"
+claim "  rolling over a path" memory "$rolls --creep 1e-3,0 way.rcg"
 claim "  creep" memory "$relax --tol 0.1 rough.rcg"
 claim "  wear" memory "$wear --distance 1mm pressed-ball.rcg"
 claim "  heat" memory "$heat --speed 1m/s --time 1us line-x.rcg"

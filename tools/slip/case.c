@@ -411,12 +411,12 @@ report(struct report *r, const struct slip_run *run, const struct rc_model *m)
     return s->converged;
 }
 
-const struct slip_motion slip_motion_path = {.ask = ask,
-                                             .read = slip_read_path,
-                                             .move = move,
-                                             .report = report,
-                                             .tol = 1e-4,
-                                             .work = "",
-                                             .uncoupled = "--coupling goodman"};
+static const struct slip_motion slip_motion_path = {.ask = ask,
+                                                    .read = slip_read_path,
+                                                    .move = move,
+                                                    .report = report,
+                                                    .tol = 1e-4,
+                                                    .work = "",
+                                                    .uncoupled = "--coupling goodman"};
 const struct slip_motion *const slip_motions[] = {&slip_motion_steady, &slip_motion_rolling,
                                                   &slip_motion_path, NULL};

@@ -178,8 +178,10 @@ find_position(struct slip_run *run)
 static struct rc_model *
 new_model(struct slip_run *run)
 {
-    const struct rc_problem contact = {
-        .boundary = run->boundary, .pair = run->bodies.pair, .threads = run->d.t.threads};
+    const struct rc_problem contact = {.boundary = run->boundary,
+                                       .pair = run->bodies.pair,
+                                       .threads = run->d.t.threads,
+                                       .ranks = ranks_of(&run->d.t)};
     const struct rc_rolling_problem law = {
         .law = run->law.law, .force = forced(run), .path = !run->args->steady, .known = &own.known};
     return tool_made(&run->d.t, run->p,

@@ -100,7 +100,7 @@ struct slip_motion {
     const char *uncoupled; /* what neglects the effect of tractions on the pressure */
 };
 extern const struct slip_motion *const slip_motions[]; /* the last is NULL */
-extern const struct slip_motion slip_motion_path, slip_motion_steady, slip_motion_rolling;
+extern const struct slip_motion slip_motion_steady, slip_motion_rolling;
 
 /* ---- path.c ---- */
 
