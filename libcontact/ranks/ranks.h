@@ -29,8 +29,6 @@
  *   extension             each rank makes its rows of coarser grids, with the neighbouring rows; the first
  *                         grid that is small, or on which a rank would begin with an odd row, is sent to
  *                         all ranks as a whole, and from there on each does the same (pyramid.c)
- *   coarser grids of      each rank thins the pressure of its rows, which then move to their owners there;
- *   rolling               tractions of the coarser rows beside its own are fetched (rolling/model.c)
  *   nested start          rows of the coarser grid are moved to the ranks that own them there; each rank
  *                         solves small grids alone, after a message that all have the memory (nested.c)
  *   padded gap            with adhesion the rows of the map move to the ranks that have them as rows of the

@@ -9,6 +9,9 @@
  * node beside it. The difference of the two finest grids tells the error of the spacing, which is of
  * first order.
  *
+ * Ranks own rows of each grid. Those of a coarser grid belong to other ranks than the same places of the finer
+ * one: the pressure moves to them, and q/g of the rows beside those of the finer grid is fetched back.
+ *
  * On each grid the motion over the step from a node to the next one is that in the middle of the step.
  *
  * A path begins with the bodies pressed together without friction. Each step moves tractions with the
