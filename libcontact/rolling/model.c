@@ -9,8 +9,8 @@
  * node beside it. The difference of the two finest grids tells the error of the spacing, which is of
  * first order.
  *
- * Ranks own rows of each grid. Those of a coarser grid belong to other ranks than the same places of the finer
- * one: the pressure moves to them, and q/g of the rows beside those of the finer grid is fetched back.
+ * Ranks own rows of each grid. Those of a coarser grid belong to other ranks than the same places of the
+ * finer one: the pressure moves to them, and q/g of the rows beside those of the finer grid is fetched back.
  *
  * On each grid the motion over the step from a node to the next one is that in the middle of the step.
  *
@@ -607,9 +607,9 @@ pose(struct rolling *f, struct rc_err *err)
     return check_spin(f, err) == RC_OK ? carries(f, err) : RC_FAIL;
 }
 
-/* Finds q and g of the coarser grid in the rows beside those of the finer one that are held here. Returns the
- * first of these rows. On ranks they are fetched to maps of the finer grid that its iteration has not begun to
- * use, and which are larger. */
+/* Finds q and g of the coarser grid in the rows beside those of the finer one that are held here. Returns
+ * the first of these rows. On ranks they are fetched to maps of the finer grid that its iteration has not
+ * begun to use, and which are larger. */
 static size_t
 rows_beside(const struct rolling *f, const struct level *from, const struct level *to,
             const double *v[3])
