@@ -1441,7 +1441,8 @@ struct rc_stress_options {
     bool estimate;
 };
 
-/* Work counters; tests use them to check that only requested fields are computed. */
+/* Work counters; tests use them to check that only requested fields are computed. An error, for each of enum
+ * rc_component, is the sum of |error| over the sum of |stress|, over all nodes and depths. */
 struct rc_stress_counts {
     size_t depths;
     size_t source_transforms;       /* transforms of the pressure and of maps of traction */
@@ -1455,9 +1456,7 @@ struct rc_stress_counts {
     size_t coarse_depths;           /* depths computed on a coarser grid */
     size_t strain_transforms;       /* transforms of maps of plastic strain to wave numbers */
     size_t strain_field_transforms; /* transforms of its stresses back to maps */
-    /* Estimated errors by tol, for each of enum rc_component: the sum of |error| over the sum of |stress|,
-     * over all nodes and depths; NAN without `estimate`. */
-    double error[RC_STRESSES];
+    double error[RC_STRESSES];      /* estimated, by tol; NAN without `estimate` */
 };
 
 /* RC_FAIL, and *err says why, when rc_stress_new would refuse these options, except for short memory. */

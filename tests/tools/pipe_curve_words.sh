@@ -137,7 +137,7 @@ claim "    with the larger unit if the middle is nearer to it" test "$(log_axis 
 claim "  reciprocal units too" test "$(log_axis k/1/Pa 1e-9 1e-7)" = '>k (1/GPa)<'
 claim "a longer one has the SI unit" test "$(log_axis distance/m 1e-3 100)" = '>Sliding distance (m)<'
 claim "  and numbers or powers of ten" eval 'shows log.svg ">0\.001<" && shows log.svg ">100<" &&
-    [ "$(log_axis speed/m/s 1e-6 10)" = ">Speed (m/s)<" ] && shows log.svg ">10<tspan dy=\"-[0-9.]*\" font-size=\"[0-9.]*\">−6"'
+    [ "$(log_axis speed/m/s 1e-6 10)" = ">Sliding speed (m/s)<" ] && shows log.svg ">10<tspan dy=\"-[0-9.]*\" font-size=\"[0-9.]*\">−6"'
 claim "  times too" test "$(log_axis time/s 1e-3 1e4)" = '>Time (s)<'
 claim "  areas too" test "$(log_axis area/m2 1e-12 1e-7)" = '>area (m2)<'
 claim "plain numbers have no power of ten beside them, logarithmic" test "$(log_axis friction 2e-3 8e-3)" = ''

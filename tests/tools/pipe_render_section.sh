@@ -81,6 +81,6 @@ refuses 1 '--depth-range 50um:60um: its depths go from 0 to 40 µm' "depths that
 refuses 2 '--depth-range 5um: it must be Z0:Z1' "one depth" 'rc-render --depth-range 5um line.rcg >no.png'
 refuses 2 '--depth-range 9um:5um: it must be Z0:Z1' "depths upside down" 'rc-render --depth-range 9um:5um line.rcg >no.png'
 refuses 2 'of a section it is X0:X1 only: choose depths with --depth-range' "a window of depths" 'rc-render --window 0:1um,0:1um line.rcg >no.png'
-refuses 1 '--hertz is a circle on a map' "a circle in a section" 'rc-render --hertz line.rcg >no.png'
+refuses 1 '--hertz is a circle or a strip on a map' "a circle in a section" 'rc-render --hertz line.rcg >no.png'
 rc-synth sphere --nx 9 --dx 1um --radius 1mm -o map.rcg
 claim "--depth-range of a map causes a message" warns '--depth-range is for sections' rc-render --depth-range 0:1um map.rcg

@@ -6,6 +6,7 @@
 
 rc-synth sphere --radius 7.5mm --nx 128 --dx 5um -o ball.rcg
 rc-synth selfaffine --nx 64 --dx 1um --hurst 0.8 --rms-height 0.3um --rolloff 20um --short-cut 6um --seed 5 -o rough.rcg
+steel="--E1 210GPa --nu1 0.3 --E2 210GPa --nu2 0.3"
 
 # ---- verdicts are those of the tool that computes the effect ----
 

@@ -48,7 +48,7 @@ claim "a picture of each distance, and the running-in curve with its units" bash
     rc-render --channel pressure --case 1,2 -o maps.svg worn.rcg && rc-render --case 2 -o map.svg worn.rcg &&
         grep -q "distance 10 m" map.svg && grep -q ">b) distance 10 m<" maps.svg && ! grep -q "case 2" maps.svg &&
         rc-render --curve distance:max_wear_depth --log x -o curve.svg steps.tsv &&
-        grep -q "Sliding distance (mm)" curve.svg && grep -q "Largest worn depth (..m)" curve.svg &&
+        grep -q "Sliding distance (m)" curve.svg && grep -q "Largest worn depth (..m)" curve.svg &&
         rc-render --curve distance:contact_fraction --log x -o report.svg worn.tsv && grep -q ">Contact fraction<" report.svg'
 
 # ---- how much wears ----
