@@ -439,7 +439,8 @@ pull_off_at_start(void **state)
     assert_true(adhesion_to_approach(a, -1.2 * s.approach)->load < 0);
     f = adhesion_pull(a);
     assert_true(f->converged && f->pull_off_at_start);
-    assert_true(isnan(f->pull_off_load) && isnan(f->pull_off_spread) && isnan(f->pull_off_approach));
+    assert_true(isnan(f->pull_off_load) && isnan(f->pull_off_spread) &&
+                isnan(f->pull_off_approach));
     rc_adhesion_solver_free(a);
 }
 
