@@ -309,10 +309,11 @@ warn_of_state(struct run *run, const char *where, const struct rc_adhesion_state
         run, where,
         f->stable && f->converged && !f->separated ? "a list of approaches passes the jump" : NULL);
     if (own.pulling && f->pull_off_at_start)
-        tool_warn(&run->d.t,
-                  "%s: the pull-off load is unknown, because the retraction begins at the last "
-                  "state of the list, which is beyond it: end the list at a larger load or approach",
-                  where);
+        tool_warn(
+            &run->d.t,
+            "%s: the pull-off load is unknown, because the retraction begins at the last "
+            "state of the list, which is beyond it: end the list at a larger load or approach",
+            where);
     if (f->edge_traction > faint)
         course_warn(
             &run->d.course, "a traction at the edge of the map",
