@@ -725,6 +725,11 @@ do_history(struct run *run)
                   "%s: the %zu cases are taken as the states of one history, of a contact that "
                   "stays in its place; --pass x judges each case as a contact that passes",
                   t->input.source, run->positions);
+    else if (args.pass == NULL && !travels(run))
+        tool_warn(t,
+                  "%s: this contact is loaded and unloaded in its place; --pass x judges one that "
+                  "passes, as a roller does",
+                  t->input.source);
     set_depths(run);
     set_problem(run);
     if (args.dry_run) {

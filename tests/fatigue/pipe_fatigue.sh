@@ -119,6 +119,7 @@ rc-solve --quiet $steel --load 0.5N,1N,2N ball.rcg >loads.rcg
 rc-fatigue $limits --depths 1.5um -o x.rcg loads.rcg 2>stay.txt
 claim "  which a warning says, with the way to judge each" grep -q 'loads.rcg: the 3 cases are taken as the states of one history, of a contact that stays in its place; --pass x judges each case' stay.txt
 claim "  and no distance of 0 m" bash -c 'grep -q "sphere, case 1: crossland: .*the history has 3 cases: its sampling error" stay.txt && ! grep -q " 0 m " stay.txt'
+claim "  of one load too" warns 'loaded and unloaded in its place; --pass x judges one that passes' bash -c "rc-pick --case 1 loads.rcg | rc-fatigue $limits --depths 1.5um -o x.rcg"
 rc-fatigue $limits --pass x --depths 1.5um -o x.rcg loads.rcg 2>pass.txt
 claim "each case of a pass by itself: the warning names the first one" grep -q 'sphere, case 1: crossland: .* up to 3 um apart: its sampling error' pass.txt
 claim "  and counts the others" grep -q '^rc-fatigue: 2 other cases too: a large sampling error$' pass.txt

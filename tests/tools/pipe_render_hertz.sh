@@ -89,6 +89,12 @@ refuses 1 '--radius is that of a sphere, but this is the contact of a cylinder \
 refuses 1 '--radius is that of a sphere, but this is the contact of a cylinder \(form=cylinder 0.008\)' "the same on a cut" "$draw --cut y=0 --hertz --radius 8mm along_y.rcg"
 refuses 1 '--radius is that of a sphere, but this is the contact of a cylinder \(boundary=periodic-y\)' "the same of a cylinder in the heights" "$draw --hertz --radius 8mm <(rc-synth cylinder --nx 65 --ny 9 --dx 20um --radius 8mm | rc-solve --quiet --periodic=y --load 400N/mm --estar 115.38GPa --output pressure)"
 refuses 1 'whose axis repeats alone, but its boundary is free: solve with --periodic=y' "a cylinder that ends" "$draw --hertz <(rc-synth wave --nx 65 --ny 65 --dx 20um --amplitude 0.01nm --wavelength 100um | rc-solve --quiet --cylinder 8mm --load 100N --estar 115.38GPa --output pressure)"
+# a viscoelastic body has estar = that of fast loads in its stream; (3 F R / (4 E*))^(1/3) of the relaxed modulus
+rc-solve --quiet --load 0.2mN --relaxation 1MPa,9MPa:1ms --nu1 0.5 --E2 rigid --time 10 --report soft.tsv -o soft.rcg ball.rcg
+refuses 1 'body 1 is viscoelastic .time=10.*: give the modulus of this time with --estar' "the circle of a viscoelastic body" "$draw --hertz --channel pressure soft.rcg"
+claim "  with it" eval 'rc-render --hertz --estar 1.3333333MPa --channel pressure -o soft.svg soft.rcg && says "Hertz, radius 94.49 µm" cat soft.svg'
+refuses 1 'give the modulus of this time with --estar' "the histogram of one" "$draw --histogram --channel pressure --law persson --rms-slope 0.1 soft.rcg"
+refuses 2 'law persson: the rows have times, .*: give the modulus of these times with --estar' "the law of one" "$draw --curve load:contact_fraction --law persson --rms-slope 0.1 soft.tsv"
 refuses 2 '--hertz with --cut needs a single pressure' "a gap" "$draw --cut y=0 --hertz --radius 7.5mm --channel gap p.rcg"
 refuses 2 '--hertz does not work with --histogram' "a histogram" "$draw --histogram --hertz --radius 7.5mm p.rcg"
 refuses 2 '--radius has no effect without --curve, --histogram or --hertz' "a radius of nothing" "$draw --radius 7.5mm p.rcg"

@@ -811,12 +811,28 @@ area_in_tables(struct curves *c)
     return area;
 }
 
+/* True if the rows of a report are times, of creep or of a seal that relaxes. */
+static bool
+has_times(const struct curves *c)
+{
+    for (size_t f = 0; f < c->tables; f++)
+        for (size_t k = 0; k < c->table[f].rows; k++)
+            if (isfinite(helper(c, &c->table[f], TIME)[k]))
+                return true;
+    return false;
+}
+
 static void
 settle_given(struct curves *c)
 {
     const char *law = c->style->law, *lacks;
 
     c->law.given = c->style->given;
+    if (isnan(c->law.given.estar) && has_times(c))
+        tool_usage(c->tool,
+                   "--law %s: the rows have times, as those of a viscoelastic body have, and their "
+                   "estar is that of fast loads: give the modulus of these times with --estar",
+                   law);
     c->law.given.estar = given_in_tables(c, ESTAR, c->law.given.estar);
     c->law.given.radius = given_in_tables(c, RADIUS, c->law.given.radius);
     if (strcmp(law, "persson") == 0)
@@ -1017,17 +1033,6 @@ describe(struct curves *c)
     snprintf(x, NAME - (size_t)(x - c->title), "%.90s", title_of(&c->choice, c->history, 0));
     if (figure_of(c->choice.column[0]) != NULL)
         begin_small(x);
-}
-
-/* True if the rows of a report are times, of creep or of a seal that relaxes. */
-static bool
-has_times(const struct curves *c)
-{
-    for (size_t f = 0; f < c->tables; f++)
-        for (size_t k = 0; k < c->table[f].rows; k++)
-            if (isfinite(helper(c, &c->table[f], TIME)[k]))
-                return true;
-    return false;
 }
 
 static struct canvas *

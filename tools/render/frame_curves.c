@@ -343,6 +343,8 @@ add_distribution(struct set *s, double mean, double lo, double hi)
         s->n > 1)
         tool_usage(s->tool, "--law %s: a histogram has the law persson, of one pressure",
                    s->style->law);
+    if (isnan(given.estar))
+        bodies_demand_elastic(s->tool, s->grid[0], "give the modulus of this time with --estar");
     if (isnan(given.estar) && rc_grid_number(s->grid[0], "estar", &estar))
         given.estar = estar;
     if ((lacks = law_lacks("persson", &given)) != NULL)

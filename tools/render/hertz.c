@@ -33,10 +33,12 @@ warn_of_centre(struct tool *t, const struct rc_grid *g, const struct hertz_conta
 }
 
 static double
-modulus_of(const struct rc_grid *g, const struct law_given *given)
+modulus_of(struct tool *t, const struct rc_grid *g, const struct law_given *given)
 {
     double estar = given->estar;
 
+    if (isnan(estar))
+        bodies_demand_elastic(t, g, "give the modulus of this time with --estar");
     return isnan(estar) && !rc_grid_number(g, "estar", &estar) ? 0 : estar;
 }
 
@@ -63,7 +65,7 @@ read_strip(struct tool *t, const struct rc_grid *g, const struct law_given *give
 {
     const struct rc_boundary repeats = map_boundary(g);
     const char *form = rc_grid_get(g, "form");
-    const double estar = modulus_of(g, given);
+    const double estar = modulus_of(t, g, given);
     double load, period;
 
     if (rc_repeats(repeats) != 1)
@@ -87,7 +89,7 @@ static void
 read_circle(struct tool *t, const struct rc_grid *g, const struct law_given *given,
             struct hertz_contact *h)
 {
-    const double estar = modulus_of(g, given);
+    const double estar = modulus_of(t, g, given);
     const double r =
         isnan(given->radius) ? radius_of(rc_grid_get(g, "form"), "sphere ") : given->radius;
     double load;
