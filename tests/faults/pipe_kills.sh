@@ -106,7 +106,7 @@ chain() {
         for ((runs = 0; runs < 60 && status != 0 && status != 3; runs++)); do
             "$@" --quiet --checkpoint chain_kept.rcg --resume --interval 0.003 -o chain.rcg 2>chain.err &
             pid=$!
-            sleep "$(awk -v ms=$ms -v r=$RANDOM -v n=$runs 'BEGIN { print ms / 1000 * r / 32768 * (0.6 + n / 10) }')"
+            sleep "$(awk -v ms=$ms -v r=$RANDOM -v n=$runs 'BEGIN { print ms / 1000 * r / 32768 * (0.6 + n * n / 40) }')"
             kill -KILL $pid 2>/dev/null
             wait $pid 2>/dev/null
             status=$?
