@@ -6,8 +6,8 @@
  * frames are refused. */
 #include "kinds.h"
 
-/* With the address sanitizer a step takes several times as long. A commit then tries each number at one of two
- * points, fewer states, and two numbers for each. */
+/* With the address sanitizer a step takes several times as long. A commit then tries each number at one of
+ * two points, fewer states, and two numbers for each. */
 static bool
 fewer(void)
 {

@@ -87,8 +87,9 @@ keep_unit(struct scale *s, const char *unit)
     unit_text_to(s->unit, strcmp(unit, "1") == 0 ? "" : unit);
 }
 
-/* The unit of an axis from lo to hi. Where the marks are powers of ten, over at most three decades, the prefix
- * is that of the middle: the numbers are between 0.001 and 1000. Longer axes have the unit without a prefix. */
+/* The unit of an axis from lo to hi. Where the marks are powers of ten, over at most three decades, the
+ * prefix is that of the middle: the numbers are between 0.001 and 1000. Longer axes have the unit without a
+ * prefix. */
 static void
 choose_scale(struct scale *s, double lo, double hi, const char *unit, bool powers)
 {

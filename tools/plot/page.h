@@ -176,8 +176,8 @@ void axis_even_steps(struct page *page, struct axis *coarse, struct axis *fine, 
                      bool upright);
 /* The additional height below a plot of words that read upwards, compared with numbers. */
 double axis_word_room(const struct page *page, const struct axis *axis);
-/* Breaks the label into at most two lines of this length, and shortens what is still too long, but not its unit.
- */
+/* Breaks the label into at most two lines of this length, and shortens what is still too long, but not its
+ * unit. */
 void axis_fit_label(struct page *page, struct axis *axis, double length);
 /* The additional room for the second line of the label. */
 double axis_label_room(const struct page *page, const struct axis *axis);
