@@ -348,8 +348,49 @@ decide(struct run *run, struct line *l, const struct rc_contact *c, const struct
     l->decided = true;
 }
 
+/* Times the nodes along an axis for this spacing: as whole cells the map keeps its size. */
+static size_t
+times_for(double now, double spacing, size_t nodes, size_t most)
+{
+    const double times = nodes == 1 ? 1 : ceil(now / spacing * (1 - 1e-9));
+
+    return times * (double)nodes > (double)most ? 0 : (size_t)times;
+}
+
+/* True if this grid resolves the attraction. Else a computed change would be one of the grid: an undecided
+ * row says which grid decides it, and the command takes one. */
+static bool
+resolves(struct run *run, const struct rc_grid *g, struct line *l)
+{
+    struct rc_adhesion_scales scales = {.range = run->adhesion.problem.range};
+    struct rc_scene_effect *e = &l->effect;
+    const size_t most = 16384; /* nodes a side of a map that a command makes */
+    struct adhesion_grid need;
+    char range[SHOWN_NUMBER];
+    size_t x, y;
+
+    for (int k = 0; k < RC_SCENE_NUMBERS && e->number_name[k] != NULL; k++)
+        if (strcmp(e->number_name[k], "cohesive_nodes") == 0)
+            scales.cohesive_nodes = e->number[k];
+    if (scales.cohesive_nodes == 0 ||
+        adhesion_resolved(&scales, args.physics.boundary, fmax(g->dx, g->dy), &need))
+        return true;
+    if (l->verdict == RC_SCENE_UNDECIDED)
+        snprintf(e->unfit, sizeof e->unfit,
+                 "the grid does not resolve the range of adhesion: take a spacing of %s, or, if "
+                 "only the work matters, a range of %s",
+                 shown_in_unit(need.spacing, "m"), shown_in_unit_to(range, need.range, "m"));
+    x = times_for(g->dx, need.spacing, g->nx, most);
+    y = times_for(g->dy, need.spacing, g->ny, most);
+    l->commanded = x > 0 && y > 0;
+    if (l->commanded)
+        scene_refine(&l->command, x * g->nx, y * g->ny);
+    return false;
+}
+
 static void
-name_commands(struct run *run, struct line line[], size_t n, const char *const load[2])
+name_commands(struct run *run, const struct rc_grid *g, struct line line[], size_t n,
+              const char *const load[2])
 {
     char body[3 * 64], thickness[64], e[64], nu[64];
     int contact = -1;
@@ -365,7 +406,7 @@ name_commands(struct run *run, struct line line[], size_t n, const char *const l
         if (l->verdict == RC_SCENE_NEGLIGIBLE || l->verdict == RC_SCENE_MISSING)
             continue;
         l->commanded = scene_command(&run->t, l->effect.name, load, body, l->with, &l->command);
-        if (!l->commanded)
+        if (!l->commanded || !resolves(run, g, l))
             continue;
         if (l->command.programs > 1 && contact < 0) {
             contact = scene_file(&run->t);
@@ -862,7 +903,7 @@ do_load(struct run *run, const struct rc_grid *g, size_t step)
         }
     }
     tool_progress_end(t);
-    name_commands(run, line, n, load);
+    name_commands(run, g, line, n, load);
     for (size_t k = 0; k < n; k++)
         sorted[k] = &line[k];
     qsort(sorted, n, sizeof *sorted, by_rank);

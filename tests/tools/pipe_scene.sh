@@ -73,6 +73,20 @@ between "$(of pull-off pulls.json figures pull_off low)" "$(tail -n 1 own.json |
     "  as its command does"
 claim "hard balls of millimetres do not stick" test "$(scene --load 5N $steel --adhesion 0.05,exponential,100nm ball.rcg >pulls.json; of pull-off pulls.json verdict)" = negligible
 
+# ---- a grid that does not resolve the attraction decides nothing ----
+
+rc-synth selfaffine --nx 64 --dx 1um --hurst 0.8 --rms-height 0.3um --rolloff 20um --short-cut 6um --seed 5 -o rough.rcg
+# 3.3 nm: 1.28 nodes in the cohesive length, E* range^2/work; there are estimates from 1.1, but rc-solve wants 1.5
+for range in 2nm 3.3nm; do
+    stick="--periodic --mean-pressure 0.2GPa --E1 210GPa --nu1 0.3 --E2 70GPa --nu2 0.33 --adhesion 0.5,exponential,$range"
+    scene $stick --within 0.05 --decide 1000 rough.rcg >coarse.json
+    claim "a range of $range, below the spacing: --decide computes nothing" test "$(of adhesion coarse.json verdict)/$(of adhesion coarse.json decided)/$(of pull-off coarse.json decided)" = "not decided/0/0"
+    claim "  and the row says which grid decides it" grep -q 'the grid does not resolve the range of adhesion: take a spacing of [0-9]* nm, or, if only the work matters, a range of 4.13 nm' coarse.json
+    claim "  as rc-solve does" warns "take a spacing of $(of adhesion coarse.json unfit | sed 's/.*spacing of \([^,]*\),.*/\1/')" rc-solve ${stick%,*},$range rough.rcg -o x.rcg
+    rc-scene --quiet $stick --within 0.05 --decide 1000 rough.rcg | sed -n 's/^      \(rc-pick --resample .* -o scene-adhesion.rcg\)$/\1/p' >fine.sh
+    claim "  its command takes this grid, which resolves the range" eval '[ -s fine.sh ] && bash fine.sh 2>said.txt && ! grep -q "too coarse" said.txt && [ -s scene-adhesion.rcg ]'
+done
+
 scene --load 240N $steel --thickness 0.5mm ball.rcg >thin.json
 claim "the command of a thin body has its layer" grep -q '"--E1", "rigid", "--layer", "0.5mm,210GPa,0.3"' thin.json
 $(effect thin thin.json | perl -MJSON::PP -e 'local $/; print join " ", @{JSON::PP->new->decode(<STDIN>)->{command}}') --quiet --report own.json -o x.rcg ball.rcg
@@ -82,7 +96,6 @@ near "$(of thin thin.json figures max_pressure high)" "$(awk -v a="$(field max_p
 
 # ---- a rough block: the edges ----
 
-rc-synth selfaffine --nx 64 --dx 1um --hurst 0.8 --rms-height 0.3um --rolloff 20um --short-cut 6um --seed 5 -o rough.rcg
 claim "a rough block: the largest pressure is at its edge" warns "no property of the surface" rc-scene --mean-pressure 1GPa --estar 100GPa rough.rcg -o table.txt
 claim "data that are missing are named" grep -q "wear (--coefficient --distance)" table.txt
 

@@ -4,6 +4,7 @@
  */
 #include "adhesion.h"
 
+#include <math.h>
 #include <stdio.h>
 #include <string.h>
 #include <strings.h>
@@ -92,4 +93,28 @@ adhesion_law_read(struct adhesion_law *a, const char *text, struct rc_err *err)
         return rc_err_set(err, "the range must be above 0; without a range the tool takes the "
                                "shortest one that the grid resolves");
     return RC_OK;
+}
+
+/* To three digits, as advice needs no more. */
+static double
+rounded(double v)
+{
+    const double digit = pow(10, floor(log10(v)) - 2);
+
+    return round(v / digit) * digit;
+}
+
+bool
+adhesion_resolved(const struct rc_adhesion_scales *scales, struct rc_boundary boundary,
+                  double spacing, struct adhesion_grid *need)
+{
+    const double least = 1.5, enough = 2,          /* nodes in the cohesive length */
+        times = rc_repeats(boundary) == 1 ? 2 : 1; /* whole lines of nodes separate at once */
+
+    /* at constant work the cohesive length grows with the square of the range */
+    *need = (struct adhesion_grid){
+        .spacing = rounded(spacing * scales->cohesive_nodes / (times * enough)),
+        .range = rounded(scales->range * sqrt(times * enough / scales->cohesive_nodes)),
+    };
+    return scales->cohesive_nodes >= times * least;
 }

@@ -17,4 +17,13 @@ extern const struct opt adhesion_option[]; /* its text */
 /* "WORK", "WORK,LAW" or "WORK,LAW,RANGE". */
 enum rc_status adhesion_law_read(struct adhesion_law *a, const char *text, struct rc_err *err);
 
+/* A grid that resolves a law: a spacing, m, or at the same work and on the same grid a range, m. */
+struct adhesion_grid {
+    double spacing, range;
+};
+/* True if this grid resolves the law: with fewer nodes in the cohesive length it pins the edge of the
+ * contact. Else *need is what would, with some to spare. `spacing`: the larger one of the grid, m. */
+bool adhesion_resolved(const struct rc_adhesion_scales *scales, struct rc_boundary boundary,
+                       double spacing, struct adhesion_grid *need);
+
 #endif

@@ -267,6 +267,20 @@ scene_command(struct tool *t, const char *effect, const char *const load[2], con
 }
 
 void
+scene_refine(struct scene_command *c, size_t nx, size_t ny)
+{
+    char *size = c->text[1][0]; /* of a second program, which there is not */
+
+    memcpy(c->word[1], c->word[0], sizeof c->word[1]);
+    snprintf(size, sizeof c->text[1][0], "%zux%zu", nx, ny);
+    c->word[0][0] = "rc-pick";
+    c->word[0][1] = "--resample";
+    c->word[0][2] = size;
+    c->word[0][3] = NULL;
+    c->programs = 2;
+}
+
+void
 scene_show(const struct scene_command *c, const char *effect, const char *file, FILE *out)
 {
     for (size_t p = 0; p < c->programs; p++) {

@@ -57,6 +57,8 @@ const char *scene_value(struct tool *tool, const char *name, char pretty[64]);
  * `with`: names of options of effects that are accepted before. False: no program computes this effect. */
 bool scene_command(struct tool *tool, const char *effect, const char *const load[2],
                    const char *body, const char *with, struct scene_command *command);
+/* Puts rc-pick before a command of one program, which then reads the map on nx by ny nodes. */
+void scene_refine(struct scene_command *command, size_t nx, size_t ny);
 /* Prints the command as a shell reads it, with the file as its input, and as its output one with the name of
  * the effect. */
 void scene_show(const struct scene_command *command, const char *effect, const char *file,

@@ -9,12 +9,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-static const double resolved = 1.5;   /* nodes in the cohesive length: with fewer the grid pins
-                                         the edge of the contact */
-static const double enough_nodes = 2; /* nodes that the warning recommends */
-static const double of_lines = 2;  /* times as many where whole lines of nodes separate at once */
-static const double within = 0.01; /* of the range: closer heights are those of the ball */
-static const double faint = 0.01;  /* fraction of the largest traction */
+static const double within = 0.01;    /* of the range: closer heights are those of the ball */
+static const double faint = 0.01;     /* fraction of the largest traction */
 static const double too_strong = 0.1; /* fraction of E*: above it a solid is not linear elastic */
 /* m, work over strength: that of cohesion between atoms at their spacing, 0.165 nm and more (Israelachvili,
  * Intermolecular and Surface Forces, 2011, chapter 13), where the law of Lennard-Jones has 0.97 of it */
@@ -164,20 +160,17 @@ warn_of_grid(struct run *run, const char *where)
 {
     const struct rc_grid *g = run->g;
     const struct rc_adhesion_scales *s = &own.scales;
-    const double times = rc_repeats(run->physics->boundary) == 1 ? of_lines : 1,
-                 enough = times * enough_nodes, spacing = fmax(g->dx, g->dy);
     char length[SHOWN_NUMBER], range[SHOWN_NUMBER];
+    struct adhesion_grid need;
 
-    if (s->cohesive_nodes >= times * resolved)
+    if (adhesion_resolved(s, run->physics->boundary, fmax(g->dx, g->dy), &need))
         return;
-    /* at constant work the cohesive length grows with the square of the range */
     tool_warn(&run->d.t,
               "%s: the cohesive length, %s, is %.2g of the spacing: the grid is too coarse for "
               "this law, and pull-off and hysteresis will be too large (lattice pinning): take a "
               "spacing of %s, or, if only the work matters, a range of %s",
               where, shown_in_unit_to(length, s->cohesive_length, "m"), s->cohesive_nodes,
-              shown_in_unit(spacing * s->cohesive_nodes / enough, "m"),
-              shown_in_unit_to(range, s->range * sqrt(enough / s->cohesive_nodes), "m"));
+              shown_in_unit(need.spacing, "m"), shown_in_unit_to(range, need.range, "m"));
 }
 
 /* Work above that of any surfaces is that of a forgotten unit, or of an adhesive that dissipates. */
