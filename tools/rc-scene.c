@@ -348,6 +348,16 @@ decide(struct run *run, struct line *l, const struct rc_contact *c, const struct
     l->decided = true;
 }
 
+/* A number of an effect; NAN: it has none of this name. */
+static double
+number_of(const struct rc_scene_effect *e, const char *name)
+{
+    for (int k = 0; k < RC_SCENE_NUMBERS && e->number_name[k] != NULL; k++)
+        if (strcmp(e->number_name[k], name) == 0)
+            return e->number[k];
+    return NAN;
+}
+
 /* Times the nodes along an axis for this spacing: as whole cells the map keeps its size. */
 static size_t
 times_for(double now, double spacing, size_t nodes, size_t most)
@@ -362,17 +372,15 @@ times_for(double now, double spacing, size_t nodes, size_t most)
 static bool
 resolves(struct run *run, const struct rc_grid *g, struct line *l)
 {
-    struct rc_adhesion_scales scales = {.range = run->adhesion.problem.range};
     struct rc_scene_effect *e = &l->effect;
+    const struct rc_adhesion_scales scales = {.range = run->adhesion.problem.range,
+                                              .cohesive_nodes = number_of(e, "cohesive_nodes")};
     const size_t most = 16384; /* nodes a side of a map that a command makes */
     struct adhesion_grid need;
     char range[SHOWN_NUMBER];
     size_t x, y;
 
-    for (int k = 0; k < RC_SCENE_NUMBERS && e->number_name[k] != NULL; k++)
-        if (strcmp(e->number_name[k], "cohesive_nodes") == 0)
-            scales.cohesive_nodes = e->number[k];
-    if (scales.cohesive_nodes == 0 ||
+    if (isnan(scales.cohesive_nodes) ||
         adhesion_resolved(&scales, args.physics.boundary, fmax(g->dx, g->dy), &need))
         return true;
     if (l->verdict == RC_SCENE_UNDECIDED)
@@ -405,7 +413,9 @@ name_commands(struct run *run, const struct rc_grid *g, struct line line[], size
         l->why[0] = '\0';
         if (l->verdict == RC_SCENE_NEGLIGIBLE || l->verdict == RC_SCENE_MISSING)
             continue;
-        l->commanded = scene_command(&run->t, l->effect.name, load, body, l->with, &l->command);
+        l->commanded = scene_command(
+            &run->t, number_of(&l->effect, "time") > 0 ? "leak in time" : l->effect.name, load,
+            body, l->with, &l->command);
         if (!l->commanded || !resolves(run, g, l))
             continue;
         if (l->command.programs > 1 && contact < 0) {
@@ -455,6 +465,27 @@ amount(enum rc_scene_figure figure, double v, double high, char text[SHOWN_NUMBE
     return text;
 }
 
+/* A viscoelastic body closes the gap in time. */
+static void
+print_leak(const struct line *l, FILE *out)
+{
+    const double time = number_of(&l->effect, "time");
+
+    fputs(l->verdict == RC_SCENE_CALLS        ? ": the gap is open from edge to edge"
+          : l->verdict == RC_SCENE_NEGLIGIBLE ? ": the gap is closed between the edges"
+                                              : ": the contact is close to percolation, where "
+                                                "the grid decides",
+          out);
+    if (time > 0)
+        fprintf(out, ", %s after the load acts", shown_in_unit(time, "s"));
+    else if (time == 0)
+        fputs(
+            isnan(args.given.time)
+                ? ", at once; --time gives a later contact"
+                : ", at once: relaxation is not computed beside a thin body, a coat or a hardness",
+            out);
+}
+
 /* A force over the load. */
 static void
 print_force(const struct line *l, FILE *out)
@@ -487,11 +518,7 @@ print_change(const struct line *l, FILE *out)
     else if (isinf(most) && strcmp(name, "grid") != 0)
         fputs(": it cannot carry the load", out);
     else if (strcmp(name, "leak") == 0)
-        fputs(l->verdict == RC_SCENE_CALLS        ? ": the gap is open from edge to edge"
-              : l->verdict == RC_SCENE_NEGLIGIBLE ? ": the gap is closed between the edges"
-                                                  : ": the contact is close to percolation, where "
-                                                    "the grid decides",
-              out);
+        print_leak(l, out);
     else if (most == 0)
         fputs(": changes nothing", out);
     else if (l->effect.basis != RC_SCENE_EXACT && l->effect.nodes < 20)
@@ -782,9 +809,11 @@ show_plan(struct run *run, const struct rc_grid *g, size_t step)
     problem.pair.one.layers = 0;
     tool_must(&run->t, g, rc_solver_expect(rc_shape_of(g), &problem, &expected, &run->t.err));
     plan_say(&plan, "contacts", "%zu", contacts);
-    plan_end(&plan, expected.convolutions * (double)contacts, expected.seconds * (double)contacts,
-             tool_memory_with(expected.memory +
-                              12 * rc_grid_nodes(g) * sizeof *g->v)); /* maps of three contacts */
+    plan_end(
+        &plan, expected.convolutions * (double)contacts, expected.seconds * (double)contacts,
+        tool_memory_with(expected.memory +
+                         (d->material != NULL ? 15 : 12) * rc_grid_nodes(g) *
+                             sizeof *g->v)); /* maps of three contacts, and of the relaxed one */
 }
 
 /* Largest speed of a rigid surface over the other in a contact that rolls, m/s: the spin turns about the

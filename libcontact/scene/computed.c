@@ -214,12 +214,13 @@ scene_slip(struct rc_scene *s, struct rc_scene_effect *e, struct rc_err *err)
 /* A contact that only grows under a constant load is elastic with the creep compliance J(t) (Lee and Radok
  * 1960, J. Appl. Mech. 27, 438). Pressures depend on their history. */
 enum rc_status
-scene_relaxation(struct rc_scene *s, struct rc_scene_effect *e, struct rc_err *err)
+scene_relaxed(struct rc_scene *s, struct rc_scene_effect *e, struct rc_err *err)
 {
     const struct rc_relaxation *r = s->data.material;
     const struct rc_pair *pair = &s->plain.pair;
     struct rc_problem p = s->plain;
     double one, two, share, softer;
+    enum rc_status status = RC_OK;
 
     if (pair->estar > 0) {
         one = 1 / pair->estar;
@@ -232,9 +233,21 @@ scene_relaxation(struct rc_scene *s, struct rc_scene_effect *e, struct rc_err *e
     softer = share * rc_relaxation_compliance(r, s->data.time) / r->instant + 1 - share;
     scene_number(e, "compliance_over_instant", softer);
     p.pair = (struct rc_pair){.estar = 1 / (softer * (one + two))};
-    if (scene_solve(s, &(struct asked){.problem = &p}, &s->other, err) != RC_OK)
-        return RC_FAIL;
-    changes(&s->elastic, &s->other, e);
+    if (s->relaxed.p == NULL || !s->relaxed.contact.converged)
+        status = scene_solve(s, &(struct asked){.problem = &p}, &s->relaxed, err);
+    if (status == RC_SHORT)
+        snprintf(e->unfit, sizeof e->unfit, "its contact does not converge");
+    return status;
+}
+
+enum rc_status
+scene_relaxation(struct rc_scene *s, struct rc_scene_effect *e, struct rc_err *err)
+{
+    const enum rc_status status = scene_relaxed(s, e, err);
+
+    if (status != RC_OK)
+        return status;
+    changes(&s->elastic, &s->relaxed, e);
     e->basis = RC_SCENE_CALIBRATED;
     scene_set(e, RC_SCENE_PRESSURE, 0.8 * e->change[RC_SCENE_PRESSURE].low,
               1.35 * e->change[RC_SCENE_PRESSURE].high);

@@ -27,6 +27,8 @@ struct rc_scene {
     /* problems and contacts: elastic; from which effects are estimated; solved last */
     struct rc_problem plain, problem, other_problem;
     struct solved elastic, now, other;
+    struct solved
+        relaxed;     /* elastic contact with the compliance of data.time; p NULL: not solved */
     size_t computed; /* the effect whose contact is in `other`; SIZE_MAX: none */
     bool accepted;   /* `now` has a computed effect: low ends of estimates are not known */
     double convolutions;
@@ -73,6 +75,8 @@ enum rc_status scene_coat(struct rc_scene *s, struct rc_scene_effect *e, struct 
 enum rc_status scene_hardness(struct rc_scene *s, struct rc_scene_effect *e, struct rc_err *err);
 enum rc_status scene_slip(struct rc_scene *s, struct rc_scene_effect *e, struct rc_err *err);
 enum rc_status scene_relaxation(struct rc_scene *s, struct rc_scene_effect *e, struct rc_err *err);
+/* Solves the contact in `relaxed`, once; where it does not converge RC_SHORT, and e->unfit says so. */
+enum rc_status scene_relaxed(struct rc_scene *s, struct rc_scene_effect *e, struct rc_err *err);
 /* estimated.c */
 enum rc_status scene_yield(struct rc_scene *s, struct rc_scene_effect *e, struct rc_err *err);
 enum rc_status scene_adhesion(struct rc_scene *s, struct rc_scene_effect *e, struct rc_err *err);

@@ -148,6 +148,22 @@ change() { awk -F '\t' -v c="$1" 'NR == 1 { for (i = 1; i <= NF; i++) if ($i == 
 near "$(of relaxation relax.json figures approach high)" "$(change approach/m)" 2e-3 "relaxation changes the approach as rc-solve --time computes it"
 near "$(of relaxation relax.json figures contact_area high)" "$(change contact_area/m2)" 0.01 "  and the area to a node"
 
+# a seal of rubber closes as it creeps
+seal="--periodic --mean-pressure 200kPa $material --pressure-drop 1kPa"
+leaks() { rc-solve --quiet --periodic --mean-pressure 200kPa $material --time "$1" rough.rcg | rc-leak --quiet --report leaks.json -o x.rcg; }
+scene $seal --time 10ms rough.rcg >seal.json
+leaks 10ms
+claim "a leak is that of the relaxed contact" test "$(of leak seal.json verdict)/$(field percolates leaks.json)" = negligible/false
+near "$(of leak seal.json numbers contact_fraction)" "$(field contact_fraction leaks.json)" 0.002 "  whose contact rc-solve --time computes"
+claim "  and the row says its time" says 'closed between the edges, 0.01 s after the load acts' rc-scene --quiet $seal --time 10ms rough.rcg
+scene $seal rough.rcg >seal.json
+leaks 0
+claim "without a time it is the leak at once" test "$(of leak seal.json verdict)/$(field percolates leaks.json)/$(of leak seal.json numbers time)" = "calls for it/true/0"
+claim "  and the row says so" says 'open from edge to edge, at once; --time gives a later contact' rc-scene --quiet $seal rough.rcg
+claim "  also beside a hardness" says 'open from edge to edge, at once: relaxation is not computed beside' rc-scene --quiet $seal --time 10ms --hardness 1MPa rough.rcg
+scene ${seal/200kPa/100kPa} --time 10ms rough.rcg >seal.json
+claim "the command of a leak has the time" grep -q '"rc-solve", .*"--time", "10ms", "|", "rc-leak"' <(effect leak seal.json | sed 's/,/, /g')
+
 # ---- lists and figures ----
 
 claim "--figures counts only what matters" test "$(scene --load 240N $steel --hardness 2.0GPa --figures approach ball.rcg | tee f.json >/dev/null; of hardness f.json verdict)" = negligible

@@ -77,6 +77,12 @@ static const struct {
      .program = "rc-leak",
      .options = "pressure-drop viscosity",
      .together = true},
+    {.effect = "leak in time",
+     .solve = "relaxation time",
+     .relaxes = true,
+     .program = "rc-leak",
+     .options = "pressure-drop viscosity",
+     .together = true},
 };
 static const char contact_options[] =
     "estar E1 nu1 E2 nu2 radius cylinder periodic datum"; /* of the contact, without its load */

@@ -53,8 +53,9 @@ struct scene_command {
 const char *scene_number_in_unit(double value, enum unit unit, char text[64]);
 /* The value of an option as it was typed, or as its table has it; else as scene_number_in_unit. */
 const char *scene_value(struct tool *tool, const char *name, char pretty[64]);
-/* Makes the command. `load`: the option of the load and its value for this case; `body`: body 1 as a layer;
- * `with`: names of options of effects that are accepted before. False: no program computes this effect. */
+/* Makes the command. `effect`: its name, or "leak in time" of a contact that has relaxed. `load`: the option
+ * of the load and its value for this case; `body`: body 1 as a layer; `with`: names of options of effects
+ * that are accepted before. False: no program computes this effect. */
 bool scene_command(struct tool *tool, const char *effect, const char *const load[2],
                    const char *body, const char *with, struct scene_command *command);
 /* Puts rc-pick before a command of one program, which then reads the map on nx by ny nodes. */
