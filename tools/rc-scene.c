@@ -111,6 +111,7 @@ struct line {
 enum {
     LINES = 24
 };
+static const double strain = 0.1; /* pressure over E*, beyond which a solid is not linear elastic */
 
 /* ---- the command line ---- */
 
@@ -556,7 +557,7 @@ print_warnings(struct run *run, const struct rc_grid *g, const struct rc_contact
                const double *p, double estar)
 {
     const struct rc_boundary b = args.physics.boundary;
-    const double strain = 0.1, part = 0.01;
+    const double part = 0.01;
     size_t least, most;
     bool edge;
 
@@ -572,10 +573,25 @@ print_warnings(struct run *run, const struct rc_grid *g, const struct rc_contact
                        : "the contact reaches the edge of the map");
     if (c->max_pressure > strain * estar)
         tool_warn(&run->t,
-                  "%s: the largest pressure, %s, is %.2g of E*: beyond 0.1 a solid is not linear "
+                  "%s: the largest pressure, %s, is %.2g of %sE*: beyond 0.1 a solid is not linear "
                   "elastic",
                   tool_where(&run->t, g), shown_in_unit(c->max_pressure, "Pa"),
-                  c->max_pressure / estar);
+                  c->max_pressure / estar, run->data.material != NULL ? "the instantaneous " : "");
+}
+
+/* As a viscoelastic body creeps, its pressure over its modulus grows. */
+static void
+warn_of_creep(struct run *run, const struct rc_grid *g, const struct rc_scene_effect *e)
+{
+    const double part = number_of(e, "max_pressure_over_modulus");
+    char pressure[SHOWN_NUMBER];
+
+    if (part > strain)
+        tool_warn(&run->t,
+                  "%s: %s after the load acts the largest pressure, about %s, is %.2g of E* at "
+                  "this time: beyond 0.1 a solid is not linear elastic",
+                  tool_where(&run->t, g), shown_in_unit(args.given.time, "s"),
+                  shown_in_unit_to(pressure, number_of(e, "max_pressure"), "Pa"), part);
 }
 
 /* A stress of the material without its unit, as 300 for 300MPa, is far below the pressure of the contact. */
@@ -922,6 +938,8 @@ do_load(struct run *run, const struct rc_grid *g, size_t step)
         if (rolls(run) && strcmp(l->effect.name, "heat") == 0)
             make_rolling(run, slides, &l->effect);
         l->verdict = rc_scene_judge(&l->effect, &run->bounds, &l->figure);
+        if (strcmp(l->effect.name, "relaxation") == 0)
+            warn_of_creep(run, g, &l->effect);
         l->with = with;
         if (l->verdict == RC_SCENE_CALLS) {
             rc_scene_accept(s, k);

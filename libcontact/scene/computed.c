@@ -232,7 +232,8 @@ scene_relaxed(struct rc_scene *s, struct rc_scene_effect *e, struct rc_err *err)
     share = one / (one + two);
     softer = share * rc_relaxation_compliance(r, s->data.time) / r->instant + 1 - share;
     scene_number(e, "compliance_over_instant", softer);
-    p.pair = (struct rc_pair){.estar = 1 / (softer * (one + two))};
+    s->relaxed_modulus = 1 / (softer * (one + two));
+    p.pair = (struct rc_pair){.estar = s->relaxed_modulus};
     if (s->relaxed.p == NULL || !s->relaxed.contact.converged)
         status = scene_solve(s, &(struct asked){.problem = &p}, &s->relaxed, err);
     if (status == RC_SHORT)
@@ -248,6 +249,9 @@ scene_relaxation(struct rc_scene *s, struct rc_scene_effect *e, struct rc_err *e
     if (status != RC_OK)
         return status;
     changes(&s->elastic, &s->relaxed, e);
+    scene_number(e, "max_pressure", s->relaxed.contact.max_pressure);
+    scene_number(e, "max_pressure_over_modulus",
+                 s->relaxed.contact.max_pressure / s->relaxed_modulus);
     e->basis = RC_SCENE_CALIBRATED;
     scene_set(e, RC_SCENE_PRESSURE, 0.8 * e->change[RC_SCENE_PRESSURE].low,
               1.35 * e->change[RC_SCENE_PRESSURE].high);

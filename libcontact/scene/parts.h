@@ -28,9 +28,10 @@ struct rc_scene {
     struct rc_problem plain, problem, other_problem;
     struct solved elastic, now, other;
     struct solved
-        relaxed;     /* elastic contact with the compliance of data.time; p NULL: not solved */
-    size_t computed; /* the effect whose contact is in `other`; SIZE_MAX: none */
-    bool accepted;   /* `now` has a computed effect: low ends of estimates are not known */
+        relaxed; /* elastic contact with the compliance of data.time; p NULL: not solved */
+    double relaxed_modulus; /* Pa: its E* */
+    size_t computed;        /* the effect whose contact is in `other`; SIZE_MAX: none */
+    bool accepted;          /* `now` has a computed effect: low ends of estimates are not known */
     double convolutions;
 };
 
