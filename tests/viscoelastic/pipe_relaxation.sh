@@ -28,6 +28,12 @@ near "$(sed -n 2p later.json >l.json && field approach l.json)" "$(field approac
     "a load acts from 0 on, also if the first time is later"
 claim "  and the cases count from 1" bash -c '[ $(wc -l <later.json) = 2 ] && grep -q "\"case\": 1" later.json'
 
+# Hertz: the largest pressure is 2 a/(pi R) of E*, 0.066 at once and 0.142 at 50 ms
+claim "a pressure that is high for the modulus of its time has a warning" warns 'case 2, load 200 uN, time 0.05 s: the largest pressure, .*, is 0.14 of E. at this time: beyond 0.1' \
+    ${solve/--quiet/} $solid --load 0.2mN --time 0,50ms -o t.rcg ball.rcg
+claim "  at once none" bash -c "${solve/--quiet/} $solid --load 0.2mN --time 0 -o t.rcg ball.rcg 2>&1 | tee said >/dev/null; ! grep -q 'not linear' said"
+claim "  and a load that has fallen has none" bash -c "${solve/--quiet/} $solid --load 0.2mN,1nN --time 0,50ms -o t.rcg ball.rcg 2>&1 | tee said >/dev/null; ! grep -q 'not linear' said"
+
 soon="rc-solve --threads 1 --nu1 0.5 --E2 rigid --output pressure $solid -o soon.rcg ball.rcg --load"
 claim "a result before the shortest relaxation time has passed causes a warning" warns 'time: 0.0005 s passes before the first result, and the shortest relaxation time is 0.001 s' $soon 0.2mN --time 0,0.5ms,50ms
 claim "  later results may be closer together under one load" bash -c "$soon 0.2mN --time 0,1ms,1.5ms 2>said && ! grep -q 'shortest relaxation' said"

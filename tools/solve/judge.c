@@ -91,23 +91,27 @@ solve_warn_of_theory(struct run *run, const char *where, const struct solution *
 {
     const double soft =
         1e8; /* Pa: rubbers and gels are softer; metals, ceramics, hard polymers are not */
-    const double estar = run->physics->surface_estar;
+    const bool creeps = s->softer > 1;
+    const double estar = run->physics->surface_estar / (creeps ? s->softer : 1);
+    const char *of = creeps                      ? "E* at this time"
+                     : run->physics->relaxes > 0 ? "the instantaneous E*"
+                                                 : "E*";
 
-    if (s->peak > estar)
+    if (s->peak > run->physics->surface_estar)
         suspect_unit(run, where, s);
     else if (s->peak > SOLVE_LINEAR * estar && estar < soft && !is_high(run, where, s))
         course_warn(
             &run->d.course, "a pressure at which a solid is not linear elastic",
-            "%s: the %s, %s, is %.2g of E*: beyond %g a solid is not linear elastic, and "
+            "%s: the %s, %s, is %.2g of %s: beyond %g a solid is not linear elastic, and "
             "the result is an estimate. So soft a solid does not yield: a hardness does not "
             "help. Solve it also with a smaller load or with the short wavelengths removed "
             "(rc-detrend --lowpass): figures that change much depend on these pressures",
-            where, s->peak_name, shown_in_unit(s->peak, "Pa"), s->peak / estar, SOLVE_LINEAR);
+            where, s->peak_name, shown_in_unit(s->peak, "Pa"), s->peak / estar, of, SOLVE_LINEAR);
     else if (s->peak > SOLVE_LINEAR * estar && !is_high(run, where, s))
         course_warn(&run->d.course, "a pressure at which a solid is not linear elastic",
-                    "%s: the %s, %s, is %.2g of E*: beyond %g a solid is not linear elastic: give "
+                    "%s: the %s, %s, is %.2g of %s: beyond %g a solid is not linear elastic: give "
                     "%sa smaller load",
-                    where, s->peak_name, shown_in_unit(s->peak, "Pa"), s->peak / estar,
+                    where, s->peak_name, shown_in_unit(s->peak, "Pa"), s->peak / estar, of,
                     SOLVE_LINEAR, run->relief);
     drive_judge_slope(&run->d.course, s->slope, where);
 }

@@ -399,18 +399,23 @@ later(const struct run *run)
     return fmax((double)n, 1);
 }
 
+/* Of body 1, in the compliance of the pair at once. */
+static double
+share_of(const struct physics *a)
+{
+    return isinf(a->e1) ? 1 : fmin(1, (1 - a->nu1 * a->nu1) / a->e1 * a->surface_estar);
+}
+
 static struct rc_model *
 put_around(struct run *run, struct rc_model *inner)
 {
-    const struct physics *a = run->physics;
-    const struct rc_viscoelastic_problem problem = {
-        .tol = run->args->tol * (1 - of_contacts),
-        .material = law.material,
-        .share = isinf(a->e1) ? 1 : fmin(1, (1 - a->nu1 * a->nu1) / a->e1 * a->surface_estar),
-        .shortest = shortest,
-        .longest = args.time.v[args.time.n - 1],
-        .points = (size_t)later(run),
-        .increments = own.increments};
+    const struct rc_viscoelastic_problem problem = {.tol = run->args->tol * (1 - of_contacts),
+                                                    .material = law.material,
+                                                    .share = share_of(run->physics),
+                                                    .shortest = shortest,
+                                                    .longest = args.time.v[args.time.n - 1],
+                                                    .points = (size_t)later(run),
+                                                    .increments = own.increments};
 
     return tool_made(&run->d.t, run->g,
                      rc_viscoelastic_new(inner, run->g->v, &problem, &run->d.t.err));
@@ -442,6 +447,18 @@ begin(struct run *run, struct rc_model *m, const struct rc_problem *problem)
 
 /* ---- results ---- */
 
+/* E* at once over that of the time: the equivalent load over the load, and after a fall of the load at most
+ * the creep of the whole time. */
+static double
+softening(const struct run *run)
+{
+    const struct rc_viscoelastic_figures *f = own.found;
+    const double share = share_of(run->physics),
+                 creep = rc_relaxation_compliance(law.material, f->time) / law.material->instant;
+
+    return fmin(f->equivalent_load / f->contact.load, 1 - share + share * creep);
+}
+
 /* Takes the figures of a time. False: the start of a load, which is not a case. */
 static bool
 look(struct run *run, struct rc_model *m, struct solution *s)
@@ -449,6 +466,7 @@ look(struct run *run, struct rc_model *m, struct solution *s)
     own.found = rc_viscoelastic_result(m);
     s->contact = own.found->contact;
     s->increments = (double)own.found->increments;
+    s->softer = softening(run);
     run->apart = s->contact.contact_nodes == 0;
     if (run->d.at == 0 && own.before && tool_interrupted() == 0) {
         run->d.is.silent = true;

@@ -52,6 +52,7 @@ struct solution {
     struct rc_patches patches; /* patches of the contact; their list only for a report */
     double peak;               /* Pa: the pressure that is judged */
     const char *peak_name;
+    double softer;                     /* E* at once over that of the time; 0: both are E*      */
     char took[96];                     /* its cost in words; "": iterations and convolutions */
     double increments;                 /* of a load, or steps to a time; NAN: none */
     double slope;                      /* RMS slope where the bodies touch; NAN: not computed */
