@@ -105,6 +105,7 @@ struct line {
     struct rc_contact base; /* with which it is compared */
     const char *with;       /* options of effects accepted before */
     bool commanded, decided;
+    const char *not_computed;     /* why --decide does not compute it; NULL: it does */
     double seconds, convolutions; /* forecast; NAN: unknown */
     char why[SCENE_WHY];
 };
@@ -431,9 +432,11 @@ name_commands(struct run *run, const struct rc_grid *g, struct line line[], size
         }
         l->seconds = found.seconds;
         l->convolutions = found.convolutions;
-        if (l->verdict == RC_SCENE_UNDECIDED && l->seconds < args.decide &&
-            scene_run(&run->t, &l->command, l->effect.name, run->in, contact, false, &found,
-                      l->why))
+        if (l->verdict != RC_SCENE_UNDECIDED || !(l->seconds < args.decide))
+            continue;
+        l->not_computed = scene_not_computed(&run->t, l->effect.name);
+        if (l->not_computed == NULL && scene_run(&run->t, &l->command, l->effect.name, run->in,
+                                                 contact, false, &found, l->why))
             decide(run, l, &l->base, &found);
     }
     if (contact >= 0)
@@ -679,6 +682,8 @@ print_table(struct run *run, const struct rc_grid *g, const struct rc_contact *c
         print_change(line[k], out);
         if (line[k]->why[0] != '\0')
             fprintf(out, "      no tool computes it: %s\n", line[k]->why);
+        if (line[k]->not_computed != NULL)
+            fprintf(out, "      not computed: %s\n", line[k]->not_computed);
         if (!line[k]->commanded || line[k]->decided)
             continue;
         fputs("      ", out);
@@ -744,6 +749,7 @@ put_effect(struct tool *t, struct report *r, const struct line *l)
     }
     report_end(r);
     report_text(r, "refused", l->why[0] == '\0' ? NULL : l->why);
+    report_text(r, "not_computed", l->not_computed);
     report_number(r, "forecast_convolutions", l->convolutions, NULL);
     report_number(r, "forecast_seconds", l->seconds, "s");
     report_end(r);

@@ -55,6 +55,14 @@ told() { sed -n "s/.*estimated error by the grid: .*$1 \([0-9.]*\) %.*/\1e-2/p" 
 for figure in contact_area max_pressure approach; do
     near "$(told "$(sed 's/max_/largest /; s/_/ /' <<<$figure)")" "$(field ${figure}_error_estimate grid.json)" 0.06 "  those of the report: $figure"
 done
+scene --load 240N $steel coarse.rcg >coarse.json
+claim "the interval of the area ends at 0.6 times that bound" awk -v high="$(of grid coarse.json figures contact_area high)" -v bound="$(field contact_area_error_estimate grid.json)" \
+    'BEGIN { exit !(high > 0 && high <= 0.6001 * bound) }'
+scene --load 240N $steel --figures area --decide 1000 coarse.rcg >coarse.json
+claim "--decide says why it does not compute the grid" test "$(of grid coarse.json verdict)/$(of grid coarse.json not_computed)" = \
+    "not decided/rc-solve --discretization has the estimates on which this interval rests: only a finer map decides"
+claim "  in the table too" says '^      not computed: rc-solve --discretization has' rc-scene --quiet --load 240N $steel --figures area --decide 1000 coarse.rcg
+claim "  but not without --decide" bash -c "! rc-scene --quiet --load 240N $steel --figures area coarse.rcg | grep 'not computed'"
 claim "  with a coat" commands $everything --layer 1um,100GPa,0.3
 claim "  which rc-heat refuses: no command, and the reason" grep -q '^      no tool computes it: rc-heat: its body 1 has layers' table.txt
 claim "  with a viscosity the leak has a flow" bash -c "rc-scene --quiet --periodic $(echo $everything) --viscosity 1mPas rough.rcg | grep -q 'rc-leak --pressure-drop 1MPa --viscosity'"

@@ -8,6 +8,10 @@
 #include <string.h>
 #include <unistd.h>
 
+static const char other[] = "--decide does not compare its figures: see the report of the command";
+static const char percolates[] =
+    "rc-leak finds the same percolation on this grid: only a finer or larger map decides";
+
 /* The options that follow those of the contact, and a second program with its options. Words that are no
  * names of options of rc-scene are taken as they are. */
 static const struct {
@@ -18,8 +22,12 @@ static const struct {
     /* Names of the figures in the report of the last program, in the order of enum rc_scene_figure; of two
      * names the larger value counts. */
     const char *figure[RC_SCENE_FIGURES];
+    const char *not_computed; /* without a figure: why the program does not decide */
 } rows[] = {
-    {.effect = "grid", .solve = "--discretization --verbose"}, /* its errors are a note */
+    {.effect = "grid",
+     .solve = "--discretization --verbose", /* its errors are a note */
+     .not_computed = "rc-solve --discretization has the estimates on which this interval rests: "
+                     "only a finer map decides"},
     {.effect = "tilt",
      .solve = "--tilt free",
      .figure = {"contact_area", "max_pressure", "approach"}},
@@ -28,7 +36,11 @@ static const struct {
     {.effect = "hardness",
      .solve = "hardness",
      .figure = {"contact_area", "max_pressure", "approach"}},
-    {.effect = "slip", .solve = "", .program = "rc-slip", .options = "mu tangential"},
+    {.effect = "slip",
+     .solve = "",
+     .program = "rc-slip",
+     .options = "mu tangential",
+     .not_computed = other},
     {.effect = "relaxation",
      .solve = "relaxation time",
      .relaxes = true,
@@ -62,27 +74,33 @@ static const struct {
     {.effect = "dissimilar",
      .solve = "--output pressure,gap,height",
      .program = "rc-slip",
-     .options = "mu --coupling full --tangential 0N"},
-    /* its force is that of the estimate, but for the tolerance */
-    {.effect = "rolling", .solve = "", .program = "rc-slip", .options = "mu creep --steady"},
-    {.effect = "sliding", .solve = "relaxation speed", .relaxes = true},
+     .options = "mu --coupling full --tangential 0N",
+     .not_computed = other},
+    {.effect = "rolling",
+     .solve = "",
+     .program = "rc-slip",
+     .options = "mu creep --steady",
+     .not_computed =
+         "its force is the one of rc-slip, to a lower accuracy: only a smaller --tol decides"},
+    {.effect = "sliding", .solve = "relaxation speed", .relaxes = true, .not_computed = other},
     {.effect = "fatigue",
      .solve = "",
      .program = "rc-fatigue",
      .options = "bending-limit torsion-limit --pass x --depths auto",
      .figure = {[RC_SCENE_FATIGUE] = "crossland|dangvan"}},
-    /* its percolation on this grid is the estimate itself: nothing to decide */
     {.effect = "leak",
      .solve = "",
      .program = "rc-leak",
      .options = "pressure-drop viscosity",
-     .together = true},
+     .together = true,
+     .not_computed = percolates},
     {.effect = "leak in time",
      .solve = "relaxation time",
      .relaxes = true,
      .program = "rc-leak",
      .options = "pressure-drop viscosity",
-     .together = true},
+     .together = true,
+     .not_computed = percolates},
 };
 static const char contact_options[] =
     "estar E1 nu1 E2 nu2 radius cylinder periodic datum"; /* of the contact, without its load */
@@ -305,6 +323,14 @@ scene_show(const struct scene_command *c, const char *effect, const char *file, 
 }
 
 /* ---- runs ---- */
+
+const char *
+scene_not_computed(struct tool *t, const char *effect)
+{
+    const size_t k = row_of(t, effect);
+
+    return k == sizeof rows / sizeof *rows ? NULL : rows[k].not_computed;
+}
 
 /* The last line of a report, or of what a tool said. */
 static const char *

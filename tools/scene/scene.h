@@ -71,6 +71,8 @@ struct scene_found {
     double seconds, convolutions;
     bool converged;
 };
+/* Why the command of an effect decides nothing; NULL: it does. */
+const char *scene_not_computed(struct tool *tool, const char *effect);
 /* A nameless file that is deleted when it is closed. */
 int scene_file(struct tool *tool);
 /* Runs the programs: the first one reads `in`, a second one `contact`, the elastic contact, and a third one
