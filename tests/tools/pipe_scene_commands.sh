@@ -40,6 +40,12 @@ claim "each command of a scene with all effects runs" commands $everything
 claim "  and writes a file with the name of the effect" bash -c 'for effect in wear heat fatigue; do rc-info scene-$effect.rcg >/dev/null || exit 1; done'
 rc-scene --quiet --load 240N --body1 100Cr6 --body2 6061-T6 --mu 0.1 --speed 1m/s ball.rcg >typed.txt
 claim "a hardness has the number of its table" grep -q -- '--hardness 107HV ball.rcg -o scene-hardness.rcg' typed.txt
+named="--load 240N --body1 100Cr6 --body2 6061-T6"
+scene $named ball.rcg >named.json
+rc-solve --quiet $named --report plain.json -o x.rcg ball.rcg
+claim "rc-solve leaves the hardness of a material out" grep -q '"hardness": "left out: no --hardness' plain.json
+near "$(perl -MJSON::PP -e 'local $/; print JSON::PP->new->decode(<STDIN>)->{max_pressure}' <named.json)" "$(field max_pressure plain.json)" 1e-4 "  and so does the contact of rc-scene"
+claim "  whose row of the hardness takes it" test "$(of hardness named.json verdict)" = "calls for it"
 claim "  and other values their units" grep -q 'rc-heat --mu 0.1 --speed 1m/s --conductivity 46.6W/mK,167W/mK --diffusivity 12.6mm2/s,69mm2/s -o scene-heat.rcg' typed.txt
 rc-scene --quiet --load 240N --E1 2.1e5MPa --nu1 0.30 --E2 rigid --hardness 129HV ball.rcg >typed.txt
 claim "  values stand as they were typed" grep -q -- '^      rc-solve --load 240N --E1 2.1e5MPa --nu1 0.30 --E2 rigid --hardness 129HV ball.rcg -o scene-hardness.rcg' typed.txt
