@@ -88,7 +88,8 @@ scene_grid(struct rc_scene *s, struct rc_scene_effect *e, struct rc_err *err)
     else
         scene_set(e, RC_SCENE_AREA, 0.3 * correction - nodes,
                   fmin(0.6 * d->contact_area, 1.1 * correction + nodes));
-    if (peak_at_edge(s) || s->now.contact.edge_load_fraction > far)
+    if (peak_at_edge(s) ||
+        (rc_repeats(s->problem.boundary) < 2 && s->now.contact.edge_load_fraction > far))
         scene_set(e, RC_SCENE_PRESSURE, 0, INFINITY);
     else if (!isnan(d->max_pressure))
         scene_set(e, RC_SCENE_PRESSURE, 0, fmax(6 * d->max_pressure, 0.02));

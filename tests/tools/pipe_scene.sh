@@ -123,6 +123,8 @@ claim "  not at 1 mm/s" bash -c "rc-scene --load 20N --radius 10mm $steel --mu 0
 claim "thermal expansion: a warning" warns "thermal expansion may change the contact" rc-scene --load 240N $steel --mu 0.3 --speed 1m/s --conductivity 45W/mK,45W/mK \
     --diffusivity 12mm2/s,12mm2/s --expansion 12e-6 ball.rcg -o x.txt
 claim "a periodic map has no edge" bash -c "! rc-scene --periodic --mean-pressure 0.5GPa $steel rough.rcg -o x.txt 2>&1 | grep -q edge"
+scene --periodic --mean-pressure 0.5GPa $steel rough.rcg >edge.json
+claim "  nor the row of a finer grid: its pressure has an interval" test "$(of grid edge.json figures max_pressure high)" != null
 claim "noise: a warning" warns "the noise of the scan is 1[.0-9]* % of the approach" rc-scene --load 240N $steel --noise 0.1um ball.rcg -o x.txt
 
 for limit in hardness yield; do
