@@ -763,7 +763,7 @@ struct rc_friction_increment {
     double stiffness;
     /* J, in this increment */
     double dissipated;
-    /* m, in this increment */
+    /* m, in this increment alone */
     double largest_slip;
     /* m: largest slip where nodes stick, or across the traction */
     double slip_error;
@@ -821,6 +821,8 @@ struct rc_friction_figures {
      * change by further passes. Then: of the iteration of earlier increments; of the contacts of
      * this and earlier increments; of too few increments (NAN: unknown) */
     double traction_error, inherited_error, contact_error, increment_error;
+    /* m: largest length of the vector (slip-x, slip-y), the slip since the bodies touched */
+    double largest_slip_total;
     /* m, as in rc_contact; NAN: unknown */
     double approach;
     /* convolutions of friction and contacts, since the last point kept */

@@ -410,13 +410,28 @@ rc_friction_solver_convolutions(const struct rc_friction_solver *s)
     return s->t->convolutions;
 }
 
+/* The slip of a node since the bodies touched. */
+static inline double
+slipped_in_all(const struct rc_friction_solver *s, int c, size_t k)
+{
+    return s->apart ? 0 : (s->past.slip[c][k] + (s->done ? slipped(s, c, k) : 0)) * s->unit;
+}
+
 void
 rc_friction_solver_slip(const struct rc_friction_solver *s, int direction, double *to)
 {
     for (size_t k = 0; k < s->n; k++)
-        to[k] = s->apart ? 0
-                         : (s->past.slip[direction][k] + (s->done ? slipped(s, direction, k) : 0)) *
-                               s->unit;
+        to[k] = slipped_in_all(s, direction, k);
+}
+
+double
+rc_friction_solver_largest_slip(const struct rc_friction_solver *s)
+{
+    double most = 0;
+
+    for (size_t k = 0; k < s->n; k++)
+        most = fmax(most, hypot(slipped_in_all(s, 0, k), slipped_in_all(s, 1, k)));
+    return rc_ranks_most(s->rows.ranks, most);
 }
 
 void
@@ -452,7 +467,9 @@ const struct rc_figure rc_figures_friction[] = {
     {AS("stick_area", last.stick_area), "m2", "Area that sticks"},
     {AS("slip_area", last.slip_area), "m2", "Area that slips"},
     {AS("stick_fraction", last.stick_fraction), NULL, "Part of the contact that sticks"},
-    {AS("largest_slip", last.largest_slip), "m", "Largest slip", .says = "of the last increment"},
+    {AS("largest_slip", last.largest_slip), "m", "Largest slip of the last increment",
+     .says = "alone: it falls as the number of increments rises", .role = RC_FIGURE_CHECK},
+    {FIGURE(largest_slip_total), "m", "Largest slip", .says = "since the bodies touched"},
     {AS("tangential_stiffness", last.stiffness), "N/m", "Tangential stiffness"},
     {AS("dissipated_energy", last.dissipated), "J", "Dissipated energy"},
     {FIGURE(passes), NULL, "Passes", .role = RC_FIGURE_COST},

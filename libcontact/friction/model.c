@@ -582,6 +582,7 @@ look(struct rc_model *m, struct rc_point *at, struct rc_err *err)
         to->passes += f->passes;
         to->convolutions = all_convolutions(f) - f->convolutions;
         to->increment_error = increment_error(f);
+        to->largest_slip_total = rc_friction_solver_largest_slip(f->way->slip);
         to->converged = f->way->stage == THERE && f->good;
     }
     if (!rc_point_has(&m->to, RC_APPROACH))

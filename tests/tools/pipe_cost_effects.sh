@@ -71,6 +71,7 @@ study rubber rough.rcg "--tol 1e-1,1e-2" rc-solve --periodic --mean-pressure 0.1
 again rubber tol=0.1 pressure
 study slip contact.rcg "--tol 1e-1,1e-2" rc-slip --mu 0.3 --tangential 1.5N
 again slip tol=0.1 traction-x
+claim "  the slip is that of all increments" bash -c 'grep -q "\"largest_slip_total_error\"" slip.json && ! grep -q "\"largest_slip_error\"" slip.json'
 study rolling contact.rcg "--tol 1e-1,1e-2" rc-slip --mu 0.3 --steady --creep 2e-3,0
 again rolling tol=0.1 traction-x
 study wear contact.rcg "--tol 1e-1,1e-2" rc-wear --coefficient 1e-5mm3/Nm --distance 10mm

@@ -109,6 +109,10 @@ claim "  in their order" test "$(sed -n 's/<h2>\(.*\)<\/h2>/\1/p' effects-of.htm
 claim "  a page without data has none" bash -c '! grep -E "<h2>(Travel|Creep|Friction|Wear|Heat|Leak|Fatigue|Shakedown)<" once.html'
 near "$(figure effects-of.html 'Part of the contact that sticks')" "$(awk 'BEGIN { print (1 - 3 / 6) ^ (2 / 3) }')" 0.05 \
     "  friction: the part that sticks is Cattaneo's, to a row of nodes"
+rc-solve --quiet --load 20N --E1 210GPa --nu1 0.3 --E2 210GPa --nu2 0.3 steel.rcg | rc-slip --quiet --mu 0.3 --tangential 3N -o slips.rcg
+near "$(figure effects-of.html 'Largest slip')" "$(paste -d ' ' <(rc-export --quiet --channel slip-x --format csv slips.rcg | grep -v '^#' | tr ',' '\n') \
+    <(rc-export --quiet --channel slip-y --format csv slips.rcg | grep -v '^#' | tr ',' '\n') | awk '{ s = sqrt($1 ^ 2 + $2 ^ 2); if (s > m) m = s } END { print m }')" \
+    "$three_digits" "  and the largest slip that of the frames, of all increments"
 near "$(figure effects-of.html 'Worn volume')" 2e-16 1e-3 "  wear: the volume is Archard's"
 near "$(figure effects-of.html 'Heat')" 12 1e-3 "  heat: the power of friction"
 claim "  leak: fluid flows around a ball" says 'A fluid gets through the gap\.' said effects-of.html

@@ -72,6 +72,25 @@ claim "  a picture of states has all three" says 'Stick and slip .*no contact st
 
 # ---- paths ----
 
+# The slip at nu = 0, at the radius r > c of a node: mu (u_a - a^2/R) less the same of the circle c that sticks,
+# c/a = (1 - F/mu P)^(1/3). u_a(r) = (a^2 - r^2/2)/R, u_c(r) = ((2 c^2 - r^2) asin(c/r) + c sqrt(r^2 - c^2))/(pi R)
+# (Johnson 1985, 3.42). After a reversal the slip is minus that before it.
+rc-solve --quiet --load 240N --estar 114GPa -o smooth.rcg sphere.rcg
+for n in 1 8; do
+    rc-slip --quiet --mu 0.3 --nu 0 --path '240N,0,0; 240N,36N,0; 240N,-36N,0' --increments $n --report turn$n.tsv -o turn$n.rcg smooth.rcg
+done
+values turn8.rcg slip-x 3 | tr ',' '\n' | awk -v a="$(awk 'BEGIN { print (3 * 240 * 7.5e-3 / (4 * 114e9)) ^ (1 / 3) }')" '
+    $1 > most { most = $1; x = ((NR - 1) % 64 - 31.5) * 1e-5; y = (int((NR - 1) / 64) - 31.5) * 1e-5; r = sqrt(x ^ 2 + y ^ 2) }
+    END { c = a * 0.5 ^ (1 / 3); s = c / r; pi = 3.14159265358979
+        u = ((2 * c ^ 2 - r ^ 2) * atan2(s, sqrt(1 - s ^ 2)) + c * sqrt(r ^ 2 - c ^ 2)) / pi
+        printf "%.17g %.9g\n", most, 0.3 * ((a ^ 2 - r ^ 2 / 2) - u - (a ^ 2 - c ^ 2)) / -7.5e-3 }' >slip.txt
+for n in 1 8; do
+    near "$(column largest_slip_total 3 turn$n.tsv)" "$(cut -d ' ' -f 2 slip.txt)" "$coarse_grid" "the largest slip of a path of $n increments is Cattaneo's and Mindlin's"
+done
+near "$(column largest_slip_total 3 turn8.tsv)" "$(cut -d ' ' -f 1 slip.txt)" "$summed" "  and that of its frames"
+claim "  largest_slip is that of the last increment" awk -v a="$(column largest_slip 3 turn1.tsv)" -v b="$(column largest_slip 3 turn8.tsv)" \
+    -v t="$(column largest_slip_total 3 turn1.tsv)" 'BEGIN { exit !(a > 1.9 * t && b < 0.7 * t) }'
+
 loop='240N,0,0; 240N,43.2N,0; 240N,-43.2N,0; 240N,43.2N,0'
 rc-slip --mu 0.3 --path "$loop" --report loop.tsv -o loop.rcg ball.rcg
 claim "each corner is a case" test "$(rc-info --json loop.rcg | grep -o '"channel": "slip-x"' | wc -l)" = 4

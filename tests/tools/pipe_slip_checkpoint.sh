@@ -29,6 +29,7 @@ claim "the checkpoint has a state for each corner" test "$(states kept.rcg)" = 4
 cp kept.rcg all.rcg
 claim "a resumed complete run does no work" bash -c "$slip --checkpoint kept.rcg --resume --report again.tsv -o again.rcg alike.rcg"
 for case in 2 3 4; do between 0 "$(apart again.rcg whole.rcg traction-x $case)" 1e-4 "  to the same tractions, case $case"; done
+near "$(column largest_slip_total 4 again.tsv)" "$(column largest_slip_total 4 whole.tsv)" 1e-3 "  and the same slip"
 near "$(column dissipated_total 4 again.tsv)" "$(column dissipated_total 4 whole.tsv)" 1e-3 "  and the same work"
 between 0 "$(work again.tsv)" "$(awk -v w="$(work whole.tsv)" 'BEGIN { print w / 2 }')" "  in less than half of the convolutions"
 
@@ -56,6 +57,7 @@ $press --report straight.tsv -o straight.rcg rigid.rcg
 claim "--resume continues from them" bash -c "$press --checkpoint cut.rcg --resume --report on.tsv -o on.rcg rigid.rcg"
 for channel in pressure traction-x; do between 0 "$(apart on.rcg straight.rcg $channel 2)" 1e-4 "  to the same $channel"; done
 near "$(column displacement_x 2 on.tsv)" "$(column displacement_x 2 straight.tsv)" 1e-4 "  and displacement"
+near "$(column largest_slip_total 2 on.tsv)" "$(column largest_slip_total 2 straight.tsv)" 1e-3 "  and slip"
 near "$(column increment_error_estimate 2 on.tsv)" "$(column increment_error_estimate 2 straight.tsv)" 1e-2 "  and error of the increments"
 between 1 "$(work on.tsv)" "$(awk -v w="$(work straight.tsv)" 'BEGIN { print 0.97 * w }')" "  in fewer convolutions"
 

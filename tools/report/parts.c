@@ -155,7 +155,8 @@ const struct page_part page_parts[] = {
     {.needs = "mu tangential",
      .file = "slip.tsv",
      .show = page_show_figures,
-     .a = "tangential_x limit displacement_x stick_fraction largest_slip tangential_stiffness "
+     .a = "tangential_x limit displacement_x stick_fraction largest_slip_total "
+          "tangential_stiffness "
           "dissipated_energy "
           "traction_error_estimate converged",
      .says = "The tangential force leaves a share of %s of the contact sticking.",

@@ -411,10 +411,19 @@ report(struct report *r, const struct slip_run *run, const struct rc_model *m)
     return s->converged;
 }
 
+static void
+report_last(struct report *r, const struct slip_run *run)
+{
+    const struct figures from[] = {{rc_figures("friction"), &run->state.figures}, {NULL, NULL}};
+
+    report_named(r, from, "largest_slip_total");
+}
+
 static const struct slip_motion slip_motion_path = {.ask = ask,
                                                     .read = slip_read_path,
                                                     .move = move,
                                                     .report = report,
+                                                    .report_last = report_last,
                                                     .tol = 1e-4,
                                                     .work = "",
                                                     .uncoupled = "--coupling goodman"};

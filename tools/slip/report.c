@@ -74,6 +74,8 @@ slip_report(struct drive *d, const struct rc_model *m)
     report_number(r, "beta", run->bodies.beta, NULL);
     report_text(r, "coupling", coupling_of(run));
     end_row(d, run->motion->report(r, run, m));
+    if (run->motion->report_last != NULL)
+        run->motion->report_last(r, run);
 }
 
 /* ---- warnings ---- */

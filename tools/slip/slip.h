@@ -94,6 +94,8 @@ struct slip_motion {
     void (*move)(struct slip_run *run);   /* in a case: plans, solves and reports */
     /* Its columns; returns whether the row has converged. */
     bool (*report)(struct report *r, const struct slip_run *run, const struct rc_model *m);
+    /* The columns at the end of its row; NULL: none. */
+    void (*report_last)(struct report *r, const struct slip_run *run);
     void (*close)(void);   /* NULL: nothing is left */
     double tol;            /* without --tol */
     const char *work;      /* more words about the plan */
