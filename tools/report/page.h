@@ -86,6 +86,8 @@ struct page_part {
     const char *needs;
     /* a sentence of the first paragraph about a figure of the file; `denies`: if it is false */
     const char *says, *denies, *figure;
+    /* an estimated error of the file that may be far above the error, and what it covers */
+    const char *wide, *covers;
 };
 extern const struct page_part page_parts[];
 extern const size_t page_part_count;

@@ -175,9 +175,14 @@ const struct page_part page_parts[] = {
      .show = page_show_figures,
      .a = "distance wear_volume wear_volume_1 wear_volume_2 max_wear_depth mean_wear_depth "
           "contact_fraction "
-          "max_pressure approach wear_error_estimate converged",
+          "max_pressure approach wear_error_estimate pressure_error_estimate "
+          "max_pressure_error_estimate converged",
      .says = "At the end of the sliding distance the largest worn depth is %s.",
-     .figure = "max_wear_depth"},
+     .figure = "max_wear_depth",
+     .wide = "max_pressure_error_estimate",
+     .covers = "it covers each node that may have the largest pressure, also one that has just come "
+               "into contact at an edge that the grid does not resolve, and may be far above the "
+               "error"},
     {.needs = "coefficient distance",
      .command = "rc-render --quiet --curve distance:max_pressure --log xy --subtitle= --width 800 "
                 "steps.tsv",

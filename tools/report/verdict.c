@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The first paragraph: the contact and the effects in words, and what limits the trust in them. */
+#include <ctype.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -150,14 +151,15 @@ put_grid_limit(struct page *run, size_t *n)
     return true;
 }
 
-/* The largest estimated error of a report, over all rows. 0: it has none. */
+static const char ending[] = "_error_estimate";
+
+/* The largest estimated error of a report, over all rows, and its column. 0: it has none. */
 static double
-largest_error(struct page *run, const char *file)
+largest_error(struct page *run, const char *file, char column[PAGE_CELL])
 {
-    static const char ending[] = "_error_estimate";
     FILE *in = page_open(run, file);
     RC_OWNED char *line = NULL;
-    bool wanted[PAGE_WORDS] = {false};
+    char wanted[PAGE_WORDS][PAGE_CELL] = {""};
     size_t room = 0;
     double largest = 0;
 
@@ -166,14 +168,33 @@ largest_error(struct page *run, const char *file)
 
         for (size_t k = 0; k < PAGE_WORDS && *cell != '\0'; k++, cell = rest) {
             rest = page_end_cell(cell);
-            if (row > 0 && wanted[k])
-                largest = fmax(largest, strtod(cell, NULL)); /* without NaN */
-            else if (row == 0 && strlen(cell) > strlen(ending))
-                wanted[k] = strcmp(cell + strlen(cell) - strlen(ending), ending) == 0;
+            if (row > 0 && wanted[k][0] != '\0' && strtod(cell, NULL) > largest) { /* no NaN */
+                largest = strtod(cell, NULL);
+                memcpy(column, wanted[k], PAGE_CELL);
+            } else if (row == 0 && strlen(cell) > strlen(ending) &&
+                       strcmp(cell + strlen(cell) - strlen(ending), ending) == 0)
+                snprintf(wanted[k], PAGE_CELL, "%s", cell);
         }
     }
     fclose(in);
     return largest;
+}
+
+/* " of the largest pressure": what an estimated error belongs to, from its title or that of its figure. */
+static void
+put_owner(FILE *out, const char *column)
+{
+    static const char error[] = "Error";
+    const struct rc_figure *f = report_figure(column),
+                           *of = f == NULL || f->of == NULL ? NULL : report_figure(f->of);
+
+    if (f != NULL && strncmp(f->title, error, strlen(error)) == 0) {
+        page_text(out, f->title + strlen(error));
+    } else if (of != NULL) {
+        fprintf(out, " of the %c", tolower((unsigned char)of->title[0]));
+        page_text(out, of->title + 1);
+    } else
+        fprintf(out, " %.*s", (int)(strlen(column) - strlen(ending)), column);
 }
 
 /* The sections whose reports have a large estimated error. */
@@ -185,17 +206,22 @@ put_errors(struct page *run, size_t *n)
 
     for (size_t k = 0; k < page_part_count; k++) {
         const struct page_part *part = &page_parts[k];
+        char column[PAGE_CELL];
         double error;
 
         if (part->heading != NULL)
             heading = part->heading;
         if ((part->show != page_show_figures && part->show != page_show_table) ||
-            !page_is_wanted(run, part) || !((error = largest_error(run, part->file)) > share))
+            !page_is_wanted(run, part) ||
+            !((error = largest_error(run, part->file, column)) > share))
             continue;
         if (errors++ == 0)
             begin_limit(run->page.file, n);
-        fprintf(run->page.file, "%s %s under %s", errors == 1 ? "the estimated error is" : ",",
-                shown_percent(error, 3), heading);
+        fputs(errors == 1 ? "the estimated error" : ", that", run->page.file);
+        put_owner(run->page.file, column);
+        fprintf(run->page.file, " is %s under %s", shown_percent(error, 3), heading);
+        if (part->wide != NULL && strcmp(part->wide, column) == 0)
+            fprintf(run->page.file, " (%s)", part->covers);
     }
 }
 
