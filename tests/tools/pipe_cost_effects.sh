@@ -96,6 +96,23 @@ study two "ball.rcg" "--tol 1e-1,1e-3" rc-solve --load 10N $steel '|' rc-slip --
 again two tol=0.1 crossland
 claim "  each program has the tolerance" bash -c '[ "$(grep -o -- "--tol 1e-05" two.txt | wc -l)" = 3 ]'
 
+# Both programs report a largest pressure: before wear and after it.
+study pair ball.rcg "--tol 1e-1,1e-3" rc-solve --load 10N $steel '|' rc-wear --coefficient 1e-5mm3/Nm --distance 10mm
+largest() { # KEY=VALUE PROGRAM: the largest pressure that this program of the pipe reports
+    bash -c "$(value pair.json "$1" command | sed "s/rc-solve/& --report one.json/; s/rc-wear/& --report two.json/") --quiet" >/dev/null &&
+        field max_pressure "$([ "$2" = 1 ] && echo one.json || echo two.json)"
+}
+for program in 1 2; do
+    near "$(value pair.json tol=0.1 "$([ $program = 1 ] && echo 1.)max_pressure_error")" \
+        "$(awk -v a="$(largest tol=0.1 $program)" -v b="$(largest what=reference $program)" 'BEGIN { printf "%.12g", a / b - 1 }')" 1e-6 \
+        "a figure of two programs: the error of that of program $program"
+done
+claim "  the table has the number of the program" bash -c 'grep -q "^ *tol .* 2[.]max_pressure " pair.txt && grep -q "^# reference: .*: 2[.]max_pressure " pair.txt'
+for name in 1.max_pressure 2.max_pressure max_pressure; do
+    claim "  --of $name" says "^# error: of ${name/#max/2.max}, relative" rc-cost --quiet --tol 1e-1 --of $name ball.rcg -- rc-solve --load 10N $steel '|' \
+        rc-wear --coefficient 1e-5mm3/Nm --distance 10mm
+done
+
 # ---- figures and grids ----
 
 study leak rough.rcg "--grid 2,1 --tol 1e-2 --of flow_conductance" rc-solve --periodic --mean-pressure 5MPa --estar 1GPa '|' rc-leak

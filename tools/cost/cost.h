@@ -126,7 +126,10 @@ struct cost_channel {
 
 struct cost_figure { /* of the results, or an estimate */
     size_t program;
-    char name[COST_NAME], of[COST_NAME], by[COST_NAME], column[COST_NAME];
+    char name[COST_NAME], of[COST_NAME], by[COST_NAME];
+    /* "2.contact_area" where several programs report this figure, else its name; of the report, where the
+     * last of them has the name without a number */
+    char shown[COST_NAME + 8], column[COST_NAME + 8];
     char unit[16];
     bool differs;
 };
@@ -233,6 +236,8 @@ double cost_error_of(const struct cost_case *c, const struct cost_trial *t,
 double cost_estimate_of(const struct cost_case *c, const struct cost_trial *t,
                         struct cost_object object, bool any);
 struct cost_object cost_object_named(const struct cost_case *c, const char *name);
+/* What an estimate belongs to: a frame, or a figure of its own program. */
+struct cost_object cost_object_of(const struct cost_case *c, const struct cost_figure *estimate);
 const char *cost_object_name(const struct cost_case *c, struct cost_object object);
 /* The error of the reference: its estimate, or the last change along a list, whichever is larger. */
 double cost_reference_error(const struct cost_case *c, struct cost_object object);

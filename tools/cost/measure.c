@@ -543,7 +543,6 @@ find_figures(struct cost_case *c, size_t program)
              (strcmp(own.name + n - 2, "_x") == 0 || strcmp(own.name + n - 2, "_y") == 0)) ||
             (n > 6 && strcmp(own.name + n - 6, "_depth") == 0))
             continue;
-        snprintf(own.column, sizeof own.column, "%.50s_error", own.name);
         c->figure[c->figures++] = own;
     }
 }
@@ -591,6 +590,37 @@ largest(const char *report, const char *name)
     return most;
 }
 
+/* True if the report of the reference has a number for the figure. */
+static bool
+is_reported(const struct cost_case *c, const struct cost_figure *f)
+{
+    return !isnan(largest(report_of(c, &c->trial[c->reference], f->program), f->name));
+}
+
+/* Figures that several programs report have the number of their program before their names. */
+static void
+name_figures(struct cost_case *c)
+{
+    for (size_t k = 0; k < c->figures; k++) {
+        struct cost_figure *f = &c->figure[k];
+        bool twice = false, later = false;
+
+        for (size_t i = 0; i < c->figures && is_reported(c, f); i++) {
+            const struct cost_figure *o = &c->figure[i];
+
+            if (i == k || strcmp(o->name, f->name) != 0 || !is_reported(c, o))
+                continue;
+            twice = true;
+            later = later || o->program > f->program;
+        }
+        if (twice)
+            snprintf(f->shown, sizeof f->shown, "%zu.%s", f->program + 1, f->name);
+        else
+            snprintf(f->shown, sizeof f->shown, "%s", f->name);
+        snprintf(f->column, sizeof f->column, "%.56s_error", later ? f->shown : f->name);
+    }
+}
+
 void
 cost_compare(struct cost_case *c, struct cost_trial *t)
 {
@@ -636,6 +666,7 @@ cost_reference_read(struct cost_case *c)
     c->cases = c->cases == 0 ? 1 : c->cases;
     for (size_t k = c->command.programs; k-- > 0;)
         find_figures(c, k);
+    name_figures(c);
     for (size_t k = 0; k < c->trials; k++)
         if (c->trial[k].state == COST_DONE)
             cost_compare(c, &c->trial[k]);
@@ -658,15 +689,30 @@ cost_object_named(const struct cost_case *c, const char *name)
 
     if (k < c->channels)
         return (struct cost_object){.frame = true, .known = true, .k = k};
-    for (k = 0; k < c->figures && strcmp(c->figure[k].name, name) != 0; k++)
+    for (k = 0; k < c->figures && strcmp(c->figure[k].shown, name) != 0; k++)
         continue;
+    if (k == c->figures) /* without a number: of the last program */
+        for (k = 0; k < c->figures && strcmp(c->figure[k].name, name) != 0; k++)
+            continue;
     return (struct cost_object){.known = k < c->figures, .k = k};
+}
+
+struct cost_object
+cost_object_of(const struct cost_case *c, const struct cost_figure *estimate)
+{
+    const struct cost_object named = cost_object_named(c, estimate->of);
+
+    for (size_t k = 0; k < c->figures && !named.frame; k++)
+        if (c->figure[k].program == estimate->program &&
+            strcmp(c->figure[k].name, estimate->of) == 0)
+            return (struct cost_object){.known = true, .k = k};
+    return named;
 }
 
 const char *
 cost_object_name(const struct cost_case *c, struct cost_object o)
 {
-    return !o.known ? "nothing" : o.frame ? c->channel[o.k].name : c->figure[o.k].name;
+    return !o.known ? "nothing" : o.frame ? c->channel[o.k].name : c->figure[o.k].shown;
 }
 
 /* An estimate counts if an option of its program, or the grid, lowers it. */
@@ -679,7 +725,7 @@ cost_estimate_of(const struct cost_case *c, const struct cost_trial *t, struct c
     for (size_t k = 0; k < c->estimates; k++) {
         const struct cost_figure *e = &c->estimate[k];
         const bool grid = strcmp(e->by, "grid") == 0;
-        const struct cost_object own = cost_object_named(c, e->of);
+        const struct cost_object own = cost_object_of(c, e);
 
         if (!o.known || !own.known || own.frame != o.frame || own.k != o.k)
             continue;
@@ -772,7 +818,7 @@ judged(const struct cost_case *c)
     if (!isnan(cost_estimate_of(c, reference, c->ranked, true)))
         return c->ranked;
     for (size_t k = 0; k < c->estimates; k++) {
-        const struct cost_object o = cost_object_named(c, c->estimate[k].of);
+        const struct cost_object o = cost_object_of(c, &c->estimate[k]);
 
         if (c->estimate[k].program + 1 == c->command.programs &&
             !isnan(cost_estimate_of(c, reference, o, true)))
@@ -830,7 +876,7 @@ cost_judge(struct cost_case *c)
         t->unjudged = isnan(t->estimate);
         for (size_t i = 0; i < c->estimates && !t->reference; i++)
             t->optimistic =
-                t->optimistic || cost_is_optimistic(c, t, cost_object_named(c, c->estimate[i].of));
+                t->optimistic || cost_is_optimistic(c, t, cost_object_of(c, &c->estimate[i]));
     }
     for (size_t k = 0; k < c->trials; k++) {
         struct cost_trial *t = &c->trial[k];

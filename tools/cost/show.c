@@ -110,7 +110,7 @@ put_head(const struct cost_case *c, const size_t figure[], size_t figures, FILE 
     for (size_t k = 0; k < figures; k++) {
         const struct cost_figure *f = &c->figure[figure[k]];
 
-        fprintf(out, "%s %s %.9g%s%s", k == 0 ? ":" : ",", f->name,
+        fprintf(out, "%s %s %.9g%s%s", k == 0 ? ":" : ",", f->shown,
                 figure_of_reference(c, figure[k]), f->unit[0] == '\0' ? "" : " ", f->unit);
     }
     fprintf(out, "%s\n# error: of %s, ", r->converged ? "" : "; it stopped short",
@@ -185,7 +185,7 @@ put_row(const struct cost_case *c, const struct cost_trial *t, const size_t figu
     put_cell(out, 9, "%.2e", t->error);
     put_cell(out, 9, "%.2e", t->bound);
     for (size_t k = 0; k < figures; k++)
-        put_cell(out, wide(c->figure[figure[k]].name, 9), "%.2e", t->figure[figure[k]]);
+        put_cell(out, wide(c->figure[figure[k]].shown, 9), "%.2e", t->figure[figure[k]]);
     fprintf(out, "%s\n", note(t, text));
 }
 
@@ -203,7 +203,7 @@ cost_show_table(const struct cost_case *c, FILE *out)
     for (size_t k = 0; k < sizeof heads / sizeof *heads; k++)
         fputs(heads[k], out);
     for (size_t k = 0; k < figures; k++)
-        fprintf(out, " %*s", wide(c->figure[figure[k]].name, 9), c->figure[figure[k]].name);
+        fprintf(out, " %*s", wide(c->figure[figure[k]].shown, 9), c->figure[figure[k]].shown);
     fputs(" note\n", out);
     for (size_t k = 0; k < c->trials; k++)
         if (c->trial[k].state == COST_DONE)
@@ -219,14 +219,17 @@ void
 cost_warn(const struct cost_case *c)
 {
     for (size_t e = 0; e < c->estimates; e++) {
-        const struct cost_object o = cost_object_named(c, c->estimate[e].of);
+        const struct cost_object o = cost_object_of(c, &c->estimate[e]);
         const struct cost_trial *worst = NULL;
         size_t n = 0;
         char name[160];
 
-        for (size_t k = 0; k < e && o.known; k++)
-            if (strcmp(c->estimate[k].of, c->estimate[e].of) == 0)
+        for (size_t k = 0; k < e && o.known; k++) {
+            const struct cost_object before = cost_object_of(c, &c->estimate[k]);
+
+            if (before.frame == o.frame && before.k == o.k)
                 n = c->trials; /* said already */
+        }
         for (size_t k = 0; k < c->trials && n < c->trials; k++) {
             const struct cost_trial *t = &c->trial[k];
 
@@ -303,7 +306,7 @@ report_trial(const struct cost_case *c, const struct cost_trial *t, struct repor
 
         for (size_t i = 0; i < k; i++)
             twice = twice ||
-                    (c->figure[i].differs && strcmp(c->figure[i].name, c->figure[k].name) == 0);
+                    (c->figure[i].differs && strcmp(c->figure[i].column, c->figure[k].column) == 0);
         columns += !twice;
         if (!twice)
             report_number(out, c->figure[k].column, t->figure[k], NULL);

@@ -268,4 +268,12 @@ scan_find_bars(struct scan *s)
             s->bar = tool_grown(c->tool, s->bar, s->bars, &s->bar_room, sizeof b, "a list of bars");
             s->bar[s->bars++] = b;
         }
+    for (size_t k = 0; k < s->bars; k++) {
+        struct scan_bar *b = &s->bar[k];
+
+        b->name = b->figure->name;
+        for (size_t i = 0; i < s->bars; i++)
+            if (s->bar[i].figure != b->figure && strcmp(s->bar[i].figure->name, b->name) == 0)
+                b->name = b->figure->shown;
+    }
 }

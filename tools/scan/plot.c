@@ -64,7 +64,7 @@ fill(const struct scan *s, struct bars *b)
         put_point(b, 0, n, bar->bar, bar->value);
         for (size_t i = 0; i < SCAN_SOURCES; i++)
             put_point(b, 1 + i, n, bar->part[i], bar->value);
-        snprintf(b->name[n], sizeof *b->name, "%.60s", bar->figure->name);
+        snprintf(b->name[n], sizeof *b->name, "%.60s", bar->name);
         for (char *c = b->name[n]; (c = strchr(c, '_')) != NULL;)
             *c = ' ';
         b->word[n] = b->name[n];

@@ -38,6 +38,7 @@ struct scan_variant {
 
 struct scan_bar {
     const struct cost_figure *figure;
+    const char *name;          /* with the number of the program where two have bars of one name */
     size_t line;               /* of the report, from 0: the case */
     double value, bar;         /* of the measured map; NAN: no bar */
     double part[SCAN_SOURCES]; /* NAN: not studied, or unknown */

@@ -122,7 +122,7 @@ put_rows(const struct scan *s, int width, bool cases, FILE *out)
 
         if (is_given(b))
             continue;
-        fprintf(out, "%-*s", width, b->figure->name);
+        fprintf(out, "%-*s", width, b->name);
         if (cases)
             fprintf(out, " %4zu", b->line + 1);
         fprintf(out, " %11.4g %-7s", b->value, b->figure->unit[0] == '\0' ? "-" : b->figure->unit);
@@ -143,7 +143,7 @@ put_given(const struct scan *s, FILE *out)
 
     for (size_t k = 0; k < s->bars; k++)
         if (is_given(&s->bar[k]) && s->bar[k].line == 0)
-            fprintf(out, "%s %s", n++ == 0 ? "# no change:" : ",", s->bar[k].figure->name);
+            fprintf(out, "%s %s", n++ == 0 ? "# no change:" : ",", s->bar[k].name);
     if (n > 0)
         putc('\n', out);
 }
@@ -156,7 +156,7 @@ scan_show_table(const struct scan *s, FILE *out)
     char name[160];
 
     for (size_t k = 0; k < s->bars; k++) {
-        const int own = (int)strlen(s->bar[k].figure->name);
+        const int own = (int)strlen(s->bar[k].name);
 
         width = own > width && !is_given(&s->bar[k]) ? own : width;
         cases = cases || s->bar[k].line > 0;
