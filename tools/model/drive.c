@@ -405,16 +405,16 @@ figure_of(const struct rc_model *m, const char *name)
     return f;
 }
 
-/* --verbose prints the figures that the tool names. */
-static void
-tell(struct drive *d, const struct rc_model *m, const char *where)
+void
+drive_tell(struct drive *d, const struct rc_model *m)
 {
-    char text[512] = "", value[SHOWN_NUMBER];
+    char where[512], text[512] = "", value[SHOWN_NUMBER];
     size_t at = 0;
 
+    drive_where(d, d->course.g, where, sizeof where);
     for (const char *const *name = d->tells; name != NULL && *name != NULL; name++) {
         const struct rc_figure *f = figure_of(m, *name);
-        if (f != NULL && at < sizeof text)
+        if (f != NULL && at < sizeof text && !isnan(rc_model_number(m, *name)))
             at += (size_t)snprintf(text + at, sizeof text - at, "%c%s %s, ",
                                    tolower((unsigned char)f->title[0]), f->title + 1,
                                    shown(value, rc_model_number(m, *name), f->unit));
@@ -497,7 +497,7 @@ drive_judge_point(struct drive *d, struct rc_model *m)
     drive_where(d, d->course.g, where, sizeof where);
     drive_judge(&d->course, m, d->advice, where);
     judge_end(d, m, where);
-    tell(d, m, where);
+    drive_tell(d, m);
     if (d->status != RC_OK)
         tool_fails_with(&d->t, EXIT_SHORT);
 }

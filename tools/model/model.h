@@ -211,6 +211,8 @@ void drive_keep(struct drive *d, struct rc_model *m);
 int drive_close(struct drive *d);
 /* Warns of what the model found, in the way of all tools: what d->judge NULL does. */
 void drive_judge_point(struct drive *d, struct rc_model *m);
+/* Prints the figures that the tool names, with --verbose. */
+void drive_tell(struct drive *drive, const struct rc_model *model);
 /* Warns of figures of the model that are beyond their limits. */
 void drive_judge(struct course *c, const struct rc_model *m, const struct drive_advice *advice,
                  const char *where);

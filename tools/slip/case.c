@@ -262,14 +262,27 @@ judge(struct drive *d, struct rc_model *m)
     if (!s->converged)
         tool_fails_with(&d->t, EXIT_SHORT);
     d->is.silent = s->corner->silent && tool_interrupted() == 0;
-    if (!d->is.silent)
+    if (!d->is.silent) {
         slip_judge(run, s);
+        drive_tell(d, m);
+    }
 }
 
 /* Solves the corners one after another, until a signal comes. */
 static void
 follow(struct slip_run *run)
 {
+    static const char *const tells[] = {"tangential_x",
+                                        "tangential_y",
+                                        "displacement_x",
+                                        "displacement_y",
+                                        "stick_fraction",
+                                        "largest_slip_total",
+                                        "dissipated_energy",
+                                        "increment_error_estimate",
+                                        "increments",
+                                        "convolutions",
+                                        NULL};
     struct drive *d = &run->d;
 
     if (run->args->output >> SLIP_LENGTH & 1)
@@ -278,6 +291,7 @@ follow(struct slip_run *run)
     run->state = (struct slip_state){.dissipated_total = 0};
     d->calls.frame = slip_frame;
     d->unit = "m";
+    d->tells = tells;
     d->calls.mark = mark;
     d->calls.begin = begin;
     d->calls.judge = judge;

@@ -91,25 +91,34 @@ slip_goal(const struct slip_run *run)
     return isnan(run->args->tol) ? usual : run->args->tol;
 }
 
-/* Warns if the error exceeds `most`: names its largest part and how to lower it. */
+/* Warns if the error exceeds `most`: names its largest part and how to lower it, for all corners so far. */
 static void
-say_what_is_left(struct slip_run *run, const struct slip_state *s, double most, const char *where)
+say_what_is_left(struct slip_run *run, struct slip_state *s, double most, const char *where)
 {
-    double n = 0, increments = s->errors.increment;
+    /* The error falls as the number of increments to the power -1, by a little less to be safe. */
+    static const double order = 1.1, affordable = 1000, margin = 1.5;
+    double n = 0, increments = s->errors.increment, few;
 
     for (const struct slip_corner *c = run->corner; c <= s->corner; c++)
         n = fmax(n, (double)c->leg.increments);
+    few = fmax(affordable, n);
+    s->needed = fmax(s->needed, fmax(ceil(n * pow(increments / most, order)), 8));
+    s->reached = fmax(s->reached, margin * increments * pow(n / few, 1 / order));
 
     if (isnan(s->traction_error))
         tool_warn(&run->d.t,
                   "%s: --increments %zu is too few to estimate the error: take 4 or more, or auto",
                   where, run->increments);
+    else if (s->traction_error > most && increments > s->traction_error / 2 && s->needed > few)
+        tool_warn(&run->d.t,
+                  "%s: the increments cause an error of %.2g %% of the tractions, and %.2g %% "
+                  "would take about %.1g of them: take --increments %.0f --tol %.1g",
+                  where, 100 * increments, 100 * most, s->needed, few, s->reached);
     else if (s->traction_error > most && increments > s->traction_error / 2)
         tool_warn(&run->d.t,
                   "%s: the increments cause an error of %.2g %% of the tractions: take "
-                  "--increments %.0f for %.2g %%",
-                  where, 100 * increments, fmax(ceil(n * pow(increments / most, 1.1)), 8),
-                  100 * most);
+                  "--increments %.0f for %.2g %%, with about %.2g times the work",
+                  where, 100 * increments, s->needed, 100 * most, s->needed / n);
     else if (s->traction_error > most || !s->converged)
         tool_warn(
             &run->d.t,
@@ -175,10 +184,11 @@ slip_judge_plan(struct slip_run *run)
 }
 
 void
-slip_judge(struct slip_run *run, const struct slip_state *s)
+slip_judge(struct slip_run *run, struct slip_state *s)
 {
     const struct rc_friction_increment *f = &s->figures.last;
-    double force = hypot(f->force[0], f->force[1]);
+    const double sum = hypot(f->force[0], f->force[1]),
+                 force = sum > 1e-9 * f->limit ? sum : 0; /* of the order of rounding */
     char where[320];
     const char *frame = tool_where(&run->d.t, run->p);
 

@@ -227,6 +227,9 @@ static const struct drive_advice advice[] = {
 static void
 move(struct slip_run *run)
 {
+    static const char *const tells[] = {"tangential_x", "tangential_y",   "creep_x",
+                                        "creep_y",      "stick_fraction", "power_slip",
+                                        "steps",        "convolutions",   NULL};
     struct drive *d = &run->d;
     struct rc_expected expected;
     struct rc_model *m;
@@ -255,6 +258,7 @@ move(struct slip_run *run)
     d->calls.frame = slip_frame;
     d->unit = "m";
     d->advice = advice;
+    d->tells = tells;
     d->calls.begin = begin;
     d->calls.all_keys = set_keys;
     d->calls.row = slip_report;

@@ -56,6 +56,8 @@ struct slip_state {
     double dissipated_total;   /* J, since the start of the path */
     struct error_parts errors; /* parts of the error of the tractions */
     double traction_error;     /* their sum; NAN: unknown        */
+    /* of all corners so far: increments that their goals need, and the error of as many as are proposed */
+    double needed, reached;
     bool converged;
 };
 
@@ -136,7 +138,7 @@ const double *slip_frame(struct drive *d, struct rc_model *m, struct rc_grid *fr
 double slip_goal(const struct slip_run *run);
 /* Warnings printed before the run. */
 void slip_judge_plan(struct slip_run *run);
-void slip_judge(struct slip_run *run, const struct slip_state *s);
+void slip_judge(struct slip_run *run, struct slip_state *s);
 /* A row of the report, for tools/model. */
 void slip_report(struct drive *d, const struct rc_model *m);
 /* Passes of an increment in which tractions change the pressure too; else 1. */
