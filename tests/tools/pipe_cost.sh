@@ -253,6 +253,27 @@ counted() {
 }
 claim "a program whose input and words are those of another trial does not run again" counted
 
+# Each run takes 0.7 s or more: besides the reference three fit into 2 s, and a fourth one is stopped.
+limited() {
+    mkdir -p slowly && ln -f "$RC_BIN/rc-cost" slowly/ 2>/dev/null || cp "$RC_BIN/rc-cost" slowly/
+    printf '#!/bin/sh\ncase " $* " in *" --completions "* | *" --dry-run "*) ;; *) echo "$*" >>"%s"; sleep 0.7 ;; esac\nexec "%s/rc-solve" "$@"\n' \
+        "$PWD/slow.runs" "$RC_BIN" >slowly/rc-solve && chmod +x slowly/rc-solve
+    slowly/rc-cost --limit 2s --vary increments=8,16 --vary slabs=3,5 --quiet tiny.rcg -- \
+        rc-solve --periodic --mean-pressure 0.5GPa --E1 210GPa --nu1 0.3 --E2 rigid --yield 2GPa,5GPa >slow.txt || return 1
+    wc -l slow.runs >&2
+    [ "$(wc -l <slow.runs)" -le 5 ] && grep -q 'left of --limit' slow.txt
+}
+claim "--limit holds for all trials, also those before the reference and beside it" limited
+rc-cost --tol 1e-8,1e-1,1e-4 --plot line.svg --quiet -o line.txt rough.rcg -- $contact
+claim "the line of the picture does not turn back in time" awk '
+    /<path d="M.*stroke-width="2.2"/ { gsub(/.*d="M|" fill.*/, ""); n = split($0, point, "L"); lines += n == 4
+        for (k = 2; k <= n; k++) bad += point[k] + 0 < point[k - 1] + 0 }
+    END { exit bad || lines != 1 }' line.svg
+unquoted() { rc-cost --tol 1e-2 --quiet "$@" tiny.rcg -- rc-solve --load 1mN --estar 1GPa | rc-leak -o x.rcg; }
+refuses 1 "rc-leak: standard input is the result of rc-cost: if rc-leak is a part of its command, write '.' in quotes before it" "a pipe without quotes" \
+    "$(declare -f unquoted); unquoted"
+refuses 1 "is the result of rc-cost" "  also of a command that was chosen" "$(declare -f unquoted); unquoted --error 0.5"
+
 # ---- Hertz: radius 7.5 mm, E* 114 GPa, 20 N; a^3 = 3 P R / 4 E*, p0 = 3 P / 2 pi a^2, approach a^2 / R ----
 
 rc-cost --grid 2 --tol 1e-3,1e-5 --of max_pressure --quiet -o hertz.txt ball.rcg -- rc-solve --load 20N --estar 114GPa

@@ -54,7 +54,12 @@ foreign_message(char *text, size_t size, const char *tool, const char *name, con
             kind = &kinds[k];
     if (kind != NULL)
         what = kind->what;
-    if (strncmp(head, "RCG1\r", 5) == 0)
+    if (strncmp(head, "# rc-cost:", 10) == 0 || strncmp(head, "rc-", 3) == 0)
+        snprintf(text, size,
+                 "%s is the result of rc-cost: if %s is a part of its command, write '|' in quotes "
+                 "before it: rc-cost FILE -- COMMAND '|' %s ...",
+                 shown, tool, tool);
+    else if (strncmp(head, "RCG1\r", 5) == 0)
         snprintf(text, size,
                  "%s: a copy in text mode has changed its line ends: copy it in binary mode",
                  shown);

@@ -147,10 +147,12 @@ struct cost_case {
     size_t lists, points;        /* `points`: the list along whose values the picture draws lines */
     const struct rc_grid *first; /* the first map of the input, without values */
     struct rc_shape shape;
-    double limit, began, budget, error; /* s, s, s, -; NAN: not given */
-    bool choosing, shown;               /* a command is wanted; all trials are shown nevertheless */
-    const char *of;                     /* --of, or NULL */
-    double around;                      /* s of a process besides its work */
+    double limit, budget, error; /* s, s, -; NAN: not given */
+    double began,
+        spent; /* s: when the trials began; the time of those that ran before the others */
+    bool choosing, shown; /* a command is wanted; all trials are shown nevertheless */
+    const char *of;       /* --of, or NULL */
+    double around;        /* s of a process besides its work */
     int input, nowhere;
     size_t turn;
     bool usage; /* a program has refused its command line */

@@ -100,6 +100,21 @@ is_ahead(const struct cost_case *c, const struct cost_trial *t)
     return true;
 }
 
+/* The place of a further point among those of the series, which are in the order of their times: its line
+ * does not turn back. */
+static size_t
+place_of(struct drawing *d, size_t s, double seconds)
+{
+    size_t n = d->series[s].n++;
+
+    for (; n > 0 && d->x[s][n - 1] > seconds; n--) {
+        d->x[s][n] = d->x[s][n - 1];
+        d->y[s][n] = d->y[s][n - 1];
+        d->point[s][n] = d->point[s][n - 1];
+    }
+    return n;
+}
+
 static void
 draw_trials(const struct cost_case *c, struct drawing *d)
 {
@@ -113,7 +128,7 @@ draw_trials(const struct cost_case *c, struct drawing *d)
         if (t->state != COST_DONE || isnan(t->error) || (t->reference && c->trials > 1) ||
             (s = series_of(d, name[0] == '\0' ? "trials" : name)) == SERIES)
             continue;
-        n = d->series[s].n++;
+        n = place_of(d, s, t->seconds);
         d->x[s][n] = t->seconds;
         d->y[s][n] = fmax(t->error, fmax(d->graph.floor / 10, 1e-15));
         d->point[s][n] = (struct graph_point){.hollow = t->coarse > 1, .front = is_ahead(c, t)};

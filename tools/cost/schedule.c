@@ -85,10 +85,12 @@ too_slow(const struct cost_case *c)
 static bool
 fits(const struct cost_case *c, struct cost_trial *t, double left)
 {
-    if (t->expected > left)
+    if (!(left > 0))
+        snprintf(t->why, sizeof t->why, "left out: nothing is left of --limit");
+    else if (t->expected > left)
         snprintf(t->why, sizeof t->why,
                  "left out: it would take about %.2g s, and %.2g s are left of --limit",
-                 t->expected, fmax(left, 0));
+                 t->expected, left);
     else if (t->expected > too_slow(c))
         snprintf(t->why, sizeof t->why, "left out: about %.2g s, it would not be chosen",
                  t->expected);
@@ -98,10 +100,23 @@ fits(const struct cost_case *c, struct cost_trial *t, double left)
     return false;
 }
 
+/* Seconds of --limit that the trials have left. */
 static double
 left(const struct cost_case *c)
 {
-    return c->limit - (tool_now() - c->began);
+    return c->limit - c->spent - (c->began > 0 ? tool_now() - c->began : 0);
+}
+
+/* Runs a trial before the others, in the time of --limit. */
+static void
+run_early(struct cost_case *c, size_t k)
+{
+    const double start = tool_now();
+
+    c->trial[k].expected = expect(c, &c->trial[k]);
+    if (c->trial[k].state == COST_OPEN && fits(c, &c->trial[k], left(c)))
+        cost_trial_run(c, k, left(c));
+    c->spent += tool_now() - start;
 }
 
 /* Fraction of the limit: trials with a longer expected time come last, because they may use up the time.
@@ -213,8 +228,8 @@ cost_find_directions(struct cost_case *c)
             pick[l] = k == 0 ? low : high;
             of[k] = cost_trial_find(c, pick, false);
             cost_plan(c, &c->trial[of[k]]);
-            if (c->trial[of[k]].state == COST_OPEN && low != high)
-                cost_trial_run(c, of[k], c->limit);
+            if (low != high)
+                run_early(c, of[k]);
         }
         if (low == high || c->trial[of[0]].state != COST_DONE || c->trial[of[1]].state != COST_DONE)
             continue; /* cost_list_close chooses */
@@ -281,15 +296,13 @@ cost_run_reference(struct cost_case *c)
     run_reference(c);
     cost_reference_read(c);
     for (size_t l = 0; l < c->lists && tool_interrupted() == 0; l++) {
-        size_t pick[COST_LISTS], k;
+        size_t pick[COST_LISTS];
 
         if (c->list[l].last == SIZE_MAX)
             continue;
         memcpy(pick, c->trial[c->reference].pick, sizeof pick);
         pick[l] = c->list[l].last;
-        k = add_trial(c, pick, false);
-        if (c->trial[k].state == COST_OPEN)
-            cost_trial_run(c, k, c->limit);
+        run_early(c, add_trial(c, pick, false));
     }
 }
 

@@ -96,7 +96,7 @@ put_head(const struct cost_case *c, const size_t figure[], size_t figures, FILE 
     const struct cost_object *of = &c->ranked;
     char name[160];
 
-    fprintf(out, "# %s: %zu x %zu nodes, ", tool_where(c->tool, c->first), c->shape.nx,
+    fprintf(out, "# rc-cost: %s: %zu x %zu nodes, ", tool_where(c->tool, c->first), c->shape.nx,
             c->shape.ny);
     if (c->cases > 1)
         fprintf(out, "%zu cases, ", c->cases);

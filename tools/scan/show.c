@@ -66,8 +66,9 @@ put_head(const struct scan *s, FILE *out)
     const struct cost_case *c = s->c;
     char name[SHOWN_NUMBER];
 
-    fprintf(out, "# %s: %zu x %zu nodes, %zu thread%s\n# command: ", tool_where(c->tool, c->first),
-            c->shape.nx, c->shape.ny, c->tool->threads, c->tool->threads == 1 ? "" : "s");
+    fprintf(out, "# rc-cost: %s: %zu x %zu nodes, %zu thread%s\n# command: ",
+            tool_where(c->tool, c->first), c->shape.nx, c->shape.ny, c->tool->threads,
+            c->tool->threads == 1 ? "" : "s");
     put_command(s, out);
     putc('\n', out);
     if (s->sigma > 0) {
