@@ -180,9 +180,10 @@ const struct page_part page_parts[] = {
      .says = "At the end of the sliding distance the largest worn depth is %s.",
      .figure = "max_wear_depth",
      .wide = "max_pressure_error_estimate",
-     .covers = "it covers each node that may have the largest pressure, also one that has just come "
-               "into contact at an edge that the grid does not resolve, and may be far above the "
-               "error"},
+     .covers =
+         "it covers each node that may have the largest pressure, also one that has just come "
+         "into contact at an edge that the grid does not resolve, and may be far above the "
+         "error"},
     {.needs = "coefficient distance",
      .command = "rc-render --quiet --curve distance:max_pressure --log xy --subtitle= --width 800 "
                 "steps.tsv",
