@@ -140,6 +140,7 @@ divide_words(struct page *run)
         run->scene[run->scenes++] = run->contact[k];
     for (size_t k = 0; k < n; k++) {
         const bool name = strncmp(all[k], "--", 2) == 0, value = of_load && !name;
+        const char *typed = name || k == 0 ? all[k] : as_typed(&run->t, all[k - 1], all[k]);
         if (name) {
             of_page = strcmp(all[k], "--travel") == 0 || strcmp(all[k], "--passes") == 0;
             softens = strcmp(all[k], "--relaxation") == 0;
@@ -147,15 +148,13 @@ divide_words(struct page *run)
             of_scene = of_page || softens || is_option(scene_options, all[k]);
             of_load = page_is_load(all[k]);
         }
-        if (k > 0 && !name)
-            all[k] = find_file(run, all[k - 1], all[k]);
-        run->given[run->givens++] = all[k];
+        if (typed == all[k] && k > 0 && !name)
+            typed = find_file(run, all[k - 1], all[k]);
+        run->given[run->givens++] = typed;
         if (!of_scene)
-            run->contact[run->contacts++] = all[k];
+            run->contact[run->contacts++] = typed;
         if (!of_page && !modulus)
-            run->scene[run->scenes++] = value            ? run->load
-                                        : name || k == 0 ? all[k]
-                                                         : as_typed(&run->t, all[k - 1], all[k]);
+            run->scene[run->scenes++] = value ? run->load : typed;
     }
 }
 

@@ -66,7 +66,7 @@ refuses 2 'noise takes a standard deviation and a length' "three numbers of --no
 claim "options of the contact are passed to rc-solve" bash -c '
     rc-report --quiet --outliers 5 --mirror --load 0.01N,0.02N --E1 70GPa --nu1 0.3 --E2 rigid --hardness 2GPa --radius 5mm -o options.html brass.txt &&
     grep -q -- "^rc-detrend --poly 2 --outliers 5 --fill --mirror measured.rcg" options.html &&
-    grep -q -- "rc-solve --periodic --load 0.01,0.02 --E1 70000000000 --nu1 0.3 --E2 rigid --hardness 2000000000 --radius 0.005 --output" options.html &&
+    grep -q -- "rc-solve --periodic --load 0.01N,0.02N --E1 70GPa --nu1 0.3 --E2 rigid --hardness 2GPa --radius 5mm --output" options.html &&
     grep -q -- "^rc-stress --section" options.html && grep -q "a sphere of radius 5 mm is added, the hardness is 2 GPa, and the map repeats" options.html'
 
 # ---- effects: those of rc-scene ----
@@ -131,6 +131,7 @@ claim "  a named material has the yield stress of its table" says 'times the yie
 printf 'name\tE\tnu\tyield\nhard\t210GPa\t0.3\t8GPa\nunknown\t210GPa\t0.3\t-\n' >materials.tsv
 named() { rc-report --quiet --load 20N --materials materials.tsv --body1 "$@" --body2 rigid steel.rcg; }
 claim "    also of a table of the user" says ', 0\.2[0-9]* times the yield stress of 8 GPa: the volume stays elastic' named hard
+claim "    the commands have the values of the table" says '^rc-solve --load 20N .*--E1 210GPa --nu1 0.3 --E2 rigid' named hard
 claim "    --yield goes before" says 'times the yield stress of 500 MPa: the volume yields' named hard --yield 500MPa
 claim "    without one the verdict names the stress" says 'a material with a lower yield stress yields there' named unknown
 claim "  what yields at a hardness" says '1.5 GPa: the hardness, at which [0-9.]* % of the contact yields' said steel.html
