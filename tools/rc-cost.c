@@ -30,7 +30,7 @@ static struct args {
 static const struct opt opts[] = {
     {.name = "tol", .type = OPT_TEXT, AT(tol), .result = true, .arg = "LIST",
      .help = "values of --tol, in each program that has it (default 1e-1,1e-2,1e-3,1e-4,1e-6)"},
-    {.name = "grid", .type = OPT_TEXT, AT(grid), .result = true, .arg = "LIST",
+    {.name = "grid", .type = OPT_TEXT, AT(grid), .result = true, .whole = true, .arg = "LIST",
      .help = "grids with 1/k of the nodes a side: 4,2,1 (default 8,4,2,1 if no list is given)"},
     {.name = "vary", .type = OPT_TEXTS, AT(lists), .result = true, .arg = "[N.]OPTION=LIST",
      .help = "values of an option of the command, or of its program N; again for further options"},

@@ -67,12 +67,26 @@ rc-synth sphere --nx 17 --dx 5um --radius 7.5mm -o ball.rcg
 press="rc-solve --estar 114GPa --output pressure -o out.rcg"
 
 claim "1,5 gets a warning, because it may mean 1.5" \
-    warns 'load 1,5: two values, 1 N and 5 N: for one number write 1\.5$' $press --load 1,5 ball.rcg
+    warns 'load 1,5: two values, 1 N and 5 N: for one number write 1\.5, for two 1N,5N$' $press --load 1,5 ball.rcg
 claim "  it is two cases" says '^case=2$' cat out.rcg
-claim "a zero after the comma is kept in the message" warns 'two values, 1 N and 5 N: for one number write 1\.05$' $press --load 1,05 ball.rcg
-claim "other lists get the warning too" warns 'depths 2,3: two values, 2 m and 3 m: .* 2\.3$' rc-stress --nu 0.3 --depths 2,3 out.rcg
+claim "a zero after the comma is kept in the message" warns 'two values, 1 N and 5 N: for one number write 1\.05, for two 1N,5N$' $press --load 1,05 ball.rcg
+claim "other lists get the warning too" warns 'depths 2,3: two values, 2 m and 3 m: .* 2\.3, for two 2m,3m$' rc-stress --nu 0.3 --depths 2,3 out.rcg
 claim "plain numbers in metres get it too" warns 'wavelength 2,5: two values' \
     rc-synth wave --nx 8 --dx 1 --wavelength 2,5 --amplitude 1 -o wave.rcg
+
+claim "a 0 before the comma gets it" warns 'depths 0,5um: two values, 0 um and 5 um: for one number write 0\.5um, for two 0um,5um$' \
+    rc-stress --nu 0.3 --depths 0,5um -o x.rcg out.rcg
+claim "  without a unit too" warns 'depths 0,05: two values, 0 m and 5 m: for one number write 0\.05, for two 0m,5m$' \
+    rc-stress --nu 0.3 --depths 0,05 -o x.rcg out.rcg
+claim "  where one number is as usual as two" warns 'wavelength 0,5um: two values, .* for one number write 0\.5um' \
+    rc-synth wave --nx 8 --ny 8 --dx 1um --amplitude 1nm --wavelength 0,5um -o x.rcg
+rc-solve --estar 114GPa --load 1mN --quiet -o worn.rcg ball.rcg
+claim "  where the option reads its text itself" warns \
+    'coefficient 0,5mm3/Nm: two values, 0 mm3/Nm and 5 mm3/Nm: for one number write 0\.5mm3/Nm' \
+    rc-wear --coefficient 0,5mm3/Nm --distance 1m --dry-run worn.rcg
+refuses 2 'cycles 0,5: two values, 0 and 5: for one number write 0\.5, for two 0\.0,5$' "  where no unit can be added a point tells two numbers" \
+    "rc-wear --coefficient 1e-9mm3/Nm --cycles 0,5 -o x.rcg worn.rcg"
+refuses 2 'for one number write 0\.5mN, for two' "  beside the refusal of the 0" "$press --load 0,5mN ball.rcg"
 
 # silent COMMAND...: it succeeds without this warning.
 silent() {
@@ -84,7 +98,11 @@ claim "three numbers cause no warning" silent $press --load 1,2,5 ball.rcg
 claim "numbers with units cause none" silent $press --load 1N,5N ball.rcg
 claim "numbers with points cause none" silent $press --load 1.0,5 ball.rcg
 claim "very different numbers cause none" silent $press --load 1,10 ball.rcg
+claim "a 0 with a unit causes none" silent rc-stress --nu 0.3 --depths 0um,5um -o x.rcg out.rcg
+claim "a 0 before a number that ends with 0 causes none" silent rc-stress --nu 0.3 --depths 0,10um -o x.rcg out.rcg
+claim "a 0 before two numbers causes none" silent rc-stress --nu 0.3 --depths 0,5um,15um -o x.rcg out.rcg
 claim "a range causes none" silent $press --load 1:5:2 ball.rcg
 claim "a list replaced by a later one causes none" silent $press --load 1,5 --load 2 ball.rcg
+claim "a place of two coordinates causes none" silent rc-synth sphere --nx 17 --dx 5um --radius 7.5mm --place 0,5um -o x.rcg
 refuses 2 'with and without a unit .*; the decimal mark is a point' "with one unit it is not a list" \
     "$press --load 1,5N ball.rcg"

@@ -65,7 +65,7 @@ refuses 2 'ranges have 3 and 2 values' "ranges of two lengths" 'rc-slip --mu 0.3
 rc-slip --mu 0.3 --creep 0.1% --steady --quiet --report alone.tsv -o x.rcg ball.rcg
 rc-slip --mu 0.3 --creep 1e-3,0,0 --steady --quiet --report three.tsv -o x.rcg ball.rcg
 claim "a creepage alone is that along x" [ "$(column tangential_x alone.tsv)" = "$(column tangential_x three.tsv)" ]
-claim "a decimal comma of a creepage has a warning" warns 'creep 0,1%: no creepage along x and 1% along y: for one number write 0.1%$' rc-slip --mu 0.3 --creep 0,1% --steady -o x.rcg ball.rcg
+claim "a decimal comma of a creepage has a warning" warns 'creep 0,1%: two values, 0 % and 1 %: for one number write 0\.1%, for two 0%,1%$' rc-slip --mu 0.3 --creep 0,1% --steady -o x.rcg ball.rcg
 refuses 2 'must be a creepage along x, or two' "four creepages" 'rc-slip --mu 0.3 --creep 1e-3,0,0,1 --steady -o x.rcg ball.rcg'
 refuses 2 'a range is for --steady' "a range on a path" 'rc-slip --mu 0.3 --creep 0:1e-3:3,0 -o x.rcg ball.rcg'
 refuses 2 "unknown unit 'permille': a plain number or a percentage" "a wrong unit" 'rc-slip --mu 0.3 --creep 1permille,0 --steady -o x.rcg ball.rcg'

@@ -610,22 +610,37 @@ bad_option(struct tool *t, int what, char **argv, const struct option *table)
     tool_usage(t, "unknown option %s: see %s --help", letter, t->info->name);
 }
 
-/* "--load 1,5" gives two loads; the user may have meant one and a half. */
+/* True if the option takes one number as well as several. */
+static bool
+may_be_one_number(const struct opt *o)
+{
+    return (o->type == OPT_NUMBERS || o->type == OPT_TEXT) && o->arg != NULL && !o->whole &&
+           (strstr(o->arg, "LIST") != NULL || strstr(o->arg, "[,") != NULL);
+}
+
+/* "--load 1,5" and "--load 0,5N" give two loads; the user may have meant one, 1.5 or 0.5 N. */
 static void
 warn_of_commas(struct tool *t)
 {
     for (size_t k = 0; k < t->option.n; k++) {
         const struct opt *o = &t->option.row[k];
-        const char *unit = unit_name(o->unit), *blank = *unit == '\0' ? "" : " ";
-        const char *text = t->option.text[k], *comma;
-        const struct numbers *list;
-        if (o->type != OPT_NUMBERS || text == NULL || o->whole || !unit_decimal_comma(text))
+        const char *text = t->option.text[k], *comma, *digits, *unit, *blank;
+        int first, second;
+        if (text == NULL || !may_be_one_number(o) || !unit_decimal_comma(text))
             continue;
-        list = tool_value(t, o);
         comma = strchr(text, ',');
-        tool_warn(t, "--%s %s: two values, %g%s%s and %g%s%s: for one number write %.*s.%s",
-                  o->name, text, list->v[0], blank, unit, list->v[1], blank, unit,
-                  (int)(comma - text), text, comma + 1);
+        first = (int)(comma++ - text);
+        digits = comma + strspn(comma, "0");
+        second = (int)strspn(digits, "0123456789");
+        unit = digits[second] != '\0' ? digits + second + strspn(digits + second, " ")
+                                      : unit_name(o->unit);
+        blank = *unit == '\0' ? "" : " ";
+        tool_warn(t,
+                  "--%s %s: two values, %g%s%s and %g%s%s: for one number write %.*s.%s, for two "
+                  "%.*s%s,%.*s%s",
+                  o->name, text, strtod(text, NULL), blank, unit, strtod(comma, NULL), blank, unit,
+                  first, text, comma, first, text, *unit == '\0' ? ".0" : unit, second, digits,
+                  unit);
     }
 }
 

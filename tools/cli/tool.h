@@ -92,7 +92,7 @@ struct opt {
                                        are completions, and other texts are allowed */
     const char *const *list;        /* the same words as a list, which ends with NULL */
     const char *word; /* a word in place of OPT_NUMBERS; for OPT_NUMBER it means INFINITY */
-    bool whole;       /* OPT_NUMBERS: whole numbers, whose commas cannot be decimal marks */
+    bool whole;       /* a list of whole numbers, whose commas cannot be decimal marks    */
     bool per_metre;   /* OPT_NUMBERS of forces that may be in N/m             */
     const char *arg;  /* the name of the argument in --help: "FORCE"; NULL: no argument */
     const char *help; /* one line; %s is replaced by the words                */

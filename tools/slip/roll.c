@@ -2,7 +2,6 @@
 /* Rolling under the pressure of the stream: its options, its model, and its plan. */
 #include "slip.h"
 
-#include <ctype.h>
 #include <math.h>
 #include <string.h>
 
@@ -82,10 +81,6 @@ read_creep(struct tool *t, const struct slip_args *a)
     }
     if (components == 1)
         read_component(t, 1, "0", 1);
-    if (components == 2 && strncmp(a->creep, "0,", 2) == 0 && isdigit((unsigned char)a->creep[2]) &&
-        strchr(a->creep, '.') == NULL && strchr(a->creep, '%') != NULL)
-        tool_warn(t, "--creep %s: no creepage along x and %s along y: for one number write 0.%s",
-                  a->creep, a->creep + 2, a->creep + 2);
     if (own.cases > 1 && !a->steady)
         tool_usage(t,
                    "--creep %s: a range is for --steady, where each value is a case of its own; "

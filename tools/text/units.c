@@ -619,19 +619,34 @@ unit_forces(const char *text, struct numbers *list, struct rc_err *err)
     return read_numbers(text, (struct list_state){.unit = UNIT_N, .forces = true}, list, err);
 }
 
+/* "0,5", "0,05m" and "0,1%". In "0,10um" and "0,100" the list is as likely: a decimal rarely ends with 0. */
+static bool
+fraction(const char *digits, size_t n)
+{
+    const char *unit = digits + n;
+
+    if (strtod(digits, NULL) == 0 || (digits[n - 1] == '0' && digits[0] != '0'))
+        return false;
+    return strpbrk(unit, ".,:") == NULL &&
+           !((*unit == 'e' || *unit == 'E') && strchr("+-0123456789", unit[1]) != NULL);
+}
+
 bool
 unit_decimal_comma(const char *text)
 {
-    const char *digits = "0123456789", *s = text + (*text == '-' || *text == '+');
+    const char *digits = "0123456789", *s = text + (*text == '-' || *text == '+'), *end;
     size_t whole = strspn(s, digits), part;
     double a, b;
 
     if (whole == 0 || s[whole] != ',')
         return false;
     part = strspn(s + whole + 1, digits);
-    if (part == 0 || s[whole + 1 + part] != '\0')
+    if (part == 0)
         return false;
-    if (part > 3 && strcmp(s + whole + 1 + part - 3, "000") == 0)
+    if (whole == 1 && *s == '0')
+        return fraction(s + whole + 1, part);
+    end = s + whole + 1 + part;
+    if (*end != '\0' || (part > 3 && strcmp(end - 3, "000") == 0))
         return false; /* a list of large numbers, not digits after a comma */
     a = strtod(s, NULL);
     b = strtod(s + whole + 1, NULL);

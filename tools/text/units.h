@@ -80,7 +80,7 @@ enum rc_status unit_whole_numbers(const char *text, struct numbers *list, struct
 /* The same as unit_numbers for forces, which may all be forces per length, in N/m. */
 enum rc_status unit_forces(const char *text, struct numbers *list, struct rc_err *err);
 /* True if a list looks like one number with a decimal comma: two whole numbers without a unit, neither of
- * them ten times the other. */
+ * them ten times the other, or a 0 without a unit and a whole number that does not end with 0 (0,5m). */
 bool unit_decimal_comma(const char *text);
 /* Reads "K1,K2" in W/(m K) or S/m, both above 0. *conductance: the unit of the conductance, "W/K" or "S";
  * NULL: neither number has a unit. */
