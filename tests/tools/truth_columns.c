@@ -87,6 +87,18 @@ same(void **state)
         "t/us\tstorage/MPa\tloss/MPa\n1000,000000\t3,000\t0,500\n2000,000000\t4,500\t0\n",
         "t/ms\tstorage/MPa\tloss/MPa\n1,000\t3,000\t0,5\n2,000\t4,500\t0\n",
         "t/ms\tstorage/MPa\n1,000\t3,000\n2,000\t4,5\n",
+        /* a unit may be blank, in any column and of any separator */
+        "time,storage,loss,strain\nms,MPa,MPa,\n1,3,0.5,1\n2,4.5,0,2\n",
+        "strain;time;storage;loss\n;ms;MPa;MPa\n1;1;3;0,5\n2;2;4,5;0\n",
+        "time\tstrain\tstorage\nms\t\tMPa\n1\t1\t3\n2\t2\t4.5\n",
+        "strain\ttime\tstorage\n\tms\tMPa\n1\t1\t3\n2\t2\t4.5\n",
+        "time\tstorage\tstrain\nms\tMPa\t\n1\t3\t1\n2\t4.5\t2\n",
+        "# time,storage,strain\n# ms,MPa,\n1,3,1\n2,4.5,2\n",
+        /* separators between quotes: decimal commas, and blanks of names */
+        "time/ms,storage/MPa,loss/MPa\n\"1\",\"3,0\",\"0,5\"\n\"2\", \"4,5\" ,\"0\"\n",
+        "\"t/ms\",\"storage/MPa\",\"loss/"
+        "MPa\"\n\"1,000\",\"3,000\",\"0,5\"\n\"2,000\",\"4,500\",0\n",
+        "\"Time\" \"Storage modulus\"\n\"ms\" \"MPa\"\n\"1\" 3\n2 \"4.5\"\n",
     };
     (void)state;
 
@@ -130,13 +142,24 @@ refused(void **state)
         {"time stroage\n1 2\n",
          "line 1: there is no column 'stroage': the columns are time, storage, "
          "loss, strain, tandelta: did you mean storage?"},
-        {"time storage temperature\n1 2 3\n", "there is no column 'temperature'"},
+        {"time storage temperature\n1 2 3\n",
+         "there is no column 'temperature': the columns are time, storage, loss, strain, tandelta: "
+         "remove it from the table"},
         {"time storage t\n1 2 3\n", "line 1: there are two columns time"},
         {"time loss\n1 2\n", "line 1: there is no column storage: a table must hold"},
         {"time/m storage/MPa\n1 2\n", "line 1: time: unknown unit 'm'"},
         {"time/s storage/MPq\n1 2\n", "line 1: storage: unknown unit 'MPq'"},
         {"time storage\ns MPq\n1 2\n", "line 2: storage: unknown unit 'MPq'"},
-        {"time storage loss\ns MPa\n1 2 3\n", "line 2: it has 2 values"},
+        {"time storage loss\ns MPa\n1 2 3\n",
+         "line 2: it has 2 units, and the table 3 columns: write - for no unit"},
+        {"time;storage;loss\ns;MPa\n1;2;3\n", "line 2: it has 2 units, and the table 3 columns"},
+        {"time;storage\ns;MPa;MPa\n1;2;3\n", "line 2: it has 3 units, and the table 2 columns"},
+        {"time;storage\ns;\n1;2\n", "line 3: storage: give its unit"},
+        {"time/s,storage/MPa\n\"1,234\",2\n",
+         "line 2: time: '1,234': is its comma the decimal mark"},
+        {"time/s,storage/MPa\n# \"0,5\"\n1,\"1,234\"\n", "line 3: storage: '1,234': is its comma"},
+        {"time/s,storage/MPa\n1,\"1,5\n", "line 2: it has 3 values"},
+        {"time/s,storage/MPa\n\"\",\"1,5\"\n", "line 2: time: '' is not a number"},
         {"time/s storage/MPa\ns MPa\n1 2\n", "line 2: time: 's' is not a number"},
         {"# time/s storage/MPq\n1 2\n", "line 1: storage: unknown unit 'MPq'"},
         {"time/s strain/Pa storage/Pa\n1 2 3\n", "line 1: strain: "},

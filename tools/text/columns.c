@@ -36,7 +36,7 @@ struct reading {
     char unit[COLUMNS_MOST][CELL];
     unsigned present; /* bits of the wanted columns in the heading */
     bool must_be_headed;
-    bool decimal_comma;             /* a number between tabs shows that commas are decimal marks */
+    bool decimal_comma;             /* a number shows that commas are decimal marks */
     bool headed, in_comment, units; /* there is a heading; in a comment; it has units */
 };
 
@@ -54,6 +54,21 @@ trimmed(struct cell c)
     return c;
 }
 
+/* The length of the first cell of a line. Between quotes a separator is part of the cell. */
+static size_t
+length_of_cell(const char *line, char separator)
+{
+    const char *open = line + strspn(line, " ");
+    const char *close = *open == '"' ? strchr(open + 1, '"') : NULL;
+
+    if (close != NULL) {
+        close += 1 + (separator == ' ' ? 0 : strspn(close + 1, " "));
+        if (*close == separator || *close == '\0')
+            return (size_t)(close - line);
+    }
+    return strcspn(line, (char[]){separator, '\0'});
+}
+
 /* The cells of a line, at most one more than a table may have. Tabs and blanks may be repeated, and a last
  * semicolon or comma ends the line. */
 static size_t
@@ -63,11 +78,11 @@ split(struct reading *r, const char *line, struct cell cell[COLUMNS_MOST + 1])
     const char *s = separators, *end = line + strlen(line);
     size_t n = 0;
 
-    while (s[1] != '\0' && strchr(line, *s) == NULL)
+    while (s[1] != '\0' && line[length_of_cell(line, *s)] != *s)
         s++;
     r->separator = *s;
     while (line < end && n <= COLUMNS_MOST) {
-        const size_t length = strcspn(line, (char[]){*s, '\0'});
+        const size_t length = length_of_cell(line, *s);
         const struct cell c = trimmed((struct cell){line, length});
 
         line += length + 1;
@@ -77,6 +92,25 @@ split(struct reading *r, const char *line, struct cell cell[COLUMNS_MOST + 1])
     while (n > 0 && cell[n - 1].n == 0)
         n--;
     return n;
+}
+
+/* The same cells with all that are empty, between tabs too. True: there is one for each column. */
+static bool
+split_with_empty(const struct reading *r, const char *line, struct cell cell[COLUMNS_MOST + 1])
+{
+    for (size_t n = 0; r->separator != ' '; n++) {
+        const size_t length = length_of_cell(line, r->separator);
+        const struct cell c = trimmed((struct cell){line, length});
+
+        if (n == r->n && c.n > 0)
+            return false;
+        if (n < r->n)
+            cell[n] = c;
+        if (line[length] == '\0')
+            return n + 1 >= r->n;
+        line += length + 1;
+    }
+    return false;
 }
 
 /* False: it is too long; text then has its begin, without a cut character. */
@@ -217,6 +251,7 @@ static enum rc_status
 unknown(const struct reading *r, const char *name, struct rc_err *err)
 {
     struct name_list list = {.asked = name};
+    const char *names;
     char known[CELL];
 
     for (size_t k = 0; k < r->kinds; k++) {
@@ -225,8 +260,9 @@ unknown(const struct reading *r, const char *name, struct rc_err *err)
         copy(first_name(&r->wanted[k]), known);
         name_list_add(&list, known);
     }
-    return rc_err_set(err, "there is no column '%s': the columns are %s", name,
-                      name_list_end(&list));
+    names = name_list_end(&list);
+    return rc_err_set(err, "there is no column '%s': the columns are %s%s", name, names,
+                      strchr(names, '?') != NULL ? "" : ": remove it from the table");
 }
 
 /* "depth, bending, torsion[, yield]" */
@@ -271,14 +307,31 @@ must_be_decimal(const char *text)
     return whole > 0 && part > 0 && strpbrk(s + whole + 1, ",.") == NULL && !may_be_thousands(text);
 }
 
-/* True if a number between tabs shows that the commas of the file are decimal marks. */
+/* True if the text is a number in quotes whose comma can only be the decimal mark. */
+static bool
+quoted_decimal(const char *text)
+{
+    const size_t n = *text == '"' ? strcspn(text + 1, "\"\r\n") : 0;
+    char number[CELL];
+
+    return n > 0 && text[1 + n] == '"' && copy((struct cell){text + 1, n}, number) &&
+           must_be_decimal(number);
+}
+
+/* True if a number between tabs or in quotes shows that the commas of the file are decimal marks. */
 static bool
 has_decimal_comma(const char *file)
 {
     const char *ends = "\t\r\n#";
+    bool comment = false;
     bool after_tab = false;
     char text[CELL];
 
+    for (const char *s = file; *s != '\0'; s++) {
+        comment = *s != '\n' && (comment || *s == '#');
+        if (!comment && quoted_decimal(s))
+            return true;
+    }
     for (const char *s = file; *s != '\0';) {
         const size_t n = strcspn(s, ends);
         if ((after_tab || s[n] == '\t') && copy(trimmed((struct cell){s, n}), text) &&
@@ -308,7 +361,7 @@ read_value(const struct reading *r, size_t c, struct cell cell, double *value, s
         *value = INFINITY;
         return RC_OK;
     }
-    if ((comma = strchr(text, ',')) != NULL && r->separator == '\t' && may_be_thousands(text) &&
+    if ((comma = strchr(text, ',')) != NULL && r->separator != ';' && may_be_thousands(text) &&
         (!r->decimal_comma || strchr(comma + 1, ',') != NULL))
         return rc_err_set(err,
                           "%.*s: '%s': is its comma the decimal mark? separate columns by "
@@ -436,7 +489,7 @@ read_row(struct reading *r, size_t n, const struct cell cell[], struct rc_err *e
 
 /* A comment may be the heading, or the units below it, as programs write them. */
 static enum rc_status
-read_comment(struct reading *r, size_t n, struct cell cell[], struct rc_err *err)
+read_comment(struct reading *r, const char *line, size_t n, struct cell cell[], struct rc_err *err)
 {
     struct cell word[COLUMNS_MOST + 1];
     struct rc_err why;
@@ -450,7 +503,8 @@ read_comment(struct reading *r, size_t n, struct cell cell[], struct rc_err *err
         r->in_comment = true;
         return read_heading(r, joined, word, err);
     }
-    if (r->in_comment && !r->units && n == r->n && take_units(r, cell, &why) != RC_OK) {
+    if (r->in_comment && !r->units && (n == r->n || split_with_empty(r, line, cell)) &&
+        take_units(r, cell, &why) != RC_OK) {
         memset(r->unit, 0, sizeof r->unit);
         r->units = false;
     }
@@ -495,14 +549,18 @@ read_line(struct reading *r, char *line, struct rc_err *err)
     if (n > COLUMNS_MOST)
         return rc_err_set(err, "it has more than %d columns", COLUMNS_MOST);
     if (comment)
-        return read_comment(r, n, cell, err);
+        return read_comment(r, start, n, cell, err);
     memcpy(word, cell, sizeof word);
     if (kind == WORDS && (!r->headed || (r->in_comment && find_part(r, word[0]) < r->kinds))) {
         r->in_comment = false;
         return read_heading(r, join(r, n, word), word, err);
     }
-    if (kind != NUMBERS && r->headed && !r->units && n == r->n)
-        return take_units(r, cell, err);
+    if (kind != NUMBERS && r->headed && !r->units) {
+        if (n == r->n || split_with_empty(r, line, cell))
+            return take_units(r, cell, err);
+        return rc_err_set(err, "it has %zu unit%s, and the table %zu columns: write - for no unit",
+                          n, n == 1 ? "" : "s", r->n);
+    }
     if (!r->headed && r->must_be_headed)
         return rc_err_set(err, "it must be a heading with the names of the columns");
     return r->n == 0 && take_order(r, n, err) != RC_OK ? RC_FAIL : read_row(r, n, cell, err);
