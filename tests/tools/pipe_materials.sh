@@ -63,6 +63,10 @@ claim "rc-slip: both bodies" says '"body_materials": "E1 70.3GPa' rc-slip --mu 0
 rc-scene --load 0.5N --body1 100Cr6 --body2 6061-T6 --mu 0.1 --speed 1m/s --report scene.json ball.rcg >/dev/null 2>&1
 claim "rc-scene: the softer body's hardness, and heat of both" bash -c \
     'grep -q "hardness 107HV (6061-T6)" scene.json && grep -q "conductivity 46.6W/mK,167W/mK (both bodies)" scene.json'
+claim "  its Vickers number, which the line does not have, needs no message" bash -c \
+    'rc-scene --load 0.5N --body1 100Cr6 --body2 6061-T6 ball.rcg 2>hv.err >/dev/null && ! grep "HV is" hv.err'
+claim "  that of the line has one" bash -c \
+    'rc-scene --load 0.5N --body1 100Cr6 --body2 6061-T6 --hardness 107HV ball.rcg 2>&1 >/dev/null | grep -q -- "--hardness 107HV is"'
 
 claim "  a material without a conductivity: the heat is missing, with its options" says \
     'frictional heat \(--mu --speed --conductivity --diffusivity\)' rc-scene --quiet --load 0.5N --body1 cast-iron --body2 steel ball.rcg

@@ -73,6 +73,8 @@ near "$(volume rc-wear --archard 4e-6 --hardness 600HV --distance 1m)" "$(awk 'B
     "  with H of a Vickers number, K P s/(HV 9.80665 MPa)"
 claim "  which a warning says" warns '600HV is 5.88399 GPa: H of Archard' \
     rc-wear --archard 4e-6 --hardness 600HV --distance 1m --dry-run pressed.rcg
+near "$(volume rc-wear --archard 4e-6 --hardness 600HV --hardness 6GPa --distance 1m)" "$(volume rc-wear --archard 4e-6 --hardness 6GPa --distance 1m)" 0 \
+    "  a later --hardness in Pa is taken as it is"
 near "$(volume rc-wear --energy 1e-5mm3/J --mu 0.2 --distance 1m)" 2e-18 1e-12 "by energy"
 claim "a worn surface wears on" bash -c "
     $wear --distance 1m -o part.rcg pressed.rcg && $wear --distance 9m --report rest.tsv -o rest.rcg part.rcg &&

@@ -324,8 +324,8 @@ number(struct tool *t, const struct opt *o, const char *text)
                          "the names"
                        : "");
     check_bounds(t, o, value, false);
-    if (o->unit == UNIT_HARD && unit_vickers(text))
-        t->vickers = text;
+    if (o->unit == UNIT_HARD)
+        t->vickers = unit_vickers(text) ? text : NULL;
     return value;
 }
 
@@ -749,9 +749,12 @@ tool_given(const struct tool *t, const char *name)
 void
 tool_set_option(struct tool *t, const char *name, const char *text)
 {
+    const char *vickers = t->vickers; /* only what the line gives needs a message */
+
     for (size_t k = 0; k < t->option.n; k++)
         if (strcmp(t->option.row[k].name, name) == 0) {
             t->option.given[k] = true;
             set_row(t, k, text);
         }
+    t->vickers = vickers;
 }

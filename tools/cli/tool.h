@@ -185,7 +185,7 @@ struct tool {
     const char *progress;    /* NULL: where a person watches; "", line, json: always            */
     const char *out_name;    /* NULL: standard output                                         */
     const char *materials;   /* what --body1 and --body2 set, for the report; or NULL         */
-    const char *vickers;     /* a hardness as a Vickers number, as it was written; or NULL    */
+    const char *vickers;     /* a Vickers number of the line, as it was written; or NULL      */
     enum tool_writes writes; /* info->writes, or text if an option selects it                 */
     char **operand;
     size_t operands;
