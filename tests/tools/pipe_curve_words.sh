@@ -189,7 +189,7 @@ claim "refused commands leave no picture" bash -c '[ ! -e out.svg ] && [ -z "$(l
 
 printf 'sa/m\tsq/m\tlimit/N\tstick_fraction\n1\t2\t3\t4\n2\t3\t4\t5\n' >figures.tsv
 claim "parameters of a surface have the names of their standard" eval 'rc-render --curve sa:sq -o t.svg figures.tsv && shows t.svg ">Sq against Sa<"'
-claim "  moments and energies of rolling have a unit with a prefix" eval 'printf "creep_x\tmoment/N m\tpower/J/m\n0\t1e-6\t2e-3\n1\t5e-6\t4e-3\n" >rolls.tsv && rc-render --curve creep_x:moment -o t.svg rolls.tsv && shows t.svg "\(µN m\)<" &&
+claim "  moments and energies of rolling have a unit with a prefix" eval 'printf "creep_x\tmoment/Nm\tpower/J/m\n0\t1e-6\t2e-3\n1\t5e-6\t4e-3\n" >rolls.tsv && rc-render --curve creep_x:moment -o t.svg rolls.tsv && shows t.svg "\(µNm\)<" &&
     rc-render --curve creep_x:power -o t.svg rolls.tsv && shows t.svg "\(mJ/m\)<"'
 claim "  figures of friction have their titles" eval 'rc-render --curve limit:stick_fraction -o t.svg figures.tsv &&
     shows t.svg ">Part of the contact that sticks against largest tangential force<"'

@@ -24,6 +24,7 @@ recorded() {
 report() {
     claim "$1 writes a table and lines of JSON" bash -c "r=table.tsv; $2 && r=lines.json && $2"
     head -n 1 table.tsv | lines >table.txt
+    claim "  no column has a blank in its name or unit" test -z "$(head -n 1 table.tsv | grep ' ')"
     keys lines.json | lines >keys.txt
     claim "  the table has the listed columns" diff <(recorded "$1: table") table.txt
     claim "  the lines have the listed keys" diff <(recorded "$1: keys") keys.txt

@@ -34,6 +34,10 @@ near "$(field max_pressure names.json)" "$(awk 'BEGIN { pi = atan2(0, -1)
     "  the largest pressure is that of Hertz"
 claim "  the report says where they come from" grep -q \
     '"body_materials": "E1 211.9GPa (steel); nu1 0.291 (steel); E2 370GPa (Al2O3); nu2 0.22 (Al2O3)"' names.json
+rc-solve --load 0.5N --body1 steel --body2 Al2O3 --quiet --report names.tsv -o names.rcg ball.rcg
+claim "  in a table they have no blank" awk -F '\t' 'NR == 1 { for (k = 1; k <= NF; k++) if ($k == "body_materials") c = k }
+    NR == 2 { ok = c && $c == "E1_211.9GPa_(steel);_nu1_0.291_(steel);_E2_370GPa_(Al2O3);_nu2_0.22_(Al2O3)" && split($0, blank, " ") == NF }
+    END { exit !ok }' names.tsv
 claim "  without names it says nothing" bash -c '! grep -q body_materials typed.json'
 claim "  the history has both" says 'rc-solve .*--E1 211900000000 .*--body1 steel --body2 Al2O3' rc-info names.rcg
 alone rigid --body1 Copper --body2 rigid

@@ -9,6 +9,7 @@
 #include <strings.h>
 
 #include "formats/core/core.h"
+#include "libcontact/owned.h"
 #include "tools/machine/machine.h"
 #include "ranks.h"
 
@@ -479,13 +480,26 @@ report_value(struct report *r, const char *name, double value)
     report_number(r, name, value, f->unit);
 }
 
+/* In a table without blanks, for programs that split lines there. */
+static void
+put_materials(struct report *r)
+{
+    const size_t size = strlen(r->tool->materials) + 1;
+    RC_OWNED char *text = tool_room(r->tool, size, 1, "the values of materials");
+
+    memcpy(text, r->tool->materials, size);
+    for (char *s = text; r->separator && *s != '\0'; s++)
+        *s = *s == ' ' ? '_' : *s;
+    report_text(r, "body_materials", text);
+}
+
 void
 report_map(struct report *r, const struct rc_grid *g, size_t number)
 {
     report_count(r, "case", number, NULL);
     report_text(r, "source", rc_grid_get(g, "source"));
     if (r->tool->materials != NULL)
-        report_text(r, "body_materials", r->tool->materials);
+        put_materials(r);
     report_count(r, "nx", g->nx, NULL);
     report_count(r, "ny", g->ny, NULL);
     report_number(r, "dx", g->dx, "m");

@@ -39,8 +39,8 @@ put_number(char text[TICKS_TEXT], const char *format, int digits, double value)
 static bool
 takes_prefix(const char *unit)
 {
-    static const char *const units[] = {"m",  "Pa", "N",   "J",   "W",    "s",    "V",   "A",
-                                        "Hz", "K",  "N/m", "m/s", "J/m2", "W/m2", "N m", "J/m"};
+    static const char *const units[] = {"m",  "Pa", "N",   "J",   "W",    "s",    "V",  "A",
+                                        "Hz", "K",  "N/m", "m/s", "J/m2", "W/m2", "Nm", "J/m"};
 
     for (size_t k = 0; k < sizeof units / sizeof *units; k++)
         if (strcmp(units[k], unit) == 0)
