@@ -28,6 +28,14 @@ column() { # NAME ROW FILE
 made 'time=2.5' 12 4 2e-6 1e-6 gap '$j < 3 ? 2e-6 : 1e-12' pressure '$j < 3 ? 0 : 8e7' >at-time.rcg
 rc-leak --quiet --report time.tsv at-time.rcg -o flow.rcg
 claim "the report has the time of the stream" test "$(column time 1 time.tsv)" = 2.5
+# lists of speeds and positions have one load
+for key in speed position; do
+    for value in 0.25 4; do
+        made "$key=$value" 12 4 2e-6 1e-6 gap '$j < 3 ? 2e-6 : 1e-12' pressure '$j < 3 ? 0 : 8e7' >"$key$value.rcg"
+    done
+    cat "${key}0.25.rcg" "${key}4.rcg" | rc-leak --quiet --report list.tsv -o flow.rcg
+    claim "  and its ${key}s, so that its rows are told apart" test "$(column $key 1 list.tsv) $(column $key 2 list.tsv) $(column time 2 list.tsv)" = '0.25 4 NaN'
+done
 
 # 12 columns have a gap of 2 um in 3 of 4 rows and a wall of contact in the fourth: 3 g^3 dy/(12 dx)
 made 'boundary=free
@@ -134,7 +142,7 @@ claim "    its legend has no entry for the cross" bash -c '! grep -q "narrowest 
 claim "rc-render draws the fluid pressure" rc-render --case 2 --channel fluid-pressure leak.rcg -o pressure.svg
 claim "  the legend explains nodes without a value" says 'contact, or enclosed fluid \([0-9]+ of' legend pressure.svg
 claim "rc-render draws the leakage against the load" rc-render --curve mean_pressure:flow_conductance --log y -o curve.svg loads.tsv
-claim "  a note counts the loads without flow" says "1 load sealed \(no flow\)" legend curve.svg
+claim "  a note counts the cases without flow" says "1 case sealed \(no flow\)" legend curve.svg
 claim "  the axis has the unit of a volume flow" says 'Flow conductance \(m 3 *\)' legend curve.svg
 claim "channels are drawn in three colours, without a colour bar" rc-render --case 3 --channel channel leak.rcg -o channel.svg
 claim "  the legend names the colours" says 'Flow channels .*contact stagnant fluid flowing fluid' legend channel.svg

@@ -113,14 +113,14 @@ printf 'mean_pressure/Pa\tflow_rate/m3/s\n1\t1e-9\n2\t1e-12\n3\t0\n4\t0\n' >seal
 claim "a sealed load has a mark at the bottom of a leak curve" rc-render --width 85mm --log y --curve mean_pressure:flow_rate -o seal.svg seal.tsv
 claim "  each sealed load has a mark, and the legend has one" test "$(grep -o "<path d=\"[^\"]*Z\"" seal.svg | wc -l)" = 3
 claim "  the axis includes these loads" shows seal.svg 'text-anchor="middle" fill="#222222">4(\.0)?<'
-claim "  the legend calls them sealed" shows seal.svg '>2 loads sealed \(no flow\)<'
+claim "  the legend calls them sealed" shows seal.svg '>2 cases sealed \(no flow\)<'
 claim "  the power of the unit is raised" shows seal.svg 'm<tspan dy="-[0-9.]*" font-size="[0-9.]*">3</tspan><tspan dy="[0-9.]*">/s|m</tspan><tspan [^>]*>3</tspan>'
 claim "  the axis has a power of ten if its marks have none" eval 'printf "load/N\tflow_rate/m3/s\n1\t1e-12\n2\t2e-13\n" | rc-render --log --curve load:flow_rate -o z.svg && ! shows z.svg ">0\\.000" && shows z.svg ">Flow rate \\(10<"'
 claim "other columns have normal points there" eval 'sed s/flow_rate/y/ seal.tsv | rc-render --log --curve mean_pressure:y -o z.svg && shows z.svg ">2 points at or below 0<"'
 claim "a note that is too long continues on the next line" eval 'sed "1s/x/pressure_over_the_whole_map/" few.tsv | rc-render --curve pressure_over_the_whole_map:y --spread --width 85mm -o n.svg && ! grep -q "…</text>" n.svg && shows n.svg "standard deviation</text>"'
 printf 'time/s\tload/N\tmean_pressure/Pa\tflow_rate/m3/s\n0\t5\t1\t1e-9\n1\t5\t1.1\t1e-12\n2\t5\t1.2\t0\n3\t5\t1.3\t0\n' >relaxes.tsv
-claim "  in a report of times the times are sealed" eval 'rc-render --log y --curve time:flow_rate -o seal.svg relaxes.tsv && shows seal.svg ">2 times sealed \(no flow\)<"'
-claim "    whatever x is" eval 'rc-render --log y --curve mean_pressure:flow_rate -o seal.svg relaxes.tsv && shows seal.svg ">2 times sealed \(no flow\)<"'
+claim "  in a report of times too" eval 'rc-render --log y --curve time:flow_rate -o seal.svg relaxes.tsv && shows seal.svg ">2 cases sealed \(no flow\)<"'
+claim "    whatever x is" eval 'rc-render --log y --curve mean_pressure:flow_rate -o seal.svg relaxes.tsv && shows seal.svg ">2 cases sealed \(no flow\)<"'
 
 # ---- units of logarithmic axes, equal entries of a legend ----
 

@@ -45,6 +45,15 @@ leak_effects(const struct leak_case *c)
     return list;
 }
 
+/* A number of the stream, which distinguishes its cases; NAN: it has none. */
+static double
+key_of(const struct rc_grid *g, const char *key)
+{
+    double value;
+
+    return rc_grid_number(g, key, &value) ? value : NAN;
+}
+
 void
 leak_report(struct report *r, const struct leak_case *c)
 {
@@ -52,7 +61,6 @@ leak_report(struct report *r, const struct leak_case *c)
     const struct figures from[] = {{rc_figures("leak"), f}, {NULL, NULL}};
     const struct rc_grid *g = c->gap;
     const char direction[2] = {c->direction, '\0'};
-    double load, time;
 
     report_begin(r);
     report_map(r, g, rc_grid_case(g));
@@ -60,8 +68,8 @@ leak_report(struct report *r, const struct leak_case *c)
     report_text(r, "direction", direction);
     report_text(r, "sides", c->around ? "periodic" : "closed");
     report_count(r, "threads", r->tool->threads, NULL);
-    report_value(r, "time", rc_grid_number(g, "time", &time) ? time : NAN);
-    report_value(r, "load", rc_grid_number(g, "load", &load) ? load : NAN);
+    report_value(r, "time", key_of(g, "time"));
+    report_value(r, "load", key_of(g, "load"));
     report_value(r, "mean_pressure", c->mean);
     report_value(r, "contact_fraction", c->contact);
     report_number(r, "viscosity", c->viscosity, "Pas");
@@ -84,6 +92,8 @@ leak_report(struct report *r, const struct leak_case *c)
         r, (const struct report_phase[]){{"setup", c->setup}, {"solve", c->solve}, {NULL, 0}},
         c->setup + c->solve);
     report_memory(r);
+    report_value(r, "speed", key_of(g, "speed"));
+    report_value(r, "position", key_of(g, "position"));
     report_finish_row(r);
 }
 

@@ -653,7 +653,7 @@ set_legend(struct page *p)
 
     for (size_t k = 0; k < g->n; k++)
         legend_add(p, 1 + k, is_repeated(g, k) ? NULL : g->series[k].name);
-    snprintf(text, sizeof text, "%zu %s%s %s", notes->sunk, g->zero == NULL ? "point" : g->row,
+    snprintf(text, sizeof text, "%zu %s%s %s", notes->sunk, g->zero == NULL ? "point" : "case",
              notes->sunk == 1 ? "" : "s", g->zero == NULL ? "at or below 0" : g->zero);
     legend_add(p, 1 + g->n + SUNK, notes->sunk > 0 ? text : NULL);
     legend_add(p, 1 + g->n + HOLLOW, g->hollow);

@@ -56,7 +56,6 @@ struct graph {
     const double *upright; /* SI: a dashed line across the plot at each of these x */
     size_t uprights;
     const char *zero;           /* the meaning of y = 0: "sealed (no flow)"; NULL: none */
-    const char *row;            /* of the points that have it: "load"                    */
     const char *note;           /* a line under the legend; NULL: none */
     const char *hollow, *front; /* name of these points in the legend; NULL: there are none */
     double floor;               /* y below this is only rounding; 0: no limit   */

@@ -1045,7 +1045,6 @@ draw(struct curves *c, struct drawn *drawn)
               c->word, c->words},
         .y = {c->axis, unit_of(c->table, 1), false, NAN, NAN},
         .zero = flow ? "sealed (no flow)" : NULL,
-        .row = has_times(c) ? "time" : "load",
         .n = c->means.n,
         .note = *c->note == '\0' ? NULL : c->note,
     };
