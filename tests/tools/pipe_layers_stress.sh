@@ -13,7 +13,7 @@ p0=2205240000 # Hertz
 # coat STREAM LAYERS: writes the pressure of the stream with another body
 coat() { rc-pick --set "layers=$2" "$1"; }
 number() { grep -o "\"$1\": {[^{]*" "$3" | grep -o "\"$2\": [^,]*" | head -n 1 | cut -d' ' -f2; }
-least() { grep -o '"least": {.*' "$3" >least.json && number "$1" "$2" least.json; }
+least() { grep -o '"min": {.*' "$3" >least.json && number "$1" "$2" least.json; }
 list() { grep -o "\"$1\": \[[^]]*" "$2" | head -n 1 | sed 's/.*\[//'; }
 mean() { rc-info --json "$1" | grep -o '"mean": [^,]*' | cut -d' ' -f2; }
 

@@ -28,8 +28,8 @@ same_cells() {
                 if ($name eq "seconds" && ref $object->{seconds}) { # the total of the object
                     $cell > 0 && $object->{seconds}{total} > 0 or die "seconds: $cell\n";
                     next;
-                } elsif ($name =~ /^(max|min)_([a-z]+?)(_depth)?$/ && $object->{largest}) { # in the objects of the line
-                    my $there = $object->{$1 eq "max" ? "largest" : "least"}{$2}{$3 ? "depth" : "value"};
+                } elsif ($name =~ /^(max|min)_([a-z]+?)(_depth)?$/ && $object->{max}) { # in the objects of the line
+                    my $there = $object->{$1}{$2}{$3 ? "depth" : "value"};
                     abs($cell - $there) <= 1e-14 * abs $there or die "$name: $cell, not $there\n";
                     next;
                 } elsif (!exists $object->{$name}) {

@@ -11,7 +11,7 @@ p0=2205240000 # Hertz
 
 frames() { rc-info "$1" | grep -c 'frame [0-9]* ('; }
 number() { grep -o "\"$1\": {[^[]*" "$3" | grep -o "\"$2\": [^,]*" | head -n 1 | cut -d' ' -f2; }
-least() { grep -o '"least": {.*' "$3" >least.json && number "$1" "$2" least.json; }
+least() { grep -o '"min": {.*' "$3" >least.json && number "$1" "$2" least.json; }
 count() { grep -o '"counts": {[^}]*' "$2" | grep -o "\"$1\": [0-9]*" | cut -d' ' -f2; }
 
 # ---- slices ----

@@ -84,7 +84,7 @@ frames ball.rcg ty.part >y.rcg
 frames ball.rcg <(traction ball.rcg traction-x 0.3) >x.rcg
 rc-stress --quiet --depths 30um --components syz --report y.json y.rcg -o syz.rcg
 rc-stress --quiet --depths 30um --components sxz --report x.json -o sxz.rcg x.rcg
-least() { grep -o '"least": {.*' "$1" | grep -o '"value": [^,]*' | head -n 1 | cut -d' ' -f2; }
+least() { grep -o '"min": {.*' "$1" | grep -o '"value": [^,]*' | head -n 1 | cut -d' ' -f2; }
 # the pressure is symmetric to the accuracy of its solution
 near "$(least y.json)" "$(least x.json)" 1e-6 "on a ball a traction along y makes the syz that one along x makes of sxz"
 frames x.rcg ty.part | sed 's/^RCGEND 2$/RCGEND 3/' >both.rcg

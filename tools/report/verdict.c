@@ -15,8 +15,8 @@ put_contact(struct page *run)
     FILE *out = run->page.file;
     const double bound = page_last_number(run, loads, "plastic_area"),
                  area = page_last_number(run, loads, "contact_area");
-    const double stress = json_real(json_member(run->stress, "largest.mises.value")),
-                 depth = json_real(json_member(run->stress, "largest.mises.depth"));
+    const double stress = json_real(json_member(run->stress, "max.mises.value")),
+                 depth = json_real(json_member(run->stress, "max.mises.depth"));
     const double fraction = page_last_number(run, loads, "contact_fraction");
 
     fputs("Under a load of ", out);

@@ -7,7 +7,7 @@
 
 /* ---- gathering ---- */
 
-static const char *const ends[] = {[STRESS_LARGEST] = "largest", [STRESS_LEAST] = "least"};
+static const char *const ends[] = {[STRESS_LARGEST] = "max", [STRESS_LEAST] = "min"};
 
 static bool
 begin_extreme(struct stress_extreme *x, size_t depths, size_t materials)
@@ -250,7 +250,6 @@ positive(int c)
 static void
 write_columns(const struct stress_report *r, struct report *out)
 {
-    static const char *const prefix[] = {[STRESS_LARGEST] = "max", [STRESS_LEAST] = "min"};
     static char names[RC_STRESSES][STRESS_ENDS][2][32]; /* the report keeps them */
 
     for (int c = 0; c < RC_STRESSES; c++)
@@ -259,9 +258,9 @@ write_columns(const struct stress_report *r, struct report *out)
             const struct stress_extreme *x = &r->extreme[e][c];
             if (x->by_depth == NULL || (e == STRESS_LEAST && positive(c)))
                 continue;
-            snprintf(name[0], sizeof *name, "%s_%s", prefix[e], rc_component_names[c]);
+            snprintf(name[0], sizeof *name, "%s_%s", ends[e], rc_component_names[c]);
             report_number(out, name[0], x->all.value, "Pa");
-            snprintf(name[1], sizeof *name, "%s_%s_depth", prefix[e], rc_component_names[c]);
+            snprintf(name[1], sizeof *name, "%s_%s_depth", ends[e], rc_component_names[c]);
             report_number(out, name[1], x->all.depth, "m");
         }
 }
