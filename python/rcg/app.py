@@ -34,8 +34,9 @@ from . import __version__, stream, tools
 UPLOAD_MAX = 2 << 30  # bytes of a file
 PAGES_MAX = 4         # open pages: each holds a connection, and browsers allow six
 TOGETHER = 2          # runs at the same time
-GRACE = 3             # seconds without a page, as while it reloads, after which its tools end
-IDLE = 600            # seconds without a page, after which the program ends
+GRACE = 3             # seconds without a page and its requests, as while it reloads, after which its tools end
+IDLE = 600            # seconds without them, after which the program ends
+LOOK = 0.5            # seconds from one look for pages to the next
 PAGE = os.path.join(os.path.dirname(os.path.abspath(__file__)), 'page')
 ASSETS = ('', 'page.css', 'page.js', 'map.js')
 HEADERS = {'Cache-Control': 'no-store', 'X-Content-Type-Options': 'nosniff', 'Referrer-Policy': 'no-referrer',
@@ -278,7 +279,7 @@ class Desk(http.server.ThreadingHTTPServer):
         self.room = threading.BoundedSemaphore(TOGETHER)
         self.token, self.opener = secrets.token_urlsafe(24), os.path.join(folder, 'open.html')
         self.ended, self.counting = threading.Event(), threading.Lock()
-        self.pages, self.left = 0, time.monotonic()
+        self.pages, self.away = 0, 0.0  # away: seconds without a page and its requests
         self.first = [path and self.add_file(path, path)['id'] for path in (sample(), file)]
 
     def address(self):
@@ -320,11 +321,21 @@ class Desk(http.server.ThreadingHTTPServer):
             child.terminate()
 
     def watch(self):
-        """Ends the tools when no page is open; False when none has been open for long."""
-        away = 0 if self.pages > 0 else time.monotonic() - self.left
-        if away > GRACE:
+        """A look for pages: ends the tools when no page is open; False when none has been open for long.
+
+        A look counts as LOOK seconds, however long it took: a machine that is too busy for this program, or
+        suspended, is so for the page too, which then needs longer to connect.
+        """
+        with self.counting:
+            self.away = 0 if self.pages > 0 else self.away + LOOK
+        if self.away > GRACE:
             self.end_tools()
-        return away < IDLE
+        return self.away < IDLE
+
+    def seen(self, pages=0):
+        """A page has sent a request, or this many more are open; a page sends some before its connection counts."""
+        with self.counting:
+            self.pages, self.away = self.pages + pages, 0
 
 
 # ---- requests ----
@@ -340,6 +351,7 @@ class Request(http.server.BaseHTTPRequestHandler):
         try:
             if not self.allowed():
                 raise Refused('open the address that rc-app printed: it holds the token of this session', 403)
+            self.server.seen()
             if verb == 'get_' and self.at in ASSETS:
                 with contextlib.suppress(FileNotFoundError):
                     os.remove(self.server.opener)  # it has led here
@@ -439,8 +451,7 @@ class Request(http.server.BaseHTTPRequestHandler):
                     self.wfile.write(b'data: %s\n\n' % state.encode())
                     said = state
         finally:
-            with desk.counting:
-                desk.pages, desk.left = desk.pages - 1, time.monotonic()
+            desk.seen(-1)
 
     def post_upload(self):
         desk, size = self.server, self.length(UPLOAD_MAX)
@@ -537,7 +548,7 @@ def serve(desk, opens):
     print(desk.address(), flush=True)
     if opens and (os.environ.get('DISPLAY') or os.environ.get('WAYLAND_DISPLAY')):
         desk.open_browser()
-    while not desk.ended.wait(0.5) and desk.watch():
+    while not desk.ended.wait(LOOK) and desk.watch():
         pass
     desk.ended.set()
     desk.shutdown()

@@ -129,4 +129,20 @@ address=$(cat address)
 claim "a file of the command line with the name of an output is not written to" check kept 1-pick.rcg before.rcg
 claim "  it ends" check quit
 wait "$APP"
+cat >busy.py <<'END'
+import tempfile, threading, types, urllib.request
+from rcg import app
+clock = iter(range(0, 10**6, 60))  # on a busy machine a minute passes between two looks
+app.time = types.SimpleNamespace(monotonic=lambda: next(clock))
+desk, ended = app.Desk(0, tempfile.gettempdir(), None), []
+threading.Thread(target=desk.serve_forever, daemon=True).start()
+desk.runs[1] = types.SimpleNamespace(cancel=lambda: ended.append(True))
+looks = [desk.watch() for _ in range(20)]  # the browser starts
+assert all(looks) and ended, (looks, ended)
+ended.clear()
+urllib.request.urlopen(desk.address() + 'page.css').close()  # the page starts a run and is not connected yet
+counts = [(desk.watch(), len(ended))[1] for _ in range(8)]
+assert counts == [0, 0, 0, 0, 0, 0, 1, 2], counts
+END
+claim "on a busy machine a run goes on until its page is connected, and ends 3 s after its last request" "$python" busy.py
 claim "without a page it ends by itself" timeout 20 "$python" -c 'import rcg.app; rcg.app.IDLE = 0.3; rcg.app.main(["--no-browser"])'
