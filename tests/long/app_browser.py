@@ -199,7 +199,7 @@ def compare(page):
     page.wait_for_selector('#numbers table')
     first = page.locator('#numbers > table th').all_text_contents()
     said = page.inner_text('#numbers .hint')
-    removed = re.match('The change is the second scan less first: below 0 material was removed. Removed on balance: ([0-9]+) µm³ ± ', said)
+    removed = re.match('The change is the second scan less first: below 0 material was removed. Removed on balance: ([0-9]+) µm³ ± [0-9.e−]+ µm³ ', said)
     ok('  the removed volume is that of the groove less that of the spike', removed and abs(float(removed[1]) - (1200 - 100)) < 1, said)
     picture(page, 'compare-numbers')
     ok('  the volume is among the first numbers', 'Volume of the change' in first and len(first) <= 10, ', '.join(first))
@@ -329,6 +329,45 @@ def effects(page):
     page.click('details:has(> summary code:text("rc-wear")) > button:text-is("Remove")')
 
 
+def headlines(page):
+    """Numbers begins with the figures of the step whose result is shown, which is the added one, and has those of the others."""
+    def rows(selector):
+        return dict(line.split('\t') for line in page.inner_text(selector).splitlines() if '\t' in line)
+
+    def report(tool):
+        text = page.evaluate('''async tool => (await fetch(address('file', {run: run.number, of: 'report',
+            step: run.steps.findIndex(step => step.tool === tool)}))).text()''', tool)
+        return dict(zip(*(line.split('\t') for line in text.splitlines())))
+
+    page.locator('details:has(code:text("rc-solve")) input').first.fill('1N')
+    for tool, title, channel, figures in (
+            ('rc-heat', 'Flash temperatures', 'temperature-1', (('Largest temperature', 'max_temperature/K', 'K'), ('Heat', 'heat_power/W', 'W'))),
+            ('rc-slip', 'Friction', 'traction-x', (('Part of the contact that sticks', 'stick_fraction', ''),
+                                                   ('Largest tangential force', 'limit/N', 'N')))):
+        page.check('#views input[value=Map]', force=True)
+        page.select_option('#add', value=tool)
+        page.keyboard.press('Control+Enter')
+        shown(page, 'Map ' + channel)
+        ok('after %s its own result is shown' % title, 'after ' + tool in page.locator('#channel option:checked').inner_text(),
+           page.locator('#channel option:checked').inner_text())
+        page.check('#views input[value=Numbers]', force=True)
+        shown(page, 'Numbers')
+        page.wait_for_selector('#numbers > table')
+        first, told = rows('#numbers > table'), report(tool)
+        heads = page.locator('#numbers h3').all_text_contents()
+        ok('  Numbers begins with it', heads and heads[0] == '%s (%s)' % (title, tool) and len(first) <= 10, ', '.join(heads))
+        for name, key, unit in figures:
+            value = first.get(name, 'nan').split(' ')
+            power = {'': 1, 'm': 1e-3, 'k': 1e3}[value[1][:-len(unit)] if unit else '']
+            ok('  %s is that of the report' % name, abs(float(value[0]) * power / float(told[key]) - 1) < 1e-3, ' '.join(value))
+        ok('  the figures of the contact follow', 'Press (rc-solve)' in heads[1:] and 'Contact area' in rows('#numbers > div:has(> h3:text("Press")) table'))
+        picture(page, 'numbers-' + tool)
+    ok('  those of heat stay too', 'Flash temperatures (rc-heat)' in heads[1:], ', '.join(heads))
+    for tool in ('rc-slip', 'rc-heat'):
+        page.click('details:has(> summary code:text("%s")) > button:text-is("Remove")' % tool)
+    page.check('#views input[value=Map]', force=True)
+
+
 def remove(page):
     """A run is selected in the list and removed."""
     page.check('#views input[value=Map]', force=True)
@@ -389,7 +428,7 @@ def large(page):
 with sync_playwright() as playwright:
     wide = Browser(playwright)
     page = wide.open()
-    for check in (by_keyboard, sections, words, errors, effects, accuracy, remove, crop, spikes, compare, large):
+    for check in (by_keyboard, sections, words, errors, headlines, effects, accuracy, remove, crop, spikes, compare, large):
         try:
             check(page)
         except Exception as e:

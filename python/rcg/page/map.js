@@ -3,14 +3,14 @@
 // A map on a canvas: zoom, place and value. The colours are those of rc-render, which draws all figures.
 
 const PREFIX = ['f', 'p', 'n', 'µ', 'm', '', 'k', 'M', 'G', 'T'];
-// A number with its unit: 3e-6 m is 3 µm, 3e-12 m2 is 3 µm².
-function shown(value, unit, digits = 5) {
+// A number with its unit: 3e-6 m is 3 µm, 3e-12 m2 is 3 µm². The prefix is that of the number `like`.
+function shown(value, unit, digits = 5, like = value) {
   if (!Number.isFinite(value)) return 'missing';
-  const power = +(/^m([23])/.exec(unit)?.[1] ?? 1), scaled = value !== 0 && /^(m|N|Pa|J|W|s|B)/.test(unit);
+  const power = +(/^m([23])/.exec(unit)?.[1] ?? 1), scaled = like !== 0 && /^(m|N|Pa|J|W|s|B)/.test(unit);
   const name = unit === '1' ? '' : unit.replace(/m2\b/, 'm²').replace(/m3\b/, 'm³');
-  const third = scaled ? Math.floor(Math.log10(Math.abs(value) * 1.0000001) / 3 / power) : 0;
-  const within = Math.min(Math.max(third, -5), 4);
-  const text = String(+(value / 10 ** (3 * within * power)).toPrecision(digits)).replace('-', '−');
+  const third = scaled ? Math.floor(Math.log10(Math.abs(like) * 1.0000001) / 3 / power) : 0;
+  const within = third < -5 ? 0 : Math.min(third, 4); // below a femtometre it is 2.1e-20 m
+  const text = String(+(value / 10 ** (3 * within * power)).toPrecision(digits)).replaceAll('-', '−');
   return text + (name && ` ${PREFIX[within + 5]}${name}`);
 }
 

@@ -46,7 +46,8 @@ const TITLES = {
 const FIGURES = {
   shift_x: 'Shift along x', shift_y: 'Shift along y', shift_error: 'Uncertainty of the shift (95 %)',
   rotation_error: 'Uncertainty of the rotation (95 %)', tilt_x: 'Tilt along x', tilt_y: 'Tilt along y',
-  residual: 'Residual of the unchanged part', volume: 'Volume of the change',
+  residual: 'Residual of the unchanged part', max_mises: 'Largest Mises stress',
+  max_mises_depth: 'Depth of the largest Mises stress', volume: 'Volume of the change',
   volume_error: 'Uncertainty of the volume (95 %)', overlap: 'Part that overlaps', changed: 'Part that has changed',
   missing: 'Part that is missing', nx: 'Nodes along x', ny: 'Nodes along y', dx: 'Spacing along x', dy: 'Spacing along y',
 };
@@ -288,7 +289,9 @@ const collect = trying(async () => {
   $('channel').replaceChildren(...frames.map((f, k) => new Option(f.name, k)));
   const last = ['pressure', 'height', frames.at(-1)?.channel].map(name => f => f.channel === name);
   const places = [f => f.name === kept, ...last].map(test => frames.findLastIndex(test));
-  const own = added === null ? -1 : frames.findIndex(f => run.steps[f.step].tool === added);
+  const ours = f => run.steps[f.step].tool === added, others = new Set(frames.filter(f => !ours(f)).map(f => f.channel));
+  const fresh = frames.findIndex(f => ours(f) && !others.has(f.channel)); // of a channel that no other step has
+  const own = added === null ? -1 : fresh >= 0 ? fresh : frames.findIndex(ours);
   $('channel').value = own >= 0 ? own : places.find(k => k >= 0);
   if (own >= 0) {
     added = null;
@@ -375,6 +378,11 @@ function framed(options, colours = true) { // colours: those of a picture
   return [...more.map(name => [name, frame[name]]), ...clips, ...given(options)];
 }
 const made = (tool, options, name) => ask('made', {...place(), tool, options: JSON.stringify(options), name});
+const rowsOf = report => report.trim().split('\n').map(line => line.split('\t'));
+// The reports of the other steps of the run, of the last one first.
+const reportsBeside = at => Promise.all([...run.steps.entries()].reverse()
+  .filter(([step, one]) => step !== at && one.report && well(one))
+  .map(async ([step, one]) => [one, rowsOf(await (await ask('file', {run: run.number, step, of: 'report'})).text())]));
 async function showMade(f, valid) {
   const numbers = view === 'Numbers', tool = numbers ? 'rc-info' : 'rc-render', options = VIEWS[view];
   const redo = () => { clearTimeout(show.later); show.later = setTimeout(show, 300); };
@@ -388,7 +396,7 @@ async function showMade(f, valid) {
   if (free('look')) $('look').replaceChildren(make('div'), form(tool, options, redo, again));
   const curve = !numbers && given(options).find(([name]) => name === 'curve')?.[1], one = run.steps[f.step];
   const table = (numbers || curve) && one.report ? await ask('file', {...place(), of: 'report'}) : null;
-  const report = await table?.text() ?? '', lines = report.trim().split('\n').map(line => line.split('\t'));
+  const lines = rowsOf(await table?.text() ?? ''), others = numbers ? await reportsBeside(f.step) : [];
   const heads = lines[0].map(head => head.split('/')[0]), lacking = curve === VIEWS.Curves[0][1] && table &&
     curve.split(/[:,]/).filter(name => !heads.includes(name));
   if (lacking?.length && valid())
@@ -401,7 +409,7 @@ async function showMade(f, valid) {
   $('picture').hidden = !$('numbers').hidden;
   $('look').firstChild.replaceWith(command(header('X-Command')));
   $('at').textContent = header('X-Words');
-  if (numbers) return showNumbers(lines, text, one);
+  if (numbers) return showNumbers(lines, text, one, others);
   if (!$('numbers').hidden) return showPoint(...lines, curve.split(/[:,]/));
   URL.revokeObjectURL($('picture').src);
   Object.assign($('picture'), {src: URL.createObjectURL(blob), alt: `${view} of ${f.channel}`});
@@ -424,24 +432,45 @@ function sliders(f, option, redo) {
     return title ? make('label', {}, title + ' ', slider) : [];
   });
 }
-// The figures of the first table, if the report has them.
-const FIRST = ['load', 'mean_pressure', 'contact_area', 'contact_fraction', 'max_pressure', 'approach', 'mean_gap',
-  'nodes_per_patch', 'pressure_error_estimate', 'converged', 'volume', 'volume_error', 'shift_x', 'shift_y', 'rotation',
-  'residual', 'overlap', 'changed'];
+// The figures of the first table, by tool: the first ten that the report has.
+const FIRST = {
+  solve: ['load', 'mean_pressure', 'max_pressure', 'contact_area', 'contact_fraction', 'approach', 'pressure_error_estimate',
+    'converged', 'friction', 'pull_off_load', 'max_plastic_strain', 'plastic_depth', 'mean_gap', 'nodes_per_patch'],
+  stress: ['max_mises', 'max_mises_depth', 'mises_error_estimate'],
+  slip: ['load', 'limit', 'tangential_x', 'displacement_x', 'stick_fraction', 'largest_slip', 'converged', 'creep_x', 'creep_y',
+    'tangential_stiffness', 'dissipated_energy', 'power', 'tangential_y'],
+  wear: ['load', 'distance', 'wear_volume', 'max_wear_depth', 'mean_wear_depth', 'wear_error_estimate', 'max_pressure',
+    'contact_area', 'converged'],
+  heat: ['max_temperature', 'mean_temperature', 'heat_power', 'share_1', 'steady_time', 'temperature_error_estimate', 'converged'],
+  fatigue: ['safety', 'crossland', 'dangvan', 'papadopoulos', 'findley', 'shakedown', 'sampling_error_estimate', 'converged'],
+  leak: ['flow_rate', 'flow_factor', 'mean_gap', 'percolates', 'critical_gap', 'discretization_error_estimate', 'converged'],
+  deflect: ['max_displacement', 'mean_displacement', 'displacement_error_estimate'],
+  add: ['volume', 'volume_error', 'shift_x', 'shift_y', 'rotation', 'residual', 'overlap', 'changed'],
+};
+// The figures of a report that are known, and those of them that are shown first.
+const figuresOf = ([heads, ...rows]) => heads.map((head, k) => [head.split('/'), rows.map(row => row[k])])
+  .filter(([, values]) => values.some(value => value !== '' && value !== 'NaN'));
+function firstOf(figures, tool) {
+  const of = name => figures.filter(([[other]]) => other === name);
+  return (FIRST[tool.slice(3)] ?? []).flatMap(of).slice(0, 10);
+}
 // A report has a column for each figure, the page a line. Curves take the names in the list of all figures.
-function showNumbers([heads, ...rows], textContent, {tool, later}) {
-  const lines = heads.map((head, k) => [head.split('/'), rows.map(row => row[k])]);
-  const known = lines.filter(([, values]) => values.some(value => value !== '' && value !== 'NaN'));
-  const first = known.filter(([[name]]) => FIRST.includes(name)), all = make('details', {});
-  const table = (some, code) => numberTable(some, name =>
-    [figured(name, tool), ...(code ? [' ', make('code', {textContent: name})] : [])]);
+// `others`: the steps of the run beside this one, [[step, report], ...], of which the page has the first figures.
+function showNumbers(lines, textContent, {tool, later}, others) {
+  const [heads, ...rows] = lines, known = figuresOf(lines), first = firstOf(known, tool), all = make('details', {});
+  const table = (some, code, of = tool) => numberTable(some, name =>
+    [figured(name, of), ...(code ? [' ', make('code', {textContent: name})] : [])]);
+  const heading = of => make('h3', {textContent: `${title(of)} (${of})`});
+  const more = others.map(([step, report]) => [step.tool, firstOf(figuresOf(report), step.tool)])
+    .filter(([, figures]) => figures.length)
+    .map(([of, figures]) => make('div', {}, heading(of), table(figures, false, of)));
   all.append(make('summary', {textContent: `All ${known.length} figures of the report`}), table(known, true));
   const [volume, error] = ['volume/m3', 'volume_error/m3'].map(head => +rows[0]?.[heads.indexOf(head)]);
   const lost = later && volume && rows.length === 1 ? [hint(
     `The change is the ${LESS[later]}: below 0 material was removed. ${volume < 0 ? 'Removed' : 'Added'} on balance: ` +
-    `${shown(Math.abs(volume), 'm3', 4)} ± ${shown(error, 'm3', 2)} (95 %).`)] : [];
-  $('numbers').replaceChildren(...lost, ...(first.length ? [table(first, false), all] : [table(known, true)]),
-    make('pre', {textContent}));
+    `${shown(Math.abs(volume), 'm3', 4)} ± ${shown(error, 'm3', 2, volume)} (95 %).`)] : [];
+  $('numbers').replaceChildren(...(more.length && known.length ? [heading(tool)] : []), ...lost,
+    ...(first.length ? [table(first, false), all] : [table(known, true)]), ...more, make('pre', {textContent}));
 }
 const valued = (value, unit) => (value === '' || isNaN(value) ? value : shown(+value, unit.join('/') || '1', 4));
 function numberTable(lines, head) {
