@@ -214,6 +214,7 @@ function changed() {
     const all = used(), {commands} = await ordered(all, false);
     for (const step of steps) step.command = commands[all.indexOf(step)];
     states();
+    if (!$('known').contains(document.activeElement)) drawKnown(); // a field that is being filled stays
   }), 150);
 }
 // The state of each step, if the selected run has the same command on this file.
@@ -514,10 +515,17 @@ function downloads() {
 let known = [['mu', ''], ['yield', '']]; // data of the effects, beside the options of the contact
 const pressed = () => steps.find(step => step.tool === 'rc-solve');
 const judged = name => tables['rc-scene'].options.some(row => row.name === name);
+// The options of the contact that rc-scene takes too; the form asks for none of them.
+const carried = () => given(pressed()?.options ?? []).filter(([name]) => judged(name));
 function drawKnown() {
-  const rows = tables['rc-scene'].options, first = rows.findIndex(row => row.name === 'thickness');
-  tables.known = {options: rows.filter(({name}, k) => k >= first || name === 'layer' || name === 'hardness')};
-  $('known').replaceChildren(form('known', known, () => {}, drawKnown));
+  const rows = tables['rc-scene'].options, first = rows.findIndex(row => row.name === 'thickness'), from = carried();
+  const has = (name, options) => options.some(([other]) => other === name);
+  known = known.filter(([name, value]) => value || !has(name, from));
+  tables.known = {options: rows.filter(({name}, k) => (k >= first || name === 'layer' || name === 'hardness') &&
+    (has(name, known) || !has(name, from)))};
+  const told = from.map(([name, value]) => named(name, 'rc-solve') + (value === true ? '' : ': ' + value));
+  $('known').replaceChildren(...(told.length ? [hint(`From the step “Press”: ${told.join('; ')}.`)] : []),
+    form('known', known, () => {}, drawKnown));
 }
 // A study below the result: its message stands where its table would.
 const studying = (id, act) => trying(async () => {
@@ -529,7 +537,7 @@ const studying = (id, act) => trying(async () => {
 const judge = studying('verdicts', async () => {
   if (!pressed()) throw new Error('Add the step “Press” first: the verdicts are about its contact.');
   const own = given(known), names = own.map(([name]) => name);
-  const words = [...given(pressed().options).filter(([name]) => judged(name) && !names.includes(name)), ...own];
+  const words = [...carried().filter(([name]) => !names.includes(name)), ...own];
   tell('rc-scene judges the effects …');
   const answer = await made('rc-scene', words, 'scene.json'), said = decodeURIComponent(answer.headers.get('X-Words'));
   const lines = (await answer.text()).trim().split('\n').map(line => JSON.parse(line));
@@ -537,7 +545,8 @@ const judge = studying('verdicts', async () => {
   $('verdicts').replaceChildren(make('p', {className: 'said', textContent: said}),
     make('table', {}, ...scene.filter(e => e.sentence).map(e => make('tr', {}, make('th', {textContent: e.title}),
       make('td', {textContent: e.sentence}),
-      make('td', {}, ...(e.command.length ? [button('Add', () => addEffect(e), {name: e.effect})] : []))))),
+      make('td', {}, ...(!e.command.length ? [] : present(e) ? ['in the steps'] :
+        [button('Add', () => addEffect(e), {name: e.effect})]))))),
     hint(missing.length ? 'Data are missing for: ' + missing.map(e => `${e.title} (${e.missing})`).join(', ') + '.' : ''));
   document.body.dataset.judged = scene.length;
   tell('The table below the result has the verdicts.');
@@ -558,14 +567,20 @@ function optionsOf([tool, ...words]) {
 // loads, bodies and shapes; only effects that replace body 1 bring bodies of their own.
 const OF_CONTACT = /^(load|mean-pressure|approach|estar|E[12]|nu[12]|radius|cylinder|periodic|datum)$/;
 const OF_BODIES = /^(estar|E[12]|nu[12]|body[12])$/;
-function addEffect({effect, command, title: what}) {
-  const at = command.indexOf('|'), all = at < 0 ? [command] : [command.slice(0, at), command.slice(at + 1)];
-  const bodies = /^(thin|relaxation|sliding)$/.test(effect), lost = [];
-  for (const words of all) {
-    const [tool] = words, rows = tables[tool].options;
+const withBodies = ({effect}) => /^(thin|relaxation|sliding)$/.test(effect);
+// What an effect brings: a tool with its options for each command of its pipe.
+function brought(e) {
+  const at = e.command.indexOf('|'), all = at < 0 ? [e.command] : [e.command.slice(0, at), e.command.slice(at + 1)];
+  const own = ([name]) => !OF_CONTACT.test(name) || withBodies(e) && OF_BODIES.test(name);
+  return all.map(words => [words[0], optionsOf(words).filter(option => words[0] !== 'rc-solve' || own(option))]);
+}
+const present = e => brought(e).every(([tool, options]) => steps.some(step => step.tool === tool &&
+  options.every(([name, value]) => step.options.some(option => option[0] === name && option[1] === value))));
+function addEffect(e) {
+  const bodies = withBodies(e), lost = [];
+  for (const [tool, options] of brought(e)) {
+    const rows = tables[tool].options, has = name => options.some(option => option[0] === name);
     const step = steps.find(other => other.tool === tool) ?? (steps.push({tool, options: []}), steps.at(-1));
-    const own = ([name]) => tool !== 'rc-solve' || !OF_CONTACT.test(name) || bodies && OF_BODIES.test(name);
-    const options = optionsOf(words).filter(own), has = name => options.some(option => option[0] === name);
     const barred = name => options.some(option => clash(rows, option[0], name));
     const stays = ([name]) => !has(name) && !barred(name) && !(bodies && tool === 'rc-solve' && OF_BODIES.test(name));
     lost.push(...step.options.filter(([name]) => barred(name) && !has(name)).map(([name]) => `“${named(name, tool)}”`));
@@ -574,7 +589,7 @@ function addEffect({effect, command, title: what}) {
     added = tool;
   }
   drawSteps();
-  tell(`The steps have this effect now: ${what}. ${lost.length ? `It replaces ${lost.join(', ')}. ` : ''}Run the steps to see it.`);
+  tell(`The steps have this effect now: ${e.title}. ${lost.length ? `It replaces ${lost.join(', ')}. ` : ''}Run the steps to see it.`);
 }
 
 // ---- accuracy: the bars of rc-cost, for the noise and the resolution of the scan ----
