@@ -80,6 +80,9 @@ claim "--units converts the units" eval 'rc-render --curve x:y --points --x-unit
 claim "  the axes show them" eval 'shows u.svg ">x \\(mN\\)<" && shows u.svg "mm<"'
 claim "a fraction can be shown in per cent" eval 'printf "x\ty\n0.1\t0.2\n0.3\t0.4\n" | rc-render --curve x:y --points --y-unit % -o u.svg && draws u.svg marker 0.3 40 && shows u.svg ">y \\(%\\)<"'
 claim "a reciprocal unit can be shown" eval 'printf "x/1/Pa\ty/um\n2e-9\t1\n4e-9\t2\n" | rc-render --curve x:y --points --x-unit 1/GPa -o u.svg && draws u.svg marker 4 2'
+claim "a prefix is raised with its own symbol: 0.05 J/m2 is 50 mJ/m2" eval 'printf "x\ty/J/m2\tz/m3/s\n1\t0.05\t1e-12\n2\t0.07\t3e-12\n" >raised.tsv &&
+    rc-render --curve x:y --points --y-unit mJ/m2 -o u.svg raised.tsv && draws u.svg marker 1 50 && draws u.svg marker 2 70'
+claim "  and 1e-12 m3/s are 0.001 mm3/s" eval 'rc-render --curve x:z --points --y-unit mm3/s -o u.svg raised.tsv && draws u.svg marker 2 3e-3'
 claim "the texts of the axes can be set" eval 'rc-render --curve x:y --x-label "Normal load" --y-label "Real area, m2" --y-unit m2 -o w.svg few.tsv &&
     shows w.svg ">Normal load \\(N\\)<" && ! shows w.svg "m2 \\(m"'
 claim "the texts of the legend can be set" eval 'rc-render --curve x:y --by k --legend "rough;worn, twice" -o w.svg few.tsv && shows w.svg ">rough<" && shows w.svg ">worn, twice<" && ! shows w.svg ">k a<"'
