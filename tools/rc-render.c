@@ -44,7 +44,8 @@ static const struct opt opts[] = {
      OF_COLOURS,
      .help = "colour map of the values (default: by channel)"},
     {.name = "range", .type = OPT_TEXT, AT(range), .arg = "LO:HI",
-     .against = RULES({.with = "curve|histogram|material-ratio", .because = "it is for maps and --cut"}),
+     .against = RULES({.with = "curve|histogram|material-ratio", .because = "it is for maps and --cut",
+                       .remedy = "the axes of a curve have --x-range and --y-range"}),
      .help = "range of the colours: values as 0:2GPa, percentiles as 1%:99%, or symmetric"},
     {.name = "log", .type = OPT_CHOICE, AT(style.log), .arg = "x|y|xy", .optional = true,
      .needs = RULES({.with = CURVES, .word = "x|y|xy", .because = "the words name axes of curves",
@@ -154,6 +155,13 @@ static const struct opt opts[] = {
     {.name = "y-unit", .type = OPT_TEXT, AT(style.y_unit), .arg = "UNIT",
      OF_CURVES,
      .help = "the same upwards"},
+    {.name = "x-range", .type = OPT_TEXT, AT(style.x_range), .arg = "LO:HI",
+     OF_CURVES,
+     .help = "ends of the horizontal axis of a curve, as in 0:5mN (default: those of the points)"},
+    {.name = "y-range", .type = OPT_TEXT, AT(style.y_range), .arg = "LO:HI",
+     OF_CURVES,
+     .against = RULES({.with = "range", .because = "both are the ends of the vertical axis"}),
+     .help = "the same upwards (default: those of the points within --x-range)"},
     {.name = "law", .type = OPT_CHOICE, AT(style.law), .words = law_word,
      .needs = RULES({.with = "curve|histogram", .because = "it is for laws beside a curve"}),
      .help = "draw a published law beside the curve"},
@@ -544,7 +552,7 @@ draw_lines(struct tool *t, struct args *a, const struct frames *f, struct drawn 
         if (range.kind != RANGE_VALUES)
             tool_usage(t, "--range %s: for --cut it must be LO:HI, two values", a->range);
         sheet_survey(t, f, &all);
-        range_doubt(t, a->range, f->grid[0]->unit, &all, &range);
+        range_doubt(t, "range", a->range, f->grid[0]->unit, all.min, all.max, &range);
         a->range = range_text(&range);
     }
     return cut_draw(t, f->grid, f->n, a->cut, range.lo, range.hi, &a->style, drawn);

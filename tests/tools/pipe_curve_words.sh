@@ -44,6 +44,45 @@ claim "bars that reach 0 end at the edge of a logarithmic axis" eval '
 claim "--markers draws markers without lines" eval 'rc-render --curve x:y --points -o p.svg few.tsv && ! points p.svg | grep -q solid'
 claim "  they are at their places" draws p.svg marker 3 6
 
+# ---- ends of the axes ----
+
+rc-synth sphere --nx 33 --dx 20um --radius 7.5mm -o ball.rcg
+# axis FILE: the first and the last number of the marks of both axes.
+axis() {
+    perl -0777 -ne 'my (@x, @y);
+        push @x, $1 while /text-anchor="middle" fill="#222222">((?:−)?[\d.]+)</g; push @y, $1 while /text-anchor="end" fill="#222222">((?:−)?[\d.]+)</g;
+        print "$x[0] $x[-1] $y[0] $y[-1]"' "$1"
+}
+# path FILE: the points of the first curve in fractions of the plot.
+path() {
+    perl -0777 -ne 'my ($x, $y, $w, $h) = /<clipPath id="\w+"><rect x="([\d.]+)" y="([\d.]+)" width="([\d.]+)" height="([\d.]+)"/ or die;
+        my ($d) = /<path d="([^"]*)" fill="none"/ or die;
+        printf "%.3f %.3f ", ($1 - $x) / $w, 1 - ($2 - $y) / $h while $d =~ /[ML](-?[\d.]+) (-?[\d.]+)/g' "$1"
+}
+export -f axis path
+printf 'x/N\ty/m2\n0\t0\n1e-3\t1\n2e-3\t4\n3e-3\t9\n4e-3\t16\n5e-3\t25\n' >square.tsv
+claim "--x-range and --y-range set the ends of the axes" eval 'rc-render --curve x:y --x-range 0:8mN --y-range -10:40 -o r.svg square.tsv && [ "$(axis r.svg)" = "0 8 −10 40" ] && draws r.svg marker 5 25'
+claim "  without a unit they are SI" eval 'rc-render --curve x:y --x-range 0:0.008 --y-range -10:40 -o z.svg square.tsv && sed "s,0:0.008,0:8mN," z.svg >y.svg && sed "s,0:0.008,0:8mN," r.svg | cmp y.svg -'
+claim "  a comma means the same" eval 'rc-render --curve x:y --x-range 0,8mN --y-range -10,40 -o z.svg square.tsv && [ "$(axis z.svg)" = "0 8 −10 40" ]'
+claim "  the unit of the numbers need not be that of the axis" eval 'rc-render --curve x:y --x-range 0:8000uN --x-unit mN -o z.svg square.tsv && [[ "$(axis z.svg)" = "0 8 "* ]]'
+claim "a part of x has the ends of its points upwards" eval 'rc-render --curve x:y --x-range 1mN:3mN -o z.svg square.tsv && [ "$(axis z.svg)" = "1.0 3.0 0 8" ]'
+claim "  only its points have markers" eval '[ "$(rc-render --curve x:y --points --x-range 1mN:3mN -o z.svg square.tsv; points z.svg | grep -c marker)" = 3 ]'
+claim "  the figure counts the others" shows z.svg '>3 points outside of the axes<'
+claim "  a point at an end is not outside of them" eval 'printf "x/N\ty\n%s\t1\n" 1e-4 2e-4 3e-4 7e-4 | rc-render --curve x:y --x-range 0.1mN:0.3mN -o y.svg && shows y.svg ">1 point outside of the axes<"'
+claim "  a whole curve has no such line" eval '! shows r.svg "outside of the axes"'
+printf 'x\ty\n0\t0\n100\t100\n' >line.tsv
+claim "a line to points far outside keeps its slope" eval 'rc-render --curve x:y --x-range 49:50 --y-range 0:100 -o z.svg line.tsv && [ "$(path z.svg)" = "-1.000 0.480 2.000 0.510 " ]'
+claim "  on logarithmic axes too" eval 'printf "x\ty\n1e-3\t1e-6\n1e6\t1e12\n" | rc-render --log --curve x:y --x-range 10:100 --y-range 1e-3:1e6 -o z.svg && [ "$(path z.svg)" = "-1.000 0.333 2.000 1.000 " ]'
+claim "  a line beside the axes is not drawn" eval 'rc-render --curve x:y --x-range 0:10 --y-range 200:300 -o z.svg line.tsv 2>said.txt && ! points z.svg | grep -q solid'
+claim "    with a warning" says 'y-range 200:300 goes from 200 to 300, but the values go from 0 to 100: was a unit forgotten\?' cat said.txt
+claim "per cent of plain numbers" eval 'printf "x\ty\n0.1\t0.2\n0.3\t0.4\n" | rc-render --curve x:y --y-range 0:50% --y-unit % -o z.svg && [[ "$(axis z.svg)" = *" 0 50" ]]'
+claim "a cut, a histogram and a material ratio have them too" eval '
+    rc-render --cut y=0 --x-range -0.1mm:0.1mm --y-range -20um:10um -o z.svg ball.rcg && [ "$(axis z.svg)" = "−100 100 −20 10" ] &&
+    rc-render --histogram --x-range -10um:10um -o z.svg ball.rcg && [[ "$(axis z.svg)" = "−10 10 "* ]] &&
+    rc-render --material-ratio --x-range 0:50% -o z.svg ball.rcg && [[ "$(axis z.svg)" = "0 50 "* ]]'
+claim "sealed loads outside of them have no mark" eval 'printf "mean_pressure/Pa\tflow_rate/m3/s\n1\t1e-9\n2\t1e-12\n3\t0\n4\t0\n" |
+    rc-render --log y --curve mean_pressure:flow_rate --x-range 0:3 -o z.svg && [ "$(grep -o "<path d=\"[^\"]*Z\"" z.svg | wc -l)" = 2 ] && shows z.svg ">1 load sealed"'
+
 # ---- groups ----
 
 claim "each value of a column gets a curve" eval 'rc-render --curve x:y --by k -o k.svg few.tsv &&
@@ -55,7 +94,6 @@ claim "of two columns the first sets the colours, the second the dashes" eval '
     rc-render --curve x:y --by a,b -o two.svg two.tsv && points two.svg | grep -E "solid|dashed" >lines &&
     [ "$(cut -d " " -f 1 lines | sort | uniq -c | tr -s " " | cut -d " " -f 2 | paste -s -d ,)" = 2,2 ] &&
     [ "$(grep -c solid lines)" = 2 ]'
-rc-synth sphere --nx 33 --dx 20um --radius 7.5mm -o ball.rcg
 for seed in 1 2; do
     rc-synth selfaffine --nx 32 --dx 1um --hurst 0.8 --rms-height 10nm --seed $seed -o $seed.rcg
     rc-export --format gsf -o seed-$seed.gsf $seed.rcg
@@ -186,6 +224,16 @@ refuses 2 '--spread has no effect without --curve' "the spread of a map" "$draw 
 refuses 2 '--x-unit has no effect without --curve, --cut, --histogram or --material-ratio' "units of a map" "$draw --x-unit mm ball.rcg"
 refuses 2 'the text is not UTF-8' "a legend that is not text" "$draw --curve x:y --legend \$'\\xff' few.tsv"
 refuses 1 'more than 63 curves in one picture' "a curve a row" "perl -e 'print \"x\ty\tk\n\"; print \"\$_\t1\t\$_\n\" for 1 .. 80' | $draw --curve x:y --by k"
+refuses 2 '--range does not work with --curve, because it is for maps and --cut: the axes of a curve have --x-range and --y-range' "the range of colours" "$draw --curve x:y --range 0:1 few.tsv"
+refuses 2 '--y-range does not work with --range' "two ranges of a cut" "$draw --cut y=0 --range 0:1um --y-range 0:1um ball.rcg"
+refuses 2 '--x-range has no effect without --curve, --cut, --histogram or --material-ratio' "ends of the axis of a map" "$draw --x-range 0:1mm ball.rcg"
+refuses 2 '--x-range 0:1m: it must be LO:HI, two values with LO below HI, in N with or without a prefix' "an end in another unit" "$draw --curve x:y --x-range 0:1m few.tsv"
+for wrong in 1 1: :1 1:1 2:1 1:2:3 a:b nan:1 0:inf 0x1:0x2 1:; do
+    refuses 2 "--x-range $wrong: it must be LO:HI" "ends $wrong" "$draw --curve x:y --x-range $wrong few.tsv"
+done
+refuses 2 '--x-range 1:2N: give both values their unit, or neither' "one unit of two" "$draw --curve x:y --x-range 1:2N few.tsv"
+refuses 2 '--log has no place for 0 and below: give a --y-range above it' "a logarithm of 0" "$draw --log y --curve x:y --y-range 0:9 few.tsv"
+refuses 2 '--x-range: the axis has words, which have no range: leave it out' "a range of words" "$draw --curve mat:y --x-range 0:1 words.tsv"
 claim "refused commands leave no picture" bash -c '[ ! -e out.svg ] && [ -z "$(ls out.svg.* 2>/dev/null)" ]'
 
 # ---- titles of figures ----

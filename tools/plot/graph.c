@@ -31,6 +31,7 @@ enum {
 /* Results of the layout of a graph, and of drawing its labels. */
 struct notes {
     size_t lost;              /* number of points not above 0 on a logarithmic axis */
+    size_t beyond;            /* number of markers outside of the given ends of the axes */
     size_t sunk;              /* sunk of these, the number at the foot of the plot */
     struct box taken[LABELS]; /* by labels */
     size_t labels;
@@ -144,9 +145,19 @@ is_sunk(const struct graph *g, const struct graph_series *s, size_t k)
            !shows(&g->y, s->y[k]);
 }
 
-/* The smallest and the largest value of an axis; lo > hi: there is none. Bars start at 0. */
+/* True if a value is not outside of the given ends of an axis; 0.3 mN is rounded. */
+static bool
+is_within(const struct graph_axis *a, double value)
+{
+    const double slack = 1e-12 * fmax(fabs(a->lo), fabs(a->hi));
+
+    return !(value < a->lo - slack) && !(value > a->hi + slack);
+}
+
+/* The smallest and the largest value of an axis; lo > hi: there is none. Bars start at 0. An axis y with
+ * `part` has those of the points within the given ends of the axis x. */
 static void
-extremes(const struct graph *g, bool up, double *lo, double *hi)
+extremes(const struct graph *g, bool up, bool part, double *lo, double *hi)
 {
     const struct graph_axis *a = up ? &g->y : &g->x;
 
@@ -158,7 +169,8 @@ extremes(const struct graph *g, bool up, double *lo, double *hi)
             bool last = q->kind == GRAPH_BARS && k + 1 == q->n;
             double v = up ? last ? NAN : q->y[k] : q->x[k];
 
-            if (!(is_point(g, q, k) || (!up && is_sunk(g, q, k))) || !shows(a, v))
+            if (!(is_point(g, q, k) || (!up && is_sunk(g, q, k))) || !shows(a, v) ||
+                (part && !is_within(&g->x, q->x[k])))
                 continue;
             *lo = fmin(*lo, up && q->kind == GRAPH_BARS && !a->log ? 0 : v);
             *hi = fmax(*hi, v);
@@ -167,8 +179,6 @@ extremes(const struct graph *g, bool up, double *lo, double *hi)
                 *hi = shows(a, q->high[k]) ? fmax(*hi, q->high[k]) : *hi;
             }
         }
-    *lo = isnan(a->lo) ? *lo : a->lo;
-    *hi = isnan(a->hi) ? *hi : a->hi;
 }
 
 /* The unit in brackets, unless the text already contains the requested unit. */
@@ -194,7 +204,9 @@ set_range(struct axis *s, const struct graph *g, bool up, struct rc_err *err)
 
     s->log = a->log;
     s->minor = true;
-    extremes(g, up, &lo, &hi);
+    extremes(g, up, up, &lo, &hi);
+    if (up && !(lo <= hi)) /* lines cross the part, their points are outside */
+        extremes(g, up, false, &lo, &hi);
     if (a->words > 0 && lo <= hi) {
         *s = (struct axis){.scale.size = 1,
                            .minor = true,
@@ -210,6 +222,8 @@ set_range(struct axis *s, const struct graph *g, bool up, struct rc_err *err)
                    ? rc_err_set(err, "no point lies above 0 on its logarithmic axes: leave out "
                                      "--log, or give it one axis, x or y")
                    : rc_err_set(err, "%s: no point has a number on both axes", a->quantity);
+    lo = isnan(a->lo) ? lo : a->lo;
+    hi = isnan(a->hi) ? hi : a->hi;
     if (a->shown == NULL || !scale_given(&s->scale, a->shown, a->unit))
         choose_scale(&s->scale, lo, hi, a->unit, a->log && has_decades(lo, hi));
     label(s, a);
@@ -303,22 +317,75 @@ draw_column(struct page *p, const struct graph_series *s, size_t k)
     return last;
 }
 
+/* A place in fractions of the plot, upwards and to the right. */
+struct spot {
+    double x, y;
+};
+
+/* Cuts a segment to the plot and as much around it, since a canvas has no place for far points (Liang and
+ * Barsky 1984). False: nothing is left. */
+static bool
+cut_segment(struct spot *a, struct spot *b)
+{
+    const struct spot from = *a, along = {b->x - a->x, b->y - a->y};
+    const double by[4] = {-along.x, along.x, -along.y, along.y};
+    const double room[4] = {from.x + 1, 2 - from.x, from.y + 1, 2 - from.y};
+    double first = 0, last = 1;
+
+    for (int k = 0; k < 4; k++) {
+        if (by[k] == 0 && room[k] < 0)
+            return false;
+        if (by[k] < 0)
+            first = fmax(first, room[k] / by[k]);
+        else if (by[k] > 0)
+            last = fmin(last, room[k] / by[k]);
+    }
+    if (first > last)
+        return false;
+    if (last < 1)
+        *b = (struct spot){from.x + last * along.x, from.y + last * along.y};
+    if (first > 0)
+        *a = (struct spot){from.x + first * along.x, from.y + first * along.y};
+    return true;
+}
+
+static bool
+is_same_spot(const struct spot *a, const struct spot *b)
+{
+    return a->x == b->x && a->y == b->y;
+}
+
 /* Laws are dashed; points of different kinds are not joined. */
 static void
 draw_line(struct page *p, const struct graph_series *s, struct rgb colour)
 {
-    bool pen_down = false;
+    const struct box *plot = &p->plot;
+    struct spot last = {0, 0}, pen = {0, 0};
+    bool joined = false;
 
     for (size_t k = 0; k < s->n; k++) {
+        struct spot at, from, to;
+        bool begins;
+
         if (!is_point(p->graph, s, k)) {
-            pen_down = false;
+            joined = false;
             continue;
         }
-        if (!pen_down || is_hollow(s, k) != is_hollow(s, k - 1))
-            canvas_move(p->c, x_of(p, s->x[k]), y_of(p, s->y[k]));
-        canvas_draw_to(p->c, x_of(p, s->x[k]), y_of(p, s->y[k]));
+        at = to = (struct spot){place(&p->across, s->x[k]), place(&p->down, s->y[k])};
+        begins = !joined || is_hollow(s, k) != is_hollow(s, k - 1);
+        from = begins ? at : last;
+        joined = true;
+        last = at;
+        if (!cut_segment(&from, &to))
+            continue;
+        if (begins || !is_same_spot(&from, &pen)) /* after a cut the pen is elsewhere */
+            canvas_move(p->c, plot->x + from.x * plot->w, plot->y + (1 - from.y) * plot->h);
+        canvas_draw_to(p->c, plot->x + to.x * plot->w, plot->y + (1 - to.y) * plot->h);
+        pen = to;
+        if (!is_same_spot(&to, &at))
+            continue;
         k = draw_column(p, s, k);
-        pen_down = true;
+        pen = last = (struct spot){place(&p->across, s->x[k]), place(&p->down, s->y[k])};
     }
     if (s->kind == GRAPH_LAW)
         canvas_dashes(p->c, 2 * p->u, 11 * p->u, colour);
@@ -431,7 +498,7 @@ draw_markers(struct page *p, const struct graph_series *s)
     for (size_t k = 0; has_markers(s) && k < s->n; k++) {
         double x, y;
 
-        if (is_sunk(p->graph, s, k))
+        if (is_sunk(p->graph, s, k) && is_within(&p->graph->x, s->x[k]))
             draw_sunk(p, x_of(p, s->x[k]), p->plot.y + p->plot.h - 2 * p->u, colour_of(s));
         if (!is_point(p->graph, s, k))
             continue;
@@ -662,6 +729,9 @@ set_legend(struct page *p)
     snprintf(text, sizeof text, "%zu %s at or below 0 left out: logarithmic axis", notes->lost,
              notes->lost == 1 ? "point" : "points");
     legend_add(p, 0, notes->lost > 0 ? text : NULL);
+    snprintf(text, sizeof text, "%zu %s outside of the axes", notes->beyond,
+             notes->beyond == 1 ? "point" : "points");
+    legend_add(p, 0, notes->beyond > 0 ? text : NULL);
 }
 
 /* ---- the whole ---- */
@@ -670,12 +740,15 @@ static void
 count_lost(const struct graph *g, struct notes *notes)
 {
     for (size_t s = 0; s < g->n; s++)
-        for (size_t k = 0; k < g->series[s].n && g->series[s].kind != GRAPH_BARS; k++)
-            if (is_sunk(g, &g->series[s], k))
-                notes->sunk++;
-            else
-                notes->lost += isfinite(g->series[s].x[k]) && isfinite(g->series[s].y[k]) &&
-                               !is_point(g, &g->series[s], k);
+        for (size_t k = 0; k < g->series[s].n && g->series[s].kind != GRAPH_BARS; k++) {
+            const struct graph_series *q = &g->series[s];
+            const bool point = is_point(g, q, k), sunk = is_sunk(g, q, k);
+            const bool within = is_within(&g->x, q->x[k]) && (sunk || is_within(&g->y, q->y[k]));
+
+            notes->sunk += sunk && within;
+            notes->beyond += (sunk || (point && has_markers(q))) && !within;
+            notes->lost += !point && !sunk && isfinite(q->x[k]) && isfinite(q->y[k]);
+        }
 }
 
 static enum rc_status

@@ -56,7 +56,7 @@ choose_range(struct tool *t, struct args *a, struct rc_grid *const *grid,
     *r = (struct range){.kind = a->clip ? RANGE_CLIP : RANGE_AUTO};
     if (a->range != NULL)
         range_read(t, a->range, grid[0], r);
-    range_doubt(t, a->range, grid[0]->unit, s, r);
+    range_doubt(t, "range", a->range, grid[0]->unit, s->min, s->max, r);
     axis = r->kind == RANGE_AUTO && look_is_profile(grid[0]) && !a->raw;
     range_choose(grid, touch, n, s, f->bar.map, &look->what, r);
     if (r->kind == RANGE_VALUES)

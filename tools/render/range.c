@@ -233,20 +233,21 @@ range_text(const struct range *r)
 /* Warns of a range in which values cannot be distinguished, for example because a unit was forgotten. Either
  * it does not overlap the values, or one of the two is less than a thousandth of the other. */
 void
-range_doubt(struct tool *t, const char *text, const char *unit, const struct survey *s,
-            const struct range *r)
+range_doubt(struct tool *t, const char *option, const char *text, const char *unit, double min,
+            double max, const struct range *r)
 {
-    const double common = fmin(r->hi, s->max) - fmax(r->lo, s->min), values = s->max - s->min;
+    const double common = fmin(r->hi, max) - fmax(r->lo, min), values = max - min;
     char is[4][SHOWN_NUMBER];
 
     if (r->kind != RANGE_VALUES || (common >= 0 && common >= 1e-3 * values &&
                                     (values == 0 || common >= 1e-3 * (r->hi - r->lo))))
         return;
     tool_warn(t,
-              "--range %s goes from %s to %s, but the values go from %s to %s: was a unit "
+              "--%s %s goes from %s to %s, but the values go from %s to %s: was a unit "
               "forgotten?",
-              text, shown_in_unit_to(is[0], r->lo, unit), shown_in_unit_to(is[1], r->hi, unit),
-              shown_in_unit_to(is[2], s->min, unit), shown_in_unit_to(is[3], s->max, unit));
+              option, text, shown_in_unit_to(is[0], r->lo, unit),
+              shown_in_unit_to(is[1], r->hi, unit), shown_in_unit_to(is[2], min, unit),
+              shown_in_unit_to(is[3], max, unit));
 }
 
 /* ---- the ends ---- */

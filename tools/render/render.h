@@ -119,9 +119,10 @@ const char *range_text(const struct range *range);
 void range_choose(struct rc_grid *const *grid, const struct rc_grid *const *touch, size_t n,
                   const struct survey *survey, const struct colormap *map,
                   const struct channel *what, struct range *range);
-/* Warns of a range LO:HI, given as `text`, in which values can hardly be distinguished. */
-void range_doubt(struct tool *tool, const char *text, const char *unit, const struct survey *survey,
-                 const struct range *range);
+/* Warns of a range LO:HI, given as `text` of this option, in which values from min to max can hardly be
+ * distinguished. */
+void range_doubt(struct tool *tool, const char *option, const char *text, const char *unit,
+                 double min, double max, const struct range *range);
 /* Moves the lower end above 0, to the smallest positive value, but at most six decades below the largest. */
 void range_take_logarithm(struct tool *tool, struct rc_grid *const *grid, size_t n,
                           struct range *range);
@@ -269,7 +270,8 @@ struct curve_style {
     struct paper paper; /* title or subtitle NULL: automatic */
     const char *law;
     const char *x_label, *y_label, *x_unit, *y_unit, *legend; /* NULL: what suits */
-    const char *by, *error;                                   /* columns of tables */
+    const char *x_range, *y_range; /* ends of the axes; NULL: the points */
+    const char *by, *error;        /* columns of tables */
     bool points, spread;
     bool hertz; /* beside a cut */
     struct law_given given;
