@@ -129,7 +129,8 @@ scale_given(struct scale *scale, const char *asked, const char *unit)
 {
     bool under = strncmp(unit, "1/", 2) == 0;
     const char *micro = strncmp(asked, "µ", 2) == 0 ? asked + 2 : NULL, *own = unit, *prefixed;
-    size_t letters = strcspn(unit, "/ 0123456789"), n; /* of the first symbol, which has the prefix */
+    size_t letters = strcspn(unit, "/ 0123456789"),
+           n; /* of the first symbol, which has the prefix */
     int power = 0, raised = isdigit((unsigned char)unit[letters]) ? atoi(unit + letters) : 1;
     char text[TICKS_TEXT];
 
