@@ -52,7 +52,12 @@ claim "  each end has an arrow" test "$(arrows part.svg)" = 2
 claim "  a note explains them" says 'colours from 10 % to 90 % of the nodes' cat part.svg
 claim "--log-colours takes logarithms" rc-render --width 1200 --log --range 1nm:10um -o log.svg ramp.rcg
 sed -i 's/10<tspan[^>]*>\([−0-9]*\)<\/tspan>/1e\1/' log.svg
-marks_lie log.svg 0.001 10 1 "have their powers where they are"
+marks_lie log.svg 1e-9 1e-5 1 "have their powers where they are"
+claim "  over more than three decades in the SI unit" says '>Height \(m\)<' cat log.svg
+claim "  over fewer in that of the largest value" rc-render --width 1200 --log --range 1nm:1um -o few.svg ramp.rcg
+claim "    with its prefix" says '>Height \(µm\)<' cat few.svg
+sed -i 's/10<tspan[^>]*>\([−0-9]*\)<\/tspan>/1e\1/' few.svg
+marks_lie few.svg 0.001 1 1 "    and its numbers"
 
 made 30 height m '$i == 7 && $j == 9 ? 1e-3 : sin($i / 3) * 1e-6' >spike.rcg
 claim "one outlier does not set the range" rc-render --width 1200 -o spike.svg spike.rcg

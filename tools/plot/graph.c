@@ -81,13 +81,6 @@ choose_prefix(struct scale *s, double number, double least, const char *unit)
     }
 }
 
-static void
-keep_unit(struct scale *s, const char *unit)
-{
-    s->size = 1;
-    unit_text_to(s->unit, strcmp(unit, "1") == 0 ? "" : unit);
-}
-
 /* The unit of an axis from lo to hi. Where the marks are powers of ten, over at most three decades, the
  * prefix is that of the middle: the numbers are between 0.001 and 1000. Longer axes have the unit without a
  * prefix. */
@@ -100,13 +93,13 @@ choose_scale(struct scale *s, double lo, double hi, const char *unit, bool power
     if (number < nothing) { /* no power of ten is left to divide by */
         scale_choose(s, 1, unit);
     } else if (powers && log10(hi / lo) > 2 * half + 1e-9) {
-        keep_unit(s, unit);
+        scale_keep(s, unit);
     } else if (powers) { /* of two prefixes as near, the one with numbers from 1 on */
         choose_prefix(s, sqrt(lo) * sqrt(hi) * pow(10, half) * (1 - 1e-6), pow(10, -half), unit);
         if (strncmp(s->unit, "10", 2) == 0)
-            keep_unit(s, unit);
+            scale_keep(s, unit);
     } else if (plain && number >= 1e-3 && number < 1e4) {
-        keep_unit(s, unit);
+        scale_keep(s, unit);
     } else {
         choose_prefix(s, number, 0.01, unit);
     }

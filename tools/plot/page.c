@@ -198,7 +198,10 @@ static void
 set_axis(struct axis *a, const char *quantity, const char *unit, double lo, double hi,
          double largest)
 {
-    scale_choose(&a->scale, largest, unit);
+    if (a->log && log10(hi / lo) > 3 + 1e-9)
+        scale_keep(&a->scale, unit);
+    else
+        scale_choose(&a->scale, largest, unit);
     a->lo = a->log ? log10(lo / a->scale.size) : lo / a->scale.size;
     a->hi = a->log ? log10(hi / a->scale.size) : hi / a->scale.size;
     scale_label(a->label, sizeof a->label, quantity, &a->scale);

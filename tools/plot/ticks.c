@@ -123,6 +123,13 @@ scale_choose(struct scale *scale, double largest, const char *unit)
                  *unit == '\0' ? "" : " ", unit_text(unit));
 }
 
+void
+scale_keep(struct scale *s, const char *unit)
+{
+    s->size = 1;
+    unit_text_to(s->unit, strcmp(unit, "1") == 0 ? "" : unit);
+}
+
 /* A prefix is raised to the power of the unit: mm2 is 1e-6 m2. */
 bool
 scale_given(struct scale *scale, const char *asked, const char *unit)

@@ -24,6 +24,8 @@ const char *unit_text_to(char text[TICKS_TEXT], const char *unit);
 /* A unit in which the magnitude of `largest` (SI) has one to three digits before the point. It has a prefix,
  * or a power of ten if the unit takes no prefix. `unit` is as in a stream. */
 void scale_choose(struct scale *scale, double largest, const char *unit);
+/* The unit without a prefix, for axes of many powers of ten. */
+void scale_keep(struct scale *scale, const char *unit);
 /* "5.83 GPa": four digits of the value in a suitable unit; "0" has no unit. */
 const char *scale_value_to(char text[TICKS_TEXT], double value, const char *unit);
 #define scale_value(value, unit) scale_value_to((char[TICKS_TEXT]){""}, value, unit)
