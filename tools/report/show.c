@@ -282,30 +282,92 @@ page_show_table(struct page *run, FILE *in, const char *columns, const char *unu
     free(line);
 }
 
+/* The columns of the table of bars. */
+enum bar_column {
+    WHAT,
+    CASE,
+    NAME,
+    UNIT,
+    VALUE,
+    SHARE,
+    NOISE,
+    DOMINANT,
+    LIMIT,
+    WHY,
+    BAR_COLUMNS
+};
+
+/* Divides a line of the table of bars into cells: own[] has those of the columns, empty for NaN. The titles
+ * of the first line set the places at[] of the columns. */
+static void
+split_bar(char *line, bool first, size_t at[BAR_COLUMNS], const char *own[BAR_COLUMNS])
+{
+    static const char *const names[BAR_COLUMNS] = {
+        "what",         "case",           "name",     "unit",  "value",
+        "bar_relative", "noise_relative", "dominant", "limit", "why"};
+    char *cell[PAGE_WORDS] = {NULL};
+
+    for (size_t k = 0; k < PAGE_WORDS && *line != '\0'; k++) {
+        cell[k] = line;
+        line += strcspn(line, "\t\n");
+        if (*line != '\0')
+            *line++ = '\0';
+        for (size_t i = 0; first && i < BAR_COLUMNS; i++)
+            at[i] = strcmp(cell[k], names[i]) == 0 ? k : at[i];
+    }
+    for (size_t i = 0; i < BAR_COLUMNS; i++)
+        own[i] = cell[at[i]] == NULL || strcmp(cell[at[i]], "NaN") == 0 ? "" : cell[at[i]];
+}
+
+/* True for a figure of this case that has a bar, or a reason why it has none. */
+static bool
+is_bar(const char *const own[BAR_COLUMNS], const char *last)
+{
+    return strcmp(own[WHAT], "figure") == 0 && strcmp(own[CASE], last) == 0 &&
+           strcmp(own[SHARE], "0") != 0 && (*own[SHARE] != '\0' || *own[WHY] != '\0');
+}
+
+/* A figure without a limit with the grid has only the part of the noise. */
+static bool
+has_limit(const char *const own[BAR_COLUMNS])
+{
+    return strcmp(own[LIMIT], "false") != 0;
+}
+
+static void
+put_bar(FILE *out, const char *const own[BAR_COLUMNS])
+{
+    char name[PAGE_CELL];
+
+    snprintf(name, sizeof name, "%s", own[NAME]);
+    for (char *c = name; (c = strchr(c, '_')) != NULL;)
+        *c = ' ';
+    fputs("<tr><td>", out);
+    page_text(out, name);
+    fprintf(out, "</td><td>%.4g ", strtod(own[VALUE], NULL));
+    page_text(out, own[UNIT]);
+    fputs("</td><td>", out);
+    if (*own[SHARE] != '\0')
+        fputs(shown_percent(strtod(own[SHARE], NULL), 3), out);
+    else if (!has_limit(own) && *own[NOISE] != '\0')
+        fprintf(out, "noise alone %s", shown_percent(strtod(own[NOISE], NULL), 3));
+    else
+        putc('-', out);
+    fputs("</td><td>", out);
+    page_text(out, *own[SHARE] == '\0' ? "" : own[DOMINANT]);
+    fputs("</td><td>", out);
+    page_text(out, own[WHY]);
+    fputs("</td></tr>\n", out);
+}
+
 /* Shows the figures of the last case that have a bar. Without a limit with the grid they have only the part
  * of the noise, and a note. */
 void
 page_show_bars(struct page *run, FILE *in, const char *a, const char *b)
 {
-    enum {
-        WHAT,
-        CASE,
-        NAME,
-        UNIT,
-        VALUE,
-        SHARE,
-        NOISE,
-        DOMINANT,
-        LIMIT,
-        WHY,
-        CELLS
-    };
-    static const char *const names[CELLS] = {"what",  "case",         "name",           "unit",
-                                             "value", "bar_relative", "noise_relative", "dominant",
-                                             "limit", "why"};
     FILE *out = run->page.file;
     char *line = NULL;
-    size_t room = 0, at[CELLS] = {0}, bars = 0, unlimited = 0;
+    size_t room = 0, at[BAR_COLUMNS] = {0}, bars = 0, unlimited = 0;
 
     (void)a, (void)b;
     if (is_empty(in)) {
@@ -318,44 +380,14 @@ page_show_bars(struct page *run, FILE *in, const char *a, const char *b)
             "<tr><th>figure</th><th>value</th><th>bar</th><th>mostly by</th><th></th></tr>\n",
             shown_in_unit(page_args.noise.v[0], "m"));
     for (size_t row = 0; getline(&line, &room, in) > 0; row++) {
-        char *cell[PAGE_WORDS] = {NULL}, *rest = line;
-        const char *own[CELLS];
-        bool limit;
+        const char *own[BAR_COLUMNS];
 
-        for (size_t k = 0; k < PAGE_WORDS && *rest != '\0'; k++) {
-            cell[k] = rest;
-            rest += strcspn(rest, "\t\n");
-            if (*rest != '\0')
-                *rest++ = '\0';
-            for (size_t i = 0; row == 0 && i < CELLS; i++)
-                at[i] = strcmp(cell[k], names[i]) == 0 ? k : at[i];
-        }
-        for (size_t i = 0; i < CELLS; i++)
-            own[i] = cell[at[i]] == NULL || strcmp(cell[at[i]], "NaN") == 0 ? "" : cell[at[i]];
-        if (row == 0 || strcmp(own[WHAT], "figure") != 0 || strcmp(own[CASE], run->last) != 0 ||
-            strcmp(own[SHARE], "0") == 0 || (*own[SHARE] == '\0' && *own[WHY] == '\0'))
+        split_bar(line, row == 0, at, own);
+        if (row == 0 || !is_bar(own, run->last))
             continue;
-        for (char *c = cell[at[NAME]]; (c = strchr(c, '_')) != NULL;)
-            *c = ' ';
-        limit = strcmp(own[LIMIT], "false") != 0;
         bars += *own[SHARE] != '\0';
-        unlimited += !limit;
-        fputs("<tr><td>", out);
-        page_text(out, own[NAME]);
-        fprintf(out, "</td><td>%.4g ", strtod(own[VALUE], NULL));
-        page_text(out, own[UNIT]);
-        fputs("</td><td>", out);
-        if (*own[SHARE] != '\0')
-            fputs(shown_percent(strtod(own[SHARE], NULL), 3), out);
-        else if (!limit && *own[NOISE] != '\0')
-            fprintf(out, "noise alone %s", shown_percent(strtod(own[NOISE], NULL), 3));
-        else
-            putc('-', out);
-        fputs("</td><td>", out);
-        page_text(out, *own[SHARE] == '\0' ? "" : own[DOMINANT]);
-        fputs("</td><td>", out);
-        page_text(out, own[WHY]);
-        fputs("</td></tr>\n", out);
+        unlimited += !has_limit(own);
+        put_bar(out, own);
     }
     fputs("</table>\n", out);
     if (bars > 0)
