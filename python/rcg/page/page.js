@@ -46,8 +46,8 @@ const TITLES = {
 const FIGURES = {
   shift_x: 'Shift along x', shift_y: 'Shift along y', shift_error: 'Uncertainty of the shift (95 %)',
   rotation_error: 'Uncertainty of the rotation (95 %)', tilt_x: 'Tilt along x', tilt_y: 'Tilt along y',
-  residual: 'Residual of the unchanged part', max_mises: 'Largest Mises stress',
-  max_mises_depth: 'Depth of the largest Mises stress', volume: 'Volume of the change',
+  residual: 'Residual of the unchanged part', max_mises: 'Largest Mises stress in the section or at the depths',
+  max_mises_depth: 'Its depth', volume: 'Volume of the change',
   volume_error: 'Uncertainty of the volume (95 %)', overlap: 'Part that overlaps', changed: 'Part that has changed',
   missing: 'Part that is missing', nx: 'Nodes along x', ny: 'Nodes along y', dx: 'Spacing along x', dy: 'Spacing along y',
 };
@@ -323,9 +323,11 @@ const show = trying(async () => {
     $('numbers').replaceChildren(make('p', {className: 'failed', textContent: e.message}));
     $('at').textContent = '';
     $('stage').classList.remove('busy');
+    show.failed = e.message;
     throw e;
   }
   if (!valid()) return;
+  if ($('said').textContent === show.failed) tell(WORDS[run.state] ?? ''); // it was of another view
   document.body.dataset.shown = `${run.number} ${view} ${frame.channel}`;
   $('stage').classList.remove('busy');
 });
