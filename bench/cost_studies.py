@@ -82,8 +82,8 @@ def check_reference(tools, file, command, key, factor, reference):
     """Returns the error of this reference against one that is tighter by the factor."""
     value = reference[key]
     others = [w for k in ('slabs',) if k in reference for w in ('--vary', f'{k}={reference[k]:g}')]
-    rows, _ = study(tools, ['--vary', f'{key}={value:g}', '--reference', f'{key}={value * factor:g}', *others, '--of',
-                            reference['of']], file, command)
+    own = ['--grid', '1', '--tol', f'{value:g}'] if key == 'tol' else ['--vary', f'{key}={value:g}']  # --tol: of all programs
+    rows, _ = study(tools, [*own, '--reference', f'{key}={value * factor:g}', *others, '--of', reference['of']], file, command)
     return next(r['error'] for r in rows if r['what'] == 'trial')
 
 
