@@ -52,9 +52,9 @@ const double *rc_friction_solver_traction(const struct rc_friction_solver *slip,
 /* The tractions of the last kept increment. */
 const double *rc_friction_solver_kept(const struct rc_friction_solver *slip, int direction);
 void rc_friction_solver_slip(const struct rc_friction_solver *slip, int direction, double *to);
-/* So far, with all solvers beside it, in equivalents of a single map in double precision. */
 /* m: the largest slip of a node since the bodies touched. */
 double rc_friction_solver_largest_slip(const struct rc_friction_solver *slip);
+/* So far, with all solvers beside it, in equivalents of a single map in double precision. */
 double rc_friction_solver_convolutions(const struct rc_friction_solver *slip);
 /* nx ny: 0 where no load is carried, 1 where a node sticks, 2 where it slips. */
 void rc_friction_solver_state(const struct rc_friction_solver *slip, double *to);
