@@ -609,6 +609,8 @@ struct rc_adhesion_problem {
     /* m: exponential, the length over which sigma decreases to 1/e; dugdale, work/sigma(0);
      * compact, where sigma ends. 0: a cohesive length of two nodes */
     double range;
+    /* A retraction may begin where the bodies last moved apart: the model keeps that state, a map */
+    bool pull_off;
 };
 
 /* The law on this grid. */
@@ -673,6 +675,8 @@ struct rc_adhesion_state {
      * twice the misfit of a parabola through neighbouring states, or the error that a jump hides.
      * NAN where the load only rises: the retraction began beyond the lowest load */
     double pull_off_load, pull_off_approach, pull_off_spread;
+    /* m: approach at which the retraction of the model began */
+    double pull_off_from;
     /* the lowest load is at the first state of the retraction */
     bool pull_off_at_start;
     /* states of this retraction, otherwise 1 */
@@ -703,11 +707,12 @@ struct rc_adhesion_figures {
     struct rc_adhesion_state state;
 };
 /* The model (model.h) of such bodies. It takes a load or an approach; the approach -INFINITY, which is no
- * first point, retracts the bodies until they separate, and finds the lowest load on the way. Under a
- * tensile load the next stable state of lower energy is found, if there is one: see `separated`. Keeping a
- * point adds its plastic dents to the shape. Frames: adhesion, the attraction (Pa), and plastic, as for
- * elastic bodies. NULL when the problem is invalid, when the engine or method does not suit it, or memory is
- * short. */
+ * first point, retracts the bodies until they separate, and finds the lowest load on the way. If the last
+ * point lies beyond that load, and the problem has `pull_off`, the retraction begins at the state from which
+ * the bodies last moved apart. Under a tensile load the next stable state of lower energy is found, if there
+ * is one: see `separated`. Keeping a point adds its plastic dents to the shape. Frames: adhesion, the
+ * attraction (Pa), and plastic, as for elastic bodies. NULL when the problem is invalid, when the engine or
+ * method does not suit it, or memory is short. */
 RC_API struct rc_model *rc_adhesion_new(const struct rc_shape *shape, const double *h,
                                         const struct rc_adhesion_problem *problem,
                                         struct rc_err *err);

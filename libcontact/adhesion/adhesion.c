@@ -1454,6 +1454,7 @@ find_figures(struct rc_adhesion_solver *a)
     *f = (struct rc_adhesion_state){.pull_off_load = NAN,
                                     .pull_off_approach = NAN,
                                     .pull_off_spread = NAN,
+                                    .pull_off_from = NAN,
                                     .states = 1,
                                     .edge_traction = at_edge(&a->gap)};
     rc_sums_rows(&g->sums, figures_row, g, sums);

@@ -11,6 +11,18 @@
 #include "libcontact/memory.h"
 #include "libcontact/model/row.h"
 
+/* The state from which the bodies last moved apart: there a retraction begins that would otherwise begin
+ * beyond the pull-off. Between this state and the last kept one the approach only falls. */
+struct turn {
+    bool here;     /* it is the last kept state */
+    bool known;    /* else: `pressure` (Pa, net) and `approach` (m) are those of the state */
+    bool passed;   /* the load has risen since, or the contact is lost */
+    double lowest; /* N, of all loads since */
+    double last;   /* m: the last kept approach; -INFINITY: none, or separated */
+    double approach;
+    double *pressure; /* NULL: there was none so far */
+};
+
 struct adhesion {
     struct rc_model base;
     struct rc_adhesion_problem problem;
@@ -23,6 +35,9 @@ struct adhesion {
     bool pulls;   /* the point is a retraction                                        */
     bool again;   /* a state was read: the next step sets the point                   */
     bool returns; /* the state at the last kept point is being read                   */
+    struct turn turn;
+    bool turned;                    /* the retraction began at the turn */
+    struct rc_adhesion_state spent; /* states and work of a retraction before it turned */
     struct rc_adhesion_figures figures;
 };
 
@@ -70,16 +85,72 @@ make_path(struct adhesion *a, struct rc_err *err)
     return a->dent != NULL ? pass_heights(a, err) : RC_OK;
 }
 
+/* Stores the last kept state before the path leaves it, if the bodies may move apart from there. */
+static enum rc_status
+store_turn(struct adhesion *a, struct rc_err *err)
+{
+    struct turn *t = &a->turn;
+
+    if (!t->here)
+        return RC_OK;
+    if (rc_ranks_need(a->base.rows.ranks, rc_store_need(&a->base.own, a->n, &t->pressure), err,
+                      "out of memory for the state at which a retraction begins") != RC_OK)
+        return RC_FAIL;
+    rc_adhesion_solver_pressure(a->path, t->pressure);
+    t->approach = t->last;
+    t->known = true;
+    t->here = false;
+    return RC_OK;
+}
+
+/* Notes the state that is kept, if a retraction may follow. */
+static void
+note_turn(struct adhesion *a)
+{
+    const struct rc_adhesion_state *f = &a->figures.state;
+    const bool touches = !f->separated && f->contact_nodes > 0;
+    struct turn *t = &a->turn;
+
+    if (!a->problem.pull_off || a->pulls)
+        return;
+    t->here = touches && f->approach > t->last;
+    t->passed = !t->here && (t->passed || !touches || f->load > t->lowest);
+    t->lowest = t->here ? f->load : fmin(t->lowest, f->load);
+    t->last = f->separated ? -INFINITY : f->approach;
+}
+
+static bool
+may_turn(const struct adhesion *a)
+{
+    return a->turn.known && !a->turn.here && !a->turned;
+}
+
+/* Begins a retraction at the last state, or at the turn. */
+static enum rc_status
+retract(struct adhesion *a, bool turns, struct rc_err *err)
+{
+    if (turns) {
+        a->turned = true;
+        if (rc_adhesion_solver_start(a->path, a->turn.pressure, a->turn.approach, err) != RC_OK)
+            return RC_FAIL;
+        rc_adhesion_solver_past(a->path)->separated = false;
+    }
+    return rc_adhesion_solver_pull_off(a->path, err);
+}
+
 static enum rc_status
 set_point(struct adhesion *a, struct rc_err *err)
 {
     const struct rc_point *to = &a->base.to;
 
-    a->again = false;
+    a->again = a->turned = false;
+    a->spent = (struct rc_adhesion_state){0};
     if (make_path(a, err) != RC_OK)
         return RC_FAIL;
     a->pulls = rc_point_has(to, RC_APPROACH) && isinf(to->at[RC_APPROACH]);
-    return a->pulls ? rc_adhesion_solver_pull_off(a->path, err)
+    if (!a->pulls && store_turn(a, err) != RC_OK)
+        return RC_FAIL;
+    return a->pulls ? retract(a, may_turn(a) && a->turn.passed, err)
            : rc_point_has(to, RC_APPROACH)
                ? rc_adhesion_solver_set_approach(a->path, to->at[RC_APPROACH], err)
                : rc_adhesion_solver_set_load(a->path, to->at[RC_LOAD], err);
@@ -105,7 +176,11 @@ step(struct rc_model *m, struct rc_err *err)
     status = rc_adhesion_solver_step(a->path, err);
     rc_adhesion_solver_progress(a->path, &at);
     a->started |= !at.coarser;
-    return status;
+    if (!a->pulls || status == RC_MORE || status == RC_FAIL || !may_turn(a) ||
+        !rc_adhesion_solver_result(a->path)->pull_off_at_start)
+        return status;
+    a->spent = *rc_adhesion_solver_result(a->path);
+    return retract(a, true, err) == RC_OK ? RC_MORE : RC_FAIL;
 }
 
 static enum rc_status
@@ -117,6 +192,11 @@ look(struct rc_model *m, struct rc_point *at, struct rc_err *err)
     if (a->path == NULL)
         return rc_err_set(err, "there are no figures before the first point");
     *f = *rc_adhesion_solver_result(a->path);
+    f->states += a->spent.states;
+    f->iterations += a->spent.iterations;
+    f->eigen_steps += a->spent.eigen_steps;
+    f->convolutions += a->spent.convolutions;
+    f->pull_off_from = a->turned ? a->turn.approach : a->pulls ? a->turn.last : NAN;
     a->figures.contact = (struct rc_contact){.load = f->load,
                                              .mean_pressure = f->mean_pressure,
                                              .max_pressure = f->max_pressure,
@@ -151,6 +231,7 @@ keep(struct rc_model *m, struct rc_err *err)
 {
     struct adhesion *a = (struct adhesion *)m;
 
+    note_turn(a);
     a->pulls = false;
     if (a->figures.state.plastic_nodes == 0)
         return RC_OK;
@@ -194,6 +275,7 @@ set_heights(struct rc_model *m, const double *h, struct rc_err *err)
 
     for (size_t k = 0; k < a->n; k++)
         a->h[k] = h[k] + (a->dent != NULL ? a->dent[k] : 0);
+    a->turn = (struct turn){.last = -INFINITY, .pressure = a->turn.pressure};
     return pass_heights(a, err);
 }
 
@@ -238,6 +320,26 @@ read_path(struct adhesion *a, struct rc_state *s, double approach,
         *rc_adhesion_solver_past(a->path) = *past;
 }
 
+/* The turn; its map is exchanged by the caller. */
+static void
+turn_state(struct turn *t, struct rc_state *s)
+{
+    RC_STATE_FLAGS(s, &t->here, &t->known, &t->passed);
+    RC_STATE_NUMBERS(s, &t->approach);
+    RC_STATE_OPEN(s, &t->lowest, &t->last);
+}
+
+static void
+read_turn(struct adhesion *a, struct rc_state *s)
+{
+    const double *p = rc_state_read_map(s, a->n);
+
+    if (!rc_store_need(&a->base.own, a->n, &a->turn.pressure))
+        rc_state_refuse(s, "memory is short");
+    if (rc_state_agree(s, a->base.rows.ranks))
+        memcpy(a->turn.pressure, p, a->n * sizeof *p);
+}
+
 /* Reads the state at the last kept point, from which a retraction or a separation is repeated. */
 static void
 read_start(struct adhesion *a, struct rc_state *s)
@@ -261,8 +363,8 @@ goes_on(struct adhesion *a)
     return a->base.status == RC_MORE && rc_adhesion_solver_past(a->path)->begun;
 }
 
-/* A state holds the dents, the approach and the net pressure. On the way to a later point, and if the bodies
- * have separated, it holds the state at the last kept point. */
+/* A state holds the dents, the approach and the net pressure, and those of the turn. On the way to a later
+ * point, and if the bodies have separated, it holds the state at the last kept point. */
 static void
 state(struct rc_model *m, struct rc_state *s)
 {
@@ -287,6 +389,7 @@ state(struct rc_model *m, struct rc_state *s)
     }
     RC_STATE_FLAGS(s, &started, &past.begun, &past.separated, &dented);
     RC_STATE_NUMBERS(s, &approach, &past.dents[0], &past.dents[1]);
+    turn_state(&a->turn, s);
     if (rc_state_refused(s))
         return;
     if (!rc_state_reads(s)) {
@@ -294,6 +397,8 @@ state(struct rc_model *m, struct rc_state *s)
             rc_state_map(s, a->n, a->dent);
         if (started && (to = rc_state_map(s, a->n, NULL)) != NULL)
             rc_adhesion_solver_pressure(a->path, to);
+        if (a->turn.known)
+            rc_state_map(s, a->n, a->turn.pressure);
         return;
     }
     a->pulls = false;
@@ -305,6 +410,8 @@ state(struct rc_model *m, struct rc_state *s)
         rc_adhesion_solver_free(a->path);
         a->path = NULL;
     }
+    if (a->turn.known && !rc_state_refused(s))
+        read_turn(a, s);
     a->started = started;
     a->again = true;
 }
@@ -376,6 +483,7 @@ rc_adhesion_new(const struct rc_shape *shape, const double *h,
     a->problem.contact.ranks = m->rows.ranks;
     m->boundary = problem->contact.boundary;
     a->n = rc_model_nodes(m);
+    a->turn.last = -INFINITY;
     a->h = rc_store_copy(&m->own, a->n, sizeof *h, h);
     return rc_model_room(m, err) == RC_OK ? rc_give(&m) : NULL;
 }

@@ -138,6 +138,7 @@ retracted(struct rc_err *err)
     attraction.contact.hardness = 0;
     attraction.contact.tol = 1e-5;
     attraction.work = 0.3;
+    attraction.pull_off = true;
     return rc_adhesion_new(&shape, heights, &attraction, err);
 }
 

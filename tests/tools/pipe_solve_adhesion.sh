@@ -32,10 +32,22 @@ near "$(rc-pick --channel pressure --case 2 p.rcg | rc-info --json | grep -o '"m
 claim "gaps are never negative" awk -v m="$(rc-pick --channel gap --case 3 p.rcg | rc-info --json | grep -o '"min[a-z]*": [^,]*' | head -n 1 | sed 's/.* //')" 'BEGIN { exit !(m >= 0) }'
 claim "the frames have the key of the attraction" says "adhesion" rc-info p.rcg
 
-$soft --adhesion 50mJ/m2,jkr --approach 2um --pull-off --output pressure ball.rcg -o two.rcg
-claim "a retraction from beyond the pull-off does not know its load" warns 'the pull-off load is unknown, because the retraction begins at .*beyond it' \
-    bash -c "${soft/--quiet /} --adhesion 50mJ/m2,jkr --approach 2um,-1.5um --pull-off --report beyond.json -o beyond.rcg ball.rcg"
+$soft --adhesion 50mJ/m2,jkr --approach 2um --pull-off --output pressure --report two.tsv ball.rcg -o two.rcg
+# lists that pass the pull-off themselves: the bodies apart, in contact beyond it, separated by a load, and apart since
+for list in --approach=2um,0,-1.5um,-3um --approach=2um,-1.2um --load=0.2mN,-0.1mN,-0.5mN --load=0.2mN,-0.5mN,-0.1mN,0; do
+    rm -f passed.rcg
+    $soft --adhesion 50mJ/m2,jkr "$list" --pull-off --checkpoint passed.rcg --report passed.tsv ball.rcg -o x.rcg
+    rows=$(($(wc -l <passed.tsv) - 1))
+    between -1 "$(awk -v a="$(column pull_off_load $rows passed.tsv)" -v b="$(column pull_off_load 2 two.tsv)" -v s="$(column pull_off_spread $rows passed.tsv)" -v t="$(column pull_off_spread 2 two.tsv)" 'BEGIN { print (a - b) / (s + t) }')" 1 \
+        "$list passes the pull-off, and --pull-off finds its load from the last contact"
+    near "$(column load $rows passed.tsv)" "$(column pull_off_load $rows passed.tsv)" 0.01 "  with the state of that load"
+    $soft --adhesion 50mJ/m2,jkr "$list" --pull-off --checkpoint passed.rcg --resume --report resumed.tsv ball.rcg -o x.rcg
+    near "$(column pull_off_load $rows resumed.tsv)" "$(column pull_off_load $rows passed.tsv)" 2e-3 "  a checkpoint has that contact"
+done
+claim "a retraction of bodies that never touched does not know its load" warns 'the pull-off load is unknown, because the retraction begins at .*beyond it' \
+    bash -c "${soft/--quiet /} --adhesion 50mJ/m2,jkr --approach=-2um,-3um --pull-off --report beyond.json -o beyond.rcg ball.rcg"
 claim "  and says null" grep -q '"pull_off_load": null' beyond.json
+claim "  a separation with --pull-off is not told to take it" bash -c "rc-solve --estar 2MPa --adhesion 50mJ/m2,jkr --load=0.2mN,-0.5mN --pull-off ball.rcg -o s.rcg 2>said; grep -q 'because no state carries this load$' said"
 claim "one state and its pull-off are two cases" test "$(rc-info --json two.rcg | grep -o '"case": [0-9]' | sort -u | tr -d '\n')" = '"case": 1"case": 2'
 
 # ---- the same in other words ----

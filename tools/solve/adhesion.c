@@ -80,6 +80,7 @@ problem_of(const struct rc_problem *contact)
     struct rc_adhesion_problem problem = own.law.problem;
 
     problem.contact = *contact;
+    problem.pull_off = args.pull_off;
     return problem;
 }
 
@@ -282,10 +283,11 @@ warn_of_separation(struct run *run, const char *where, const struct rc_adhesion_
             "contact lasts down to pull-off",
             where);
     else
-        tool_warn(&run->d.t,
-                  "%s: the bodies have separated, because no state carries this load: take "
-                  "--approach to pass the pull-off, or --pull-off to find its load",
-                  where);
+        tool_warn(&run->d.t, "%s: the bodies have separated, because no state carries this load%s",
+                  where,
+                  args.pull_off ? ""
+                                : ": take --approach to pass the pull-off, or --pull-off to find "
+                                  "its load");
 }
 
 static void
@@ -324,12 +326,17 @@ warn_of_state(struct run *run, const char *where, const struct rc_adhesion_state
 static void
 tell(struct run *run, const char *where, const struct rc_adhesion_state *f, bool pulled)
 {
+    char spread[SHOWN_NUMBER], at[SHOWN_NUMBER], from[SHOWN_NUMBER];
+
     if (pulled && !f->pull_off_at_start)
         tool_note(&run->d.t,
-                  "%s: pull-off at %s +- %s, at approach %s; %zu states, %.3g convolutions, %.2g s",
+                  "%s: pull-off at %s +- %s, at approach %s, on a retraction from approach %s; "
+                  "%zu states, %.3g convolutions, %.2g s",
                   where, shown_in_unit(f->pull_off_load, "N"),
-                  shown_in_unit(f->pull_off_spread, "N"), shown_in_unit(f->pull_off_approach, "m"),
-                  f->states, f->convolutions, tool_now() - run->d.is.began);
+                  shown_in_unit_to(spread, f->pull_off_spread, "N"),
+                  shown_in_unit_to(at, f->pull_off_approach, "m"),
+                  shown_in_unit_to(from, f->pull_off_from, "m"), f->states, f->convolutions,
+                  tool_now() - run->d.is.began);
     if (f->separated) {
         tool_note(&run->d.t,
                   "%s: the bodies are apart and exert no force; %zu %s, %zu iterations, %.3g "
@@ -378,8 +385,10 @@ memory(struct run *run, const struct rc_problem *contact)
     const struct rc_shape shape = rc_grid_shape(run->g);
     const struct rc_adhesion_problem problem = problem_of(contact);
     /* heights, frame; state at the last point; shape of dents; state of --checkpoint */
+    /* where a retraction may begin: in the model, at the last point, in the state of --checkpoint */
+    const size_t turn = args.pull_off && run->steps->n > 1 ? 2u + (run->d.checkpoint != NULL) : 0;
     const size_t maps = 2u + (run->steps->n > 1 || args.pull_off) + !isinf(run->bound_min) +
-                        (run->d.checkpoint != NULL);
+                        (run->d.checkpoint != NULL) + turn;
     const size_t kept =
         (size_t)rc_by_padding(contact->boundary, 128, 32); /* bytes a node of a retraction */
     struct rc_expected expected = {0};
