@@ -132,6 +132,16 @@ claim "  the message of the later load has its reason" bash -c "grep -q 'load -1
 for row in 2 3 4; do
     claim "  row $row has load 0" test "$(column load $row s.tsv)" = 0
 done
+claim "  their approach and mean gap are unknown" test "$(column approach 2 s.tsv) $(column mean_gap 3 s.tsv) $(column contact_area 2 s.tsv)" = "NaN NaN 0"
+drawn() { # CURVE WORD: 1 if the legend has the word
+    rc-render --curve "$1" -o drawn.svg s.tsv 2>drawn.said
+    status=$?
+    grep -c ">$2<" drawn.svg
+}
+claim "  curves say separated, and not that rows stopped short" bash -c "rc-render --curve load:contact_area -o drawn.svg s.tsv 2>drawn.said; test \$? = 3 && grep -q 'in 2 of the rows the bodies have separated' drawn.said && ! grep -q 'short' drawn.said && ! grep -q 'not converged' drawn.svg"
+claim "  a curve of the area has the jump to area 0, from a state of loading" test "$(drawn load:contact_area jump) $(drawn load:contact_area retraction) $(drawn load:contact_area loading)" = "1 1 1"
+claim "  one of the radius, which they do not have, has none" test "$(drawn load:contact_radius jump)" = 0
+claim "  and one of the approach has none" test "$(drawn approach:load jump)" = 0
 $soft --adhesion 50mJ/m2,jkr --load 0.1mN --report one.tsv ball.rcg -o one.rcg
 near "$(column contact_area 5 s.tsv)" "$(column contact_area 1 one.tsv)" 0.02 "  a later contact is that of fresh bodies"
 

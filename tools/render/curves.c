@@ -37,6 +37,7 @@ enum helper {
     SPEED,
     SOURCE, /* these two are words that distinguish pieces */
     LOAD,
+    SEPARATED,
     TIME,
     HELPERS
 };
@@ -56,6 +57,7 @@ static const char *const helper_name[HELPERS] = {"nx",
                                                  "speed",
                                                  "source",
                                                  "load",
+                                                 "separated",
                                                  "time"};
 
 /* The columns of the command line. */
@@ -232,7 +234,8 @@ static bool
 is_label(const struct choice *choice, size_t k)
 {
     return (k >= choice->columns && k < choice->columns + choice->bys) ||
-           k == choice->asked + SOURCE || k == choice->asked + LOAD;
+           k == choice->asked + SOURCE || k == choice->asked + LOAD ||
+           k == choice->asked + SEPARATED;
 }
 
 static void
@@ -308,23 +311,6 @@ check_units(struct curves *c)
         }
 }
 
-static void
-check_convergence(struct curves *c)
-{
-    size_t n = 0;
-
-    for (size_t f = 0; f < c->tables; f++)
-        for (size_t k = 0; k < c->table[f].rows; k++)
-            n += helper(c, &c->table[f], CONVERGED)[k] == 0;
-    if (n == 0)
-        return;
-    c->short_of = true;
-    tool_warn(c->tool, "%zu of the rows stopped short of their accuracy: the figure says so", n);
-    tool_fails_with(c->tool, EXIT_SHORT);
-}
-
-/* ---- groups of rows ---- */
-
 /* The word of a row in a column of labels; NULL: none. */
 static const char *
 word_of(const struct table *table, size_t column, size_t row)
@@ -333,6 +319,39 @@ word_of(const struct table *table, size_t column, size_t row)
 
     return isnan(v) ? NULL : table->column[column].word[(size_t)v];
 }
+
+/* True if the bodies are apart in this row: its force and area are 0, and its approach is unknown. */
+static bool
+is_separated(const struct curves *c, const struct table *table, size_t row)
+{
+    const char *word = word_of(table, c->choice.asked + SEPARATED, row);
+
+    return word != NULL && strcmp(word, "yes") == 0;
+}
+
+static void
+check_convergence(struct curves *c)
+{
+    size_t n = 0, apart = 0;
+
+    for (size_t f = 0; f < c->tables; f++)
+        for (size_t k = 0; k < c->table[f].rows; k++)
+            if (helper(c, &c->table[f], CONVERGED)[k] == 0)
+                (*(is_separated(c, &c->table[f], k) ? &apart : &n))++;
+    if (n + apart == 0)
+        return;
+    c->short_of = n > 0;
+    if (n > 0)
+        tool_warn(c->tool, "%zu of the rows stopped short of their accuracy: the figure says so",
+                  n);
+    if (apart > 0)
+        tool_warn(c->tool,
+                  "in %zu of the rows the bodies have separated, because no state carries the load",
+                  apart);
+    tool_fails_with(c->tool, EXIT_SHORT);
+}
+
+/* ---- groups of rows ---- */
 
 /* True if rows of a table come from several sources with several rows each: a line through all of them would
  * have no meaning. */
@@ -554,7 +573,8 @@ find_steps(struct curves *c, const struct table *table, size_t from, size_t to)
     for (size_t k = 1; k < to - from; k++) {
         double here = at[from + k], last = at[from + k - 1];
 
-        if (jumps[from + k] > 0)
+        if (jumps[from + k] > 0 || is_separated(c, table, from + k) ||
+            is_separated(c, table, from + k - 1))
             step[k] = JUMP;
         else if (fabs(here - last) > rounding * fmax(fabs(here), fabs(last)))
             step[k] = here < last ? UNLOADING : LOADING;
@@ -562,6 +582,16 @@ find_steps(struct curves *c, const struct table *table, size_t from, size_t to)
             step[k] = step[k - 1] == JUMP ? LOADING : step[k - 1];
     }
     return step;
+}
+
+/* True if a stretch has a point, or a jump a line. */
+static bool
+is_drawn(const double *x, const double *y, size_t n, bool line)
+{
+    for (size_t k = 0; k + line < n; k++)
+        if (isfinite(x[k] + y[k]) && isfinite(x[k + line] + y[k + line]))
+            return true;
+    return false;
 }
 
 /* Divides a path into stretches with one direction, with gaps between them; a single row between jumps
@@ -576,9 +606,11 @@ add_stretches(struct curves *c, const double *x, const double *y, const double *
 
     for (size_t k = 0; k < rows; k++) {
         bool to = k > 0 && step[k] == what, on = k + 1 < rows && step[k + 1] == what;
-        bool alone = k > 0 && step[k] == JUMP && (k + 1 == rows || step[k + 1] == JUMP);
+        bool alone = (k == 0 || step[k] == JUMP) && (k + 1 == rows || step[k + 1] == JUMP);
+        /* separated bodies have no approach */
+        bool apart = isnan(at[k]) || (k > 0 && at[k] < at[k - 1]);
 
-        if (!to && !on && !(alone && what == (at[k] < at[k - 1] ? UNLOADING : LOADING)))
+        if (!to && !on && !(alone && what == (apart ? UNLOADING : LOADING)))
             continue;
         if (n > 0 && !to) {
             v[n] = NAN;
@@ -587,7 +619,7 @@ add_stretches(struct curves *c, const double *x, const double *y, const double *
         v[n] = x[k];
         v[2 * rows + n++] = y[k];
     }
-    if (n == 0) {
+    if (!is_drawn(v, v + 2 * rows, n, what == JUMP)) {
         free(v);
         return;
     }

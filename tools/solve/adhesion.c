@@ -122,7 +122,7 @@ begin(struct run *run, struct rc_model *m, const struct rc_problem *problem)
         run->d.course.checkpoint = NULL;
 }
 
-/* The error of the shape is not that of the heights. */
+/* The error of the shape is not that of the heights. Separated bodies are in equilibrium at each distance. */
 static bool
 look(struct run *run, struct rc_model *m, struct solution *s)
 {
@@ -132,6 +132,8 @@ look(struct run *run, struct rc_model *m, struct solution *s)
     own.figures = &f->state;
     s->contact = f->contact;
     s->contact.shape_error = NAN;
+    if (f->state.separated)
+        s->contact.approach = s->contact.mean_gap = NAN;
     return true;
 }
 
