@@ -77,6 +77,7 @@ struct result { /* NAN: unknown */
     double hardness, plastic_area;
     size_t plastic_nodes;
     const char *converged; /* "yes", "no"; NULL: unknown */
+    bool separated;
 };
 
 #define FIGURE(member) RC_FIGURE(struct result, member)
@@ -107,11 +108,12 @@ result_of(const struct rc_grid *g, const struct counts *c, const struct rc_stati
     const char *converged = rc_grid_get(g, "converged");
     const double cell = g->dx * g->dy;
 
-    *r = (struct result){NAN, NAN, NAN, NAN, NAN, NAN, NAN, NAN, 0, NULL};
+    *r = (struct result){NAN, NAN, NAN, NAN, NAN, NAN, NAN, NAN, 0, NULL, false};
     rc_grid_number(g, "approach", &r->approach);
     rc_grid_number(g, "hardness", &r->hardness);
     if (converged != NULL && (strcmp(converged, "yes") == 0 || strcmp(converged, "no") == 0))
         r->converged = converged;
+    r->separated = map_says(g, "separated", "yes");
     if (s->missing > 0 || s->infinite > 0)
         return;
     r->plastic_nodes = c->plastic;
@@ -219,7 +221,9 @@ put_result(FILE *out, const struct rc_grid *g, const struct result *r)
                     r->plastic_nodes, r->plastic_nodes == 1 ? "" : "s");
         fprintf(out, "%s\n", r->plastic_area == 0 ? ", not reached" : "");
     }
-    if (r->converged != NULL)
+    if (r->separated)
+        fprintf(out, "  %-10s %s\n", "separated", "yes: the bodies exert no force");
+    else if (r->converged != NULL)
         fprintf(out, "  %-10s %s\n", "converged",
                 strcmp(r->converged, "yes") == 0 ? "yes" : "no: it stopped short of its accuracy");
 }

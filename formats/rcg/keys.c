@@ -51,6 +51,7 @@ static const struct rule keys[] = {
     {"boundary", WORDS{"free", "periodic", "periodic-x", "periodic-y", NULL}},
     {"datum", ABOVE(0), .unit = "m"},
     {"converged", WORDS{"yes", "no", NULL}},
+    {"separated", WORDS{"yes", NULL}},
     {"hardness_map", WORDS{"yes", NULL}},
     {"section", WORDS{"x", "y", NULL}},
     {"direction", WORDS{"x", "y", NULL}},

@@ -34,7 +34,7 @@ static const struct kind {
      LIST("", "Yes", "true", "1", "x", "yes ", "yes,no", "perodic"), NULL, NULL},
     {LIST("boundary"), LIST("free", "periodic", "periodic-x", "periodic-y"),
      LIST("", "perodic", "periodic-z", "Free", "yes", "free periodic"), NULL, NULL},
-    {LIST("hardness_map"), LIST("yes"), LIST("", "no", "1"), NULL, NULL},
+    {LIST("hardness_map", "separated"), LIST("yes"), LIST("", "no", "1"), NULL, NULL},
     {LIST("section", "direction"), LIST("x", "y"), LIST("", "z", "X", "xy", "x,y", "0"), NULL,
      NULL},
     {LIST("load", "approach", "at", "mu", "tangential_x", "tangential_y", "displacement_x",

@@ -179,7 +179,7 @@ window_x=1e-6 time=1 speed=1 distance=1 cycles=10 wear_1=1e-15 wear_2=1e-15 coat
 flow_conductance=1 flow_rate=1 pressure_drop=1 viscosity=1 throat_x=1e-6 throat_y=1e-6 filled=3 outliers=3 spikes=3 taper=1e-6 form.radius=1
 height.error=1e-9 datum=1e-3 align.shift_x=1e-6 align.shift_y=1e-6 align.rotation=1e-3 align.residual=1e-9 align.volume=1e-15
 align.volume_error=1e-17'
-in_messages='source history case converged' # they name the frame, or cause a warning
+in_messages='source history case converged separated' # they name the frame, or cause a warning
 claim "each key of the table has a value here" bash -c 'comm -23 rules.txt <(printf "%s\n" $0 | sed "s/=.*//" | sort) >&2
     [ -z "$(comm -23 rules.txt <(printf "%s\n" $0 | sed "s/=.*//" | sort))" ]' "$values $in_messages"
 keys_of() { # TOOL FRAMES COMMAND...: plain.* are those of frames_of

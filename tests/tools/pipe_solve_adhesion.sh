@@ -133,6 +133,8 @@ for row in 2 3 4; do
     claim "  row $row has load 0" test "$(column load $row s.tsv)" = 0
 done
 claim "  their approach and mean gap are unknown" test "$(column approach 2 s.tsv) $(column mean_gap 3 s.tsv) $(column contact_area 2 s.tsv)" = "NaN NaN 0"
+claim "  rc-info, rc-render and their warning say separated" bash -c "rc-pick --case 2 s.rcg -o two.rcg 2>pick.said; rc-info two.rcg >info.txt 2>info.said; test \$? = 3 && grep -q '^  separated  yes' info.txt && ! grep -q 'stopped short' info.txt info.said && grep -q 'the bodies have separated (separated=yes)' info.said && rc-render --channel gap -o two.svg two.rcg 2>two.said; test \$? = 3 && grep -q 'separated' two.svg && ! grep -q 'not converged' two.svg"
+claim "  without adhesion their heights have no such key" bash -c "rc-pick --case 2 --channel height s.rcg -o height.rcg 2>pick.said; rc-solve --quiet --estar 2MPa --load 1mN -o pressed.rcg height.rcg; strings pressed.rcg >pressed.txt; strings height.rcg | grep '^separated=yes' && grep -q '^boundary=free' pressed.txt && ! grep -q '^separated=' pressed.txt"
 drawn() { # CURVE WORD: 1 if the legend has the word
     rc-render --curve "$1" -o drawn.svg s.tsv 2>drawn.said
     status=$?

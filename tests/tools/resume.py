@@ -247,7 +247,7 @@ FIXED = {('rc-slip', o) for o in 'history E1 nu1 E2 nu2 body1 body2 materials pe
 KEYS = {
     'case': [], 'source': ['other'], 'file.*': [], 'history': ['rc-synth 0 sphere'], 'periodic': ['yes', 'x'], 'filled': ['3'], 'outliers': ['3'], 'spikes': ['3'],
     'dunit': [], 'taper': ['2e-6'], 'form.radius': ['1'], 'form': ['sphere 1e-3'], 'boundary': ['periodic', 'free', 'periodic-y'], 'datum': ['1e-3'], 'estar': ['1e11'],
-    'e1': ['1.5e11'], 'nu': ['.25'], 'e2': ['1.5e11'], 'nu2': ['.25'], 'load': ['.02'], 'hardness': ['3e9'], 'hardness_map': ['yes'],
+    'e1': ['1.5e11'], 'nu': ['.25'], 'e2': ['1.5e11'], 'nu2': ['.25'], 'load': ['.02'], 'hardness': ['3e9'], 'hardness_map': ['yes'], 'separated': ['yes'],
     'cycles': ['3'], 'wear_1': ['1e-15'], 'wear_2': ['1e-15'], 'coat_left': ['1e-3'], 'bending_limit': ['1e8'], 'torsion_limit': ['1e8'], 'yield': ['1e9'],
     'hardening': ['1e9'], 'slabs': ['3'], 'approach': ['1e-7'], 'position': ['1e-6'], 'height': ['1e-6'], 'converged': ['yes', 'no'],
     'window_x': ['1e-6'], 'creep_x': ['1'], 'creep_y': ['1'], 'spin': ['1'], 'friction': ['.2'], 'tau_max': ['1e9'], 'tangential_x': ['1'],

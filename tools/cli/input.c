@@ -112,8 +112,11 @@ check_convergence(struct tool *t, const struct rc_grid *g)
         return;
     if (!t->input.warned_short)
         tool_warn(t,
-                  "%s: this solution stopped short of its accuracy (converged=no): results from "
-                  "it are no more accurate",
+                  map_says(g, "separated", "yes")
+                      ? "%s: the bodies have separated (separated=yes), because no state carries "
+                        "the asked load: force and pressure are 0"
+                      : "%s: this solution stopped short of its accuracy (converged=no): results "
+                        "from it are no more accurate",
                   tool_where(t, g));
     t->input.warned_short = true;
     tool_fails_with(t, EXIT_SHORT);

@@ -42,7 +42,9 @@ look_pair(const char *text, enum unit unit, double pair[2], struct rc_err *err)
 const char *
 look_stamp(const struct rc_grid *g)
 {
-    return map_says(g, "converged", "no") ? "not converged" : NULL;
+    return map_says(g, "separated", "yes")  ? "separated"
+           : map_says(g, "converged", "no") ? "not converged"
+                                            : NULL;
 }
 
 static void

@@ -154,6 +154,7 @@ set_keys(struct run *run, struct rc_grid *as)
     tool_must(&run->d.t, as, rc_grid_set(as, "adhesion", law, &run->d.t.err));
     tool_must(&run->d.t, as,
               rc_grid_set_number(as, "load", run->solution.contact.load, &run->d.t.err));
+    tool_set(&run->d.t, as, "separated", own.figures->separated ? "yes" : NULL);
 }
 
 /* ---- warnings ---- */
@@ -557,6 +558,7 @@ const struct effect solve_effect_adhesion = {
     .judge_alone = judge,
     .keys = set_keys,
     .frames = (const char *const[]){"adhesion", NULL},
+    .foreign = (const char *const[]){"separated", NULL},
     .frames_alone = "needs --adhesion",
     .off = "left out: no --adhesion",
     .state = state,
