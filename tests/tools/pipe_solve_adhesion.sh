@@ -33,6 +33,8 @@ claim "gaps are never negative" awk -v m="$(rc-pick --channel gap --case 3 p.rcg
 claim "the frames have the key of the attraction" says "adhesion" rc-info p.rcg
 
 $soft --adhesion 50mJ/m2,jkr --approach 2um --pull-off --output pressure --report two.tsv ball.rcg -o two.rcg
+claim "  it is named as the pull-off, not as a load" bash -c "rc-solve --verbose --estar 2MPa --adhesion 50mJ/m2,jkr --approach 2um --pull-off --report two.tsv ball.rcg -o two.rcg 2>said; grep -q 'case 2, pull-off: pull-off at .*on a retraction from approach 2 um' said"
+claim "  and no approach was asked of it" test "$(column asked_approach 1 two.tsv) $(column asked_approach 2 two.tsv)" = "2e-06 NaN"
 # lists that pass the pull-off themselves: the bodies apart, in contact beyond it, separated by a load, and apart since
 for list in --approach=2um,0,-1.5um,-3um --approach=2um,-1.2um --load=0.2mN,-0.1mN,-0.5mN --load=0.2mN,-0.5mN,-0.1mN,0; do
     rm -f passed.rcg

@@ -11,6 +11,14 @@ static const double no_modulus = 1e5; /* Pa: lower than E* of any solid */
 static const size_t fewest_nodes[] = {20, 100};
 static const double fewest_each = 4;
 
+bool
+solve_pulls_off(const struct run *run)
+{
+    const struct rc_point *to = &run->d.point[run->d.at];
+
+    return (to->given >> RC_APPROACH & 1) && isinf(to->at[RC_APPROACH]);
+}
+
 const char *
 solve_where(const struct run *run, const struct rc_grid *g, char *text, size_t size)
 {
@@ -37,8 +45,11 @@ solve_where(const struct run *run, const struct rc_grid *g, char *text, size_t s
         name = "mean pressure";
         unit = "Pa";
     }
-    snprintf(text, size, "%s, case %zu, %s %s%s", source, run->d.course.number, name,
-             shown_in_unit(run->steps->v[run->step], unit), axes);
+    if (solve_pulls_off(run))
+        snprintf(text, size, "%s, case %zu, pull-off", source, run->d.course.number);
+    else
+        snprintf(text, size, "%s, case %zu, %s %s%s", source, run->d.course.number, name,
+                 shown_in_unit(run->steps->v[run->step], unit), axes);
     return text;
 }
 

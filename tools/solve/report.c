@@ -153,10 +153,12 @@ report_asked(struct report *r, const struct run *run, const struct rc_model *m,
     report_number(r, "radius", a->radius, "m");
     report_text(r, "layers", layers);
     report_number(r, "tol", at.tol, NULL);
-    report_number(r, "asked_load", a->load.n > 0 ? physics_problem(a, run->g, run->step).load : NAN,
-                  "N");
-    report_number(r, "asked_mean_pressure", a->mean_pressure.n > 0 ? step : NAN, "Pa");
-    report_number(r, "asked_approach", a->approach.n > 0 ? step : NAN, "m");
+    const bool listed = !solve_pulls_off(run);
+
+    report_number(r, "asked_load",
+                  listed && a->load.n > 0 ? physics_problem(a, run->g, run->step).load : NAN, "N");
+    report_number(r, "asked_mean_pressure", listed && a->mean_pressure.n > 0 ? step : NAN, "Pa");
+    report_number(r, "asked_approach", listed && a->approach.n > 0 ? step : NAN, "m");
 }
 
 /* The columns of effects at this place. */

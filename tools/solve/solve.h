@@ -136,6 +136,8 @@ struct rc_problem solve_problem(struct run *run, size_t step);
 
 /* ---- judge.c ---- */
 
+/* True at the pull-off, the point after a list. */
+bool solve_pulls_off(const struct run *run);
 /* "steel.x3p, case 2, load 3 N": the name of a solution in messages. */
 const char *solve_where(const struct run *run, const struct rc_grid *g, char *text, size_t size);
 /* Warns of the limits of a solution and, with --verbose, prints its figures. */
