@@ -164,17 +164,22 @@ warn_of_grid(struct run *run, const char *where)
 {
     const struct rc_grid *g = run->g;
     const struct rc_adhesion_scales *s = &own.scales;
-    char length[SHOWN_NUMBER], range[SHOWN_NUMBER];
+    char length[SHOWN_NUMBER], range[SHOWN_NUMBER], *blank;
     struct adhesion_grid need;
 
     if (adhesion_resolved(s, run->physics->boundary, fmax(g->dx, g->dy), &need))
         return;
+    shown_in_unit_to(range, need.range, "m");
+    if ((blank = strchr(range, ' ')) != NULL) /* a word of the command line */
+        memmove(blank, blank + 1, strlen(blank));
     tool_warn(&run->d.t,
               "%s: the cohesive length, %s, is %.2g of the spacing: the grid is too coarse for "
               "this law, and pull-off and hysteresis will be too large (lattice pinning): take a "
-              "spacing of %s, or, if only the work matters, a range of %s",
+              "spacing of %s, or, if only the work matters, a longer range, as --adhesion "
+              "%.*s,%s,%s",
               where, shown_in_unit_to(length, s->cohesive_length, "m"), s->cohesive_nodes,
-              shown_in_unit(need.spacing, "m"), shown_in_unit_to(range, need.range, "m"));
+              shown_in_unit(need.spacing, "m"), (int)strcspn(args.law, ","), args.law, s->law,
+              range);
 }
 
 /* Work above that of any surfaces is that of a forgotten unit, or of an adhesive that dissipates. */
