@@ -80,8 +80,8 @@ claim "a cut, a histogram and a material ratio have them too" eval '
     rc-render --cut y=0 --x-range -0.1mm:0.1mm --y-range -20um:10um -o z.svg ball.rcg && [ "$(axis z.svg)" = "−100 100 −20 10" ] &&
     rc-render --histogram --x-range -10um:10um -o z.svg ball.rcg && [[ "$(axis z.svg)" = "−10 10 "* ]] &&
     rc-render --material-ratio --x-range 0:50% -o z.svg ball.rcg && [[ "$(axis z.svg)" = "0 50 "* ]]'
-claim "sealed loads outside of them have no mark" eval 'printf "mean_pressure/Pa\tflow_rate/m3/s\n1\t1e-9\n2\t1e-12\n3\t0\n4\t0\n" |
-    rc-render --log y --curve mean_pressure:flow_rate --x-range 0:3 -o z.svg && [ "$(grep -o "<path d=\"[^\"]*Z\"" z.svg | wc -l)" = 2 ] && shows z.svg ">1 load sealed"'
+claim "sealed cases outside of them have no mark" eval 'printf "mean_pressure/Pa\tflow_rate/m3/s\n1\t1e-9\n2\t1e-12\n3\t0\n4\t0\n" |
+    rc-render --log y --curve mean_pressure:flow_rate --x-range 0:3 -o z.svg && [ "$(grep -o "<path d=\"[^\"]*Z\"" z.svg | wc -l)" = 2 ] && shows z.svg ">1 case sealed"'
 
 # ---- groups ----
 

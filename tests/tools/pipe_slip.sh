@@ -185,21 +185,21 @@ near "$(column dissipated_energy 1 slides.tsv)" 72 1e-5 "    which takes the wor
 # the proposals of the messages, with a path of dissimilar bodies
 rc-synth sphere --nx 16 --dx 40um --radius 7.5mm | rc-solve --quiet --load 240N --E1 210GPa --nu1 0.3 --E2 rigid -o coarse.rcg
 proposed() { # OPTIONS...: prints the options that the last message proposes
-    rc-slip --mu 0.3 --tangential 20N "$@" -o x.rcg coarse.rcg 2>&1 | sed -n 's/.*take \(--increments [0-9]*\( --tol [0-9.e-]*\)\{0,1\}\).*/\1/p' | tail -n 1 || true
+    rc-slip --mu 0.3 --tangential 20N "$@" -o asked.rcg coarse.rcg 2>&1 | sed -n 's/.*take \(--increments [0-9]*\( --tol [0-9.e-]*\)\{0,1\}\).*/\1/p' | tail -n 1 || true
 }
 claim "a message about increments names a number" says '^--increments [0-9]*$' proposed
 # shellcheck disable=SC2046
-claim "  with it there is no message" test -z "$(rc-slip --mu 0.3 --tangential 20N $(proposed) -o x.rcg coarse.rcg 2>&1)"
+claim "  with it there is no message" test -z "$(rc-slip --mu 0.3 --tangential 20N $(proposed) -o asked.rcg coarse.rcg 2>&1)"
 claim "  and where it would be too large, a tolerance that can be reached" says '^--increments 1000 --tol 0\.0[0-9]*$' proposed --tol 1e-6
 # shellcheck disable=SC2046
-claim "    as its run shows" rc-slip --mu 0.3 --tangential 20N $(proposed --tol 1e-6) --report most.tsv -o x.rcg coarse.rcg
-claim "  a force of the order of rounding is 0" warns 'a force of 0 N: the increments' rc-slip --mu 0.3 --tangential 20N -o x.rcg coarse.rcg
-rc-slip --verbose --mu 0.3 --path '240N,0,0; 240N,36N,0; 0,0,0' --report told.tsv -o x.rcg ball.rcg 2>told.txt
+claim "    as its run shows" rc-slip --mu 0.3 --tangential 20N $(proposed --tol 1e-6) --report most.tsv -o asked.rcg coarse.rcg
+claim "  a force of the order of rounding is 0" warns 'a force of 0 N: the increments' rc-slip --mu 0.3 --tangential 20N -o asked.rcg coarse.rcg
+rc-slip --verbose --mu 0.3 --path '240N,0,0; 240N,36N,0; 0,0,0' --report told.tsv -o asked.rcg ball.rcg 2>told.txt
 told() { sed -n "s/.*case $1, .*$2 \([0-9.]*\) .*/\1/p" told.txt; }
 near "$(told 2 'largest slip')e-9" "$(column largest_slip_total 2 told.tsv)" 1e-4 "--verbose prints the figures of each case: slip"
 near "$(told 2 'displacement along x')e-9" "$(column displacement_x 2 told.tsv)" 1e-4 "  displacement"
 claim "  without those that are unknown" lacks 'nan' told.txt
-claim "  of rolling too" warns 'creepage along x 0.001, .*friction energy per length rolled' rc-slip --verbose --mu 0.3 --steady --creep 1e-3 -o x.rcg ball.rcg
+claim "  of rolling too" warns 'creepage along x 0.001, .*friction energy per length rolled' rc-slip --verbose --mu 0.3 --steady --creep 1e-3 -o asked.rcg ball.rcg
 claim "too few increments for an estimate cause a warning" warns "increments 1 is too few to estimate" rc-slip --mu 0.3 --path '240N,40N,0' --increments 1 --report few.tsv -o big.rcg ball.rcg
 claim "  the estimate is then null" test "$(column traction_error_estimate 1 few.tsv)$(column increment_error_estimate 1 few.tsv) $(column error_limited_by 1 few.tsv)" = "NaNNaN unknown"
 refuses 3 'the increments cause an error of .* take --increments' "an error above --tol is not converged" "rc-slip --mu 0.3 --tangential 36N --tol 1e-4 --increments 8 --report tight.tsv -o tight.rcg ball.rcg"
