@@ -39,6 +39,7 @@ enum {
     STICK = RC_FACE_STICK,
     SLIP = RC_FACE_SLIP,
     STEPS = RC_STEADY_STEPS,
+    PAST = RC_STEADY_PAST,
     SUMS = 6, /* those of `look`, or products with STEPS vectors */
     /* Extensions of the displacement ahead of the rows. Half takes 8 % more convolutions, and double 1 %
      * fewer (24 runs: smooth and rough balls, 64 to 512 nodes a side, to 1e-2 and 1e-4). */
@@ -448,15 +449,24 @@ find_residual(struct rc_steady *d)
     return d->space.first * sum[0];
 }
 
-/* If the linear iteration of the last step has left the part c of its residual, further steps reduce it as
+static double
+share(double of, double whole)
+{
+    return whole > 0 ? of / whole : 0;
+}
+
+/* If the linear iteration of the last step has left the part c of its residual, or one of the last steps
+ * the part c of its rest, because nodes begin and cease to slip one after another, further steps reduce it as
  * little: the error is 1/(1 - c) of the first one of them. */
 static void
 estimate(struct rc_steady *d)
 {
-    const double slow = fmax((1 - inner_tol) / (1 - fmin(d->found.left, 0.95)), 1);
+    double c = d->found.left;
 
-    d->found.estimate =
-        safety * slow * (find_residual(d) / fmax(d->found.size, DBL_MIN) + d->found.residual);
+    d->found.rest = find_residual(d) / fmax(d->found.size, DBL_MIN) + d->found.residual;
+    for (int k = 0; k < PAST; k++)
+        c = fmax(c, share(k > 0 ? d->found.past[k - 1] : d->found.rest, d->found.past[k]));
+    d->found.estimate = safety * fmax((1 - inner_tol) / (1 - fmin(c, 0.95)), 1) * d->found.rest;
 }
 
 /* The length of the first step if a force is given, over that of the linear theory. */
@@ -776,6 +786,7 @@ rc_steady_begin(struct rc_steady *d)
 {
     d->found.steps = d->found.fallbacks = 0;
     d->found.left = 0;
+    memset(d->found.past, 0, sizeof d->found.past);
     prepare(d, false);
 }
 
@@ -800,6 +811,8 @@ rc_steady_step(struct rc_steady *d, struct rc_err *err)
     if (d->found.steps >= d->asked.most)
         return RC_SHORT;
     d->found.steps++;
+    memmove(d->found.past + 1, d->found.past, (PAST - 1) * sizeof(double));
+    d->found.past[0] = isfinite(d->found.rest) ? d->found.rest : 0;
     solve(d, dv);
     for (int c = 0; c < 2; c++)
         memcpy(d->step.old[c], d->q[c], d->n * sizeof(double));

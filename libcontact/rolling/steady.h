@@ -20,6 +20,7 @@
 #include "libcontact/friction/discs.h"
 
 enum {
+    RC_STEADY_PAST = 3,
     RC_STEADY_STEPS = 5 /* of the linear iteration: its vectors need most of the memory */
 };
 
@@ -82,7 +83,9 @@ struct rc_steady {
         double residual; /* relative: change of q by a projected step of length 1/self     */
         double estimate; /* estimated relative L1 error of q */
         double left;     /* part of the residual, by the last linear iteration */
-        double sum[2];   /* of q                                                           */
+        double rest;     /* relative: tractions of the residual, and the residual  */
+        double past[RC_STEADY_PAST]; /* that before the last steps; 0: none */
+        double sum[2]; /* of q                                                           */
         size_t stick, slipping, steps, fallbacks;
     } found;
     struct rc_discs *discs; /* for steps in time; NULL: none was necessary */
@@ -102,7 +105,7 @@ RC_OWNER(rc_steady)
 void rc_steady_guess(struct rc_steady *d);
 /* Starts from q, which is moved to the discs. */
 void rc_steady_begin(struct rc_steady *d);
-/* The same with the q and the part left, steps and fallbacks of an interrupted iteration. */
+/* The same with the q, the part left, the rests, steps and fallbacks of an interrupted iteration. */
 void rc_steady_begin_again(struct rc_steady *d);
 /* One step of Newton's method: RC_MORE; RC_OK when the estimate is below tol; RC_SHORT after the most steps;
  * RC_FAIL when memory is short. */
