@@ -32,14 +32,14 @@ struct spread {
 };
 
 /* The interval of an area, from the nodes that join from one contact to another. Both ends are whole nodes,
- * so that they have a node to spare. */
+ * so that they have a node to spare. Where nodes join and others leave, a pair of them may be one of either. */
 static void
 set_nodes(const struct rc_scene *s, struct rc_scene_effect *e, const struct solved *to,
           struct spread by)
 {
     const double n = (double)s->now.contact.contact_nodes,
                  joined = fabs((double)to->contact.contact_nodes - n);
-    double closing = 0, join = 0, leave = 0;
+    double closing = 0, join = 0, leave = 0, in = 0, out = 0;
 
     for (size_t k = 0; k < s->n; k++)
         closing = fmax(closing, s->now.gap[k] - to->gap[k]);
@@ -47,9 +47,11 @@ set_nodes(const struct rc_scene *s, struct rc_scene_effect *e, const struct solv
         const double closes = fmax(s->now.gap[k], 0) - to->gap[k], falls = s->now.p[k] - to->p[k];
         join += !(to->p[k] > 0) && to->gap[k] <= (by.more - 1) * closes + by.tiny * closing;
         leave += to->p[k] > 0 && to->p[k] <= (by.more - 1) * falls;
+        in += !(s->now.p[k] > 0) && to->p[k] > 0;
+        out += s->now.p[k] > 0 && !(to->p[k] > 0);
     }
-    set_area(s, e, (floor(by.least * joined) - leave) / n,
-             (ceil(by.most * joined) + fmax(join, leave)) / n);
+    set_area(s, e, (floor(by.least * joined) - leave - fmin(in, out)) / n,
+             (ceil(by.most * joined) + fmax(join, leave) + fmin(in, out)) / n);
 }
 
 static double

@@ -936,10 +936,21 @@ verdicts_hold_on_large_maps(void **state)
         hold(side == NULL ? SIDE : (size_t)atol(side), 40, 2000);
 }
 
+/* Between the estimate and the true contact of this hard body one node joins and another leaves, or does not. */
+static void
+nodes_change_places(void **state)
+{
+    (void)state;
+    for (size_t k = 0; k < sizeof effects / sizeof *effects; k++)
+        if (strcmp(effects[k].name, "dissimilar") == 0)
+            campaign(&effects[k], effects[k].side, 1, 340125);
+}
+
 int
 main(void)
 {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test(nodes_change_places),
         cmocka_unit_test(verdicts_hold),
         cmocka_unit_test(verdicts_hold_on_large_maps),
     };
