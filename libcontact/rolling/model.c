@@ -1145,7 +1145,9 @@ state(struct rc_model *m, struct rc_state *s)
     there = path && f->stage == THERE;
     rc_state_finite(s, 2, d->v);
     RC_STATE_OPEN(s, &d->found.estimate);
-    RC_STATE_SIZES(s, &d->found.left, &d->found.past[0], &d->found.past[1], &d->found.past[2]);
+    RC_STATE_SIZES(s, &d->found.left);
+    for (int k = 0; k < RC_STEADY_PAST; k++)
+        RC_STATE_SIZES(s, &d->found.past[k]);
     RC_STATE_COUNTS(s, &d->found.steps, &d->found.fallbacks);
     for (int c = 0; c < 2; c++) {
         if (path) { /* a step that has not ended begins again */

@@ -455,9 +455,9 @@ share(double of, double whole)
     return whole > 0 ? of / whole : 0;
 }
 
-/* If the linear iteration of the last step has left the part c of its residual, or one of the last steps
- * the part c of its rest, because nodes begin and cease to slip one after another, further steps reduce it as
- * little: the error is 1/(1 - c) of the first one of them. */
+/* c is the largest part of its residual that the last linear iteration has left, or that one of the last
+ * steps has left of `rest`, because nodes begin to slip one after another. If each further step leaves as
+ * much, the error is 1/(1 - c) of the first of them. */
 static void
 estimate(struct rc_steady *d)
 {

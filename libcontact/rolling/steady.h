@@ -83,9 +83,9 @@ struct rc_steady {
         double residual; /* relative: change of q by a projected step of length 1/self     */
         double estimate; /* estimated relative L1 error of q */
         double left;     /* part of the residual, by the last linear iteration */
-        double rest;     /* relative: tractions of the residual, and the residual  */
-        double past[RC_STEADY_PAST]; /* that before the last steps; 0: none */
-        double sum[2]; /* of q                                                           */
+        double rest;     /* relative: sum of the tractions of the residual, and `residual` */
+        double past[RC_STEADY_PAST]; /* rest before the last steps, latest first; 0: none */
+        double sum[2];               /* of q */
         size_t stick, slipping, steps, fallbacks;
     } found;
     struct rc_discs *discs; /* for steps in time; NULL: none was necessary */

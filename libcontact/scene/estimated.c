@@ -32,7 +32,8 @@ struct spread {
 };
 
 /* The interval of an area, from the nodes that join from one contact to another. Both ends are whole nodes,
- * so that they have a node to spare. Where nodes join and others leave, a pair of them may be one of either. */
+ * so that they have a node to spare. Nodes that join and nodes that leave cancel in the area: each such pair
+ * widens the interval by one node, as the true contact may have only one of the two. */
 static void
 set_nodes(const struct rc_scene *s, struct rc_scene_effect *e, const struct solved *to,
           struct spread by)

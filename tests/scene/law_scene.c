@@ -936,7 +936,8 @@ verdicts_hold_on_large_maps(void **state)
         hold(side == NULL ? SIDE : (size_t)atol(side), 40, 2000);
 }
 
-/* Between the estimate and the true contact of this hard body one node joins and another leaves, or does not. */
+/* A hard body with 123 nodes in contact. In the estimate one node joins and another leaves; in the true
+ * contact only one of them changes. */
 static void
 nodes_change_places(void **state)
 {
