@@ -23,7 +23,8 @@
  * its sign, and the steps of a fluid, or of a solid whose modulus falls by orders, would ring without decay.
  * There w is linear from the middle of the last step to the end of this one, which is the backward
  * differentiation of second order, and rings decay. The first long step after a corner is backward Euler's
- * as far as the sum of old weights is 1.
+ * as far as the sum of old weights is 1. For the next step, the mean of w over a step from a corner is its w
+ * at the end, because at its start a jump can have relaxed.
  *
  * The contacts have errors, too, which stay in the bodies: an error of the pressure under a large load is
  * larger beside a later small one. It relaxes as a pressure does under a held contact, which one number per
@@ -72,6 +73,10 @@ static const double fast = 1e-3, slow = 1e3;
 /* A step that is longer than the last one times this starts anew: methods of two steps are unstable where the
  * steps grow faster than 2.4 times. */
 static const double most_longer = 2;
+/* Fast terms settle at once after a jump. A first step which is much longer takes w as linear there, with an
+ * error of first order; if it is longer than `low`, below which terms are fast, times this, a step of `low`
+ * comes before it. */
+static const double much_longer = 4;
 /* Least fall of the errors where the steps are halved that the estimate takes from two differences, and the
  * part of the former difference that it has at least: its own with errors of second order. */
 static const double least_fall = 1.5, of_former = 0.25;
@@ -113,6 +118,7 @@ struct material {
     size_t terms;
     struct term *term;
     double quickest; /* s: shortest time in which a pressure relaxes or grows */
+    double settle;   /* s: by then the fast terms have settled; 0: there are none */
     /* errors of fast and slow terms, relative to the largest load of the leg and of the history */
     double left_out[2];
 };
@@ -126,6 +132,7 @@ struct maps {
 /* The way from one point to the next. */
 struct leg {
     double start, end;          /* s */
+    double settle;              /* s: a step before all others, or 0 */
     double least, most, shrink; /* s, s, -: first and longest step of the fine run, times shrink */
     size_t increments;
     size_t steps; /* of the fine run; a multiple of 4 */
@@ -221,6 +228,7 @@ choose_terms(struct material *material, const struct rc_viscoelastic_problem *a)
             material->quickest = fmin(material->quickest, fmax(low, m->time[k]));
     material->left_out[0] = of_fast / (1 + at_once);
     material->left_out[1] = of_slow / (1 + flow * a->longest);
+    material->settle = at_once > 0 ? low : 0;
     if (at_once > 0)
         material->term[material->terms++] = (struct term){.time = lag / at_once, .j = at_once};
     if (flow > 0)
@@ -269,13 +277,13 @@ static void
 weigh(struct material *material, struct weights *to)
 {
     const double old = weigh_linear(material, to->dt), longer = to->dt / to->last;
-    const bool stiff = old > 1;
+    const bool stiff = old > 1, corner = to->last == 0;
     double q = 0;
 
     to->mean = stiff && longer <= most_longer;
     if (stiff)
         q = to->mean ? 1 / (1 + 2 * longer) : 1 - 1 / old;
-    to->part = (1 + q) / 2;
+    to->part = corner ? 1 : (1 + q) / 2;
     to->c = 1;
     for (size_t k = 0; k < material->terms; k++) {
         struct term *m = &material->term[k];
@@ -378,16 +386,21 @@ fine_step(const struct leg *leg, size_t i)
 
 /* Divides the leg into steps. A step of a coarse run is two or four of the fine one. */
 static void
-divide(struct leg *leg, double quickest, bool corner, size_t increments)
+divide(struct leg *leg, const struct material *material, bool corner, bool jumped,
+       size_t increments)
 {
-    const double way = leg->end - leg->start, n = (double)increments;
-    double sum = 0;
+    const double whole_way = leg->end - leg->start, n = (double)increments;
+    double sum = 0, way;
 
-    leg->least = corner ? quickest / n : fine_step(leg, leg->steps) * (double)leg->increments / n;
+    leg->least =
+        corner ? material->quickest / n : fine_step(leg, leg->steps) * (double)leg->increments / n;
     leg->increments = increments;
-    leg->most = way / n;
+    leg->most = whole_way / n;
     leg->shrink = 1;
     leg->steps = 0;
+    leg->settle =
+        jumped && fine_step(leg, 0) > much_longer * material->settle ? material->settle : 0;
+    way = whole_way - leg->settle;
     while (way > 0 && (sum < whole * way || leg->steps % merged[QUARTER] > 0))
         sum += fine_step(leg, leg->steps++);
     leg->shrink = way > 0 ? way / sum : 1;
@@ -397,10 +410,14 @@ divide(struct leg *leg, double quickest, bool corner, size_t increments)
 static double
 next_step(const struct leg *leg, struct run *run, size_t times)
 {
-    const size_t i = run->steps++;
-    const bool last = run->steps >= leg->steps / times;
+    size_t i;
+    bool last;
     double dt = 0;
 
+    if (leg->settle > 0 && run->steps == 0 && run->last == 0)
+        return leg->settle;
+    i = run->steps++;
+    last = run->steps >= leg->steps / times;
     for (size_t k = 0; k < times; k++)
         dt += fine_step(leg, times * i + k);
     return leg->end == leg->start ? 0 : last ? leg->end - run->t : dt;
@@ -737,7 +754,7 @@ start_leg(struct viscoelastic *v, size_t increments, struct rc_err *err)
     if (begins)
         v->run[FINE].t = v->leg.end;
     corner = turns(&v->leg, by_approach(v) ? RC_APPROACH : RC_LOAD, &v->base.from, &v->base.to);
-    divide(&v->leg, v->material.quickest, corner, increments);
+    divide(&v->leg, &v->material, corner, v->weights.dt == 0 && v->load.now > 0, increments);
     for (size_t k = 0; k < RUNS; k++) {
         v->run[k].steps = 0;
         v->run[k].last = corner ? 0 : v->run[k].last;
@@ -843,10 +860,11 @@ state(struct rc_model *m, struct rc_state *s)
     rc_state_count(s, &v->on, FINE);
     RC_STATE_FLAGS(s, &begun, &v->good, &v->leg.taken);
     RC_STATE_COUNTS(s, &v->f.increments, &v->leg.increments, &v->leg.steps);
-    RC_STATE_NUMBERS(s, &v->leg.start, &v->leg.end, &v->weights.dt, &v->weights.last, &v->beyond,
-                     &v->leg.shrink, &v->most, &v->rate, &v->between, &v->inherited, &v->posed_top,
-                     &v->f.increment_error, &v->f.contact.convolutions, &v->load.now,
-                     &v->load.before, &v->error.now, &v->error.before);
+    RC_STATE_NUMBERS(s, &v->leg.start, &v->leg.end, &v->leg.settle, &v->weights.dt,
+                     &v->weights.last, &v->beyond, &v->leg.shrink, &v->most, &v->rate, &v->between,
+                     &v->inherited, &v->posed_top, &v->f.increment_error,
+                     &v->f.contact.convolutions, &v->load.now, &v->load.before, &v->error.now,
+                     &v->error.before);
     for (size_t k = 0; k < RUNS; k++) {
         RC_STATE_COUNTS(s, &v->run[k].steps);
         RC_STATE_NUMBERS(s, &v->run[k].t, &v->run[k].last, &v->run[k].part);
