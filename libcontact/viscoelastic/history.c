@@ -28,10 +28,12 @@
  *
  * The contacts have errors, too, which stay in the bodies: an error of the pressure under a large load is
  * larger beside a later small one. It relaxes as a pressure does under a held contact, which one number per
- * term follows.
+ * term follows. So do the errors of a contact that ends or begins within a step at a given approach, and of
+ * rounding, beside which a pressure may be small after a fall by many orders.
  *
  * If the caller gives no number of increments, a leg whose estimate is too large is repeated with more.
  */
+#include <float.h>
 #include <math.h>
 #include <string.h>
 
@@ -115,7 +117,7 @@ struct follower {
 };
 
 struct material {
-    size_t terms;
+    size_t terms, slowest;
     struct term *term;
     double quickest; /* s: shortest time in which a pressure relaxes or grows */
     double settle;   /* s: by then the fast terms have settled; 0: there are none */
@@ -233,6 +235,9 @@ choose_terms(struct material *material, const struct rc_viscoelastic_problem *a)
         material->term[material->terms++] = (struct term){.time = lag / at_once, .j = at_once};
     if (flow > 0)
         material->term[material->terms++] = (struct term){.time = INFINITY, .j = flow};
+    for (size_t k = 0; k < material->terms; k++)
+        if (material->term[k].time > material->term[material->slowest].time)
+            material->slowest = k;
 }
 
 /* The mean of 1 - exp(-s) for s from 0 to x > 0. */
@@ -243,6 +248,15 @@ mean_of_creep(double x)
 
     return x < series ? x * (1.0 / 2 - x * (1.0 / 6 - x * (1.0 / 24 - x / 120)))
                       : 1 + expm1(-x) / x;
+}
+
+/* The weight of the w before a step in which it changes linearly. */
+static double
+old_of(const struct term *m, double dt)
+{
+    const double x = dt / m->time;
+
+    return isinf(m->time) ? m->j * dt / 2 : dt > 0 ? m->j * (-expm1(-x) - mean_of_creep(x)) : 0;
 }
 
 /* Finds the weights of the terms for w that changes linearly in the step, and returns the sum of old. */
@@ -476,20 +490,62 @@ start_step(struct viscoelastic *v, struct rc_err *err)
     return rc_model_go(v->base.inner, &at, err);
 }
 
+/* The error of the load due to the rounding of displacements, whose difference is small after the pressure
+ * has relaxed by many orders. */
+static double
+of_rounding(const struct viscoelastic *v, const struct rc_point *at)
+{
+    const double own = rc_elastic_own(v->base.inner),
+                 approach = v->weights.c * (at->at[RC_APPROACH] - v->posed_top) + v->top,
+                 area = v->base.shape.dx * v->base.shape.dy *
+                        rc_model_number(v->base.inner, "contact_nodes");
+
+    return own > 0 ? DBL_EPSILON * (fabs(v->top) + fabs(approach)) / own * area : 0;
+}
+
+/* At a given approach a contact can end within a step. From then on w is 0, and each term has taken too much
+ * of the w before the step. The time follows from the gap at the end, as w falls evenly. A contact can also
+ * begin; there the terms have at most their whole part of the new w too much. */
+static void
+add_kink(struct viscoelastic *v, double load)
+{
+    const double from = v->weights.mean ? v->load.before : v->load.now, dt = v->weights.dt;
+    double top, part;
+
+    if (!by_approach(v) || (load > 0) == (v->load.now > 0))
+        return;
+    top = rc_ranks_highest(v->base.rows.ranks, v->weights.mean ? v->maps.room : v->run[FINE].before,
+                           v->n);
+    part = top > 0 ? top / (top + v->beyond / v->weights.c) : 0;
+    for (size_t k = 0; k < v->material.terms; k++) {
+        const struct term *m = &v->material.term[k];
+        const double all = old_of(m, dt),
+                     gone = part > 0 ? exp(-(1 - part) * dt / m->time) * old_of(m, part * dt) : 0;
+        v->error.r[k] += m->new *load;
+        if (all > gone)
+            v->error.r[k] += m->old * from * (1 - gone / all);
+    }
+}
+
 /* The error of a contact changes the heights of all later ones. As long as the same nodes touch, it decays
  * like a pressure that relaxes; where others touch, no pressure changes by more, in the norm of the elastic
- * energy. */
+ * energy. The rounding of the history, half a unit in each step, remains in the slowest term. */
 static void
-follow_load(struct viscoelastic *v, double load)
+follow_load(struct viscoelastic *v, const struct rc_point *at)
 {
-    const double own = load > 0 ? fmin(largest,
+    const double load = at->at[RC_LOAD],
+                 own = load > 0 ? fmin(largest,
                                        rc_model_number(v->base.inner, "pressure_error_estimate"))
                                 : 0,
+                 rounding = load > 0 ? of_rounding(v, at) : 0,
                  old = load > 0 ? history_of(v, &v->error) : 0;
 
     v->inherited = load > 0 ? fabs(old) / load : 0;
     v->rate = v->weights.dt > 0 ? fabs(load - v->load.now) / v->weights.dt : 0;
-    follow(v, &v->error, own * load + old);
+    follow(v, &v->error, own * load + rounding / v->weights.c + old);
+    if (v->material.terms > 0)
+        v->error.r[v->material.slowest] += rounding / 2;
+    add_kink(v, load);
     follow(v, &v->load, load);
     v->most = fmax(v->most, load);
 }
@@ -520,7 +576,7 @@ take_step(struct viscoelastic *v, enum rc_status status, struct rc_err *err)
     run->last = v->weights.dt;
     run->part = v->weights.part;
     if (v->on == FINE) {
-        follow_load(v, at.at[RC_LOAD]);
+        follow_load(v, &at);
         v->f.increments++;
     }
     v->f.contact.convolutions += rc_model_number(v->base.inner, "convolutions");

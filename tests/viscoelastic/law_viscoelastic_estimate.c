@@ -458,8 +458,12 @@ known_causes(void **state)
         double most; /* error */
     } at[] = {
         {"fast terms settle after a jump", LOAD, 90350077, 29, 4, 5e-5},
+        {"a contact ends, and another begins, within a step", APPROACH, 90350078, 148, 3, 1e-4},
         {"a step after a long one from a jump", FLUID, 90350079, 48, 4, 1e-3},
+        {"a contact ends within a step", FLUID, 90350079, 144, 2, 1e-4},
+        {"the same, with 11 increments", FLUID, 90210079, 156, 2, 0.05},
         {"a step after a long one, under 6 nodes", FLUID, 90310079, 111, 4, 1e-4},
+        {"a pressure of 1e-13 of the first one is rounded", FLUID, 90350079, 275, 4, 0.1},
     };
     static struct result found[POINTS];
     static double truth[POINTS][MOST];
