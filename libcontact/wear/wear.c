@@ -669,30 +669,63 @@ find_contact_errors(struct wear *v, double *to, struct rc_err *err)
     return RC_OK;
 }
 
+/* How far the error z of the largest pressure can be from its estimate, Pa. z is the sum of m_j e_j over the
+ * nodes, with their errors e_j and the response m to a unit height at the node of the largest pressure. A step
+ * with a bend errs by 0.44 to `bends` caution times its estimate. Each node has another such factor, and the
+ * parts m_j e_j of neighbours nearly cancel, so that z alone was down to 0.06 of the error. The deviations of
+ * the nodes are independent and add as squares. The call overwrites `unit` and `room`. */
+static enum rc_status
+find_spread(struct wear *v, double *unit, double *spread, struct rc_err *err)
+{
+    const struct rc_ranks *ranks = v->base.rows.ranks;
+    const double before = (double)v->base.rows.first * (double)v->base.shape.nx;
+    const double most = rc_ranks_highest(ranks, v->maps.p1, v->n);
+    struct rc_total squares = {0};
+    double first = -INFINITY;
+
+    for (size_t k = v->n; k-- > 0;)
+        if (v->maps.p1[k] >= most)
+            first = -before - (double)k;
+    first = -rc_ranks_most(ranks, first);
+    for (size_t k = 0; k < v->n; k++)
+        unit[k] = before + (double)k == first ? 1 : 0;
+    if (rc_model_respond(v->base.inner, unit, v->maps.room, err) != RC_OK)
+        return RC_FAIL;
+    v->f.convolutions += 1;
+    for (size_t k = 0; k < v->n; k++)
+        rc_total_add(&squares, pow(v->maps.room[k] * v->maps.e[k], 2));
+    *spread = (bends * caution - 1) * sqrt(rc_ranks_total(ranks, squares));
+    return RC_OK;
+}
+
 /* The error of the largest pressure: how far it can move while each node moves by its error. The pressure is
  * that of the worn heights, and its error the response z to their error, in `room`, to which the last step
  * adds. Steps with bends have the sign of their estimate, so that a node can move by the factor of these along
  * z. The parts of z due to the neighbours may cancel, so that it can also move by z the other way. The error of
- * the last step, in p0, replaces z where it is larger. `contacts`: errors by the contact. All are in Pa. */
+ * the last step, in p0, replaces z where it is larger. `contacts`: errors by the contact; `spread`: see
+ * find_spread. All are in Pa. */
 static void
-find_peak_error(struct wear *v, const double *contacts)
+find_peak_error(struct wear *v, const double *contacts, double spread)
 {
     const struct rc_ranks *ranks = v->base.rows.ranks;
-    double most = 0, above = 0, below = 0;
+    double most = 0, above = 0, below = 0, at = 0;
 
     for (size_t k = 0; k < v->n; k++) {
         const double p = v->maps.p1[k], z = v->maps.room[k], last = v->maps.p0[k];
         const double up = fmax(z > 0 ? bends * caution * z : -z, last);
         const double down = fmax(z < 0 ? -bends * caution * z : z, last);
+        at = p > most ? fabs(z) : at;
         most = fmax(most, p);
         above = fmax(above, p + up + contacts[k]);
         below = fmax(below, p - down - contacts[k]);
     }
+    at = most < rc_ranks_most(ranks, most) ? 0 : at;
+    at = rc_ranks_most(ranks, at);
     most = rc_ranks_most(ranks, most);
     above = rc_ranks_most(ranks, above);
     below = rc_ranks_most(ranks, below);
     v->error[OF_PEAK] = at_node * fmax(v->error[OF_P0], v->error[LEFT]) +
-                        (most > 0 ? fmax(above - most, most - below) / most : 0);
+                        (most > 0 ? fmax(fmax(above - most, most - below), at + spread) / most : 0);
 }
 
 /* The largest error of the present step, m, as a sum over the nodes: a part of the depth that it wears,
@@ -726,7 +759,7 @@ even(struct wear *v, double of_p1, struct rc_err *err)
     const bool met = x >= 1 && v->way.last >= EULER,
                final = met || !(v->way.end - s > 1e-12 * v->way.end);
     struct rc_total apart = {0};
-    double change, worst, z;
+    double change, worst, z, spread = 0;
     bool far;
 
     for (size_t k = 0; k < v->n; k++) {
@@ -764,11 +797,12 @@ even(struct wear *v, double of_p1, struct rc_err *err)
     v->way.end = met ? s : v->way.end;
     for (size_t k = 0; k < v->n && final; k++)
         v->maps.p0[k] = of_change * fabs(v->maps.room[k]);
-    if ((final && find_contact_errors(v, v->maps.change, err) != RC_OK) ||
+    if ((final && (find_spread(v, v->maps.change, &spread, err) != RC_OK ||
+                   find_contact_errors(v, v->maps.change, err) != RC_OK)) ||
         respond(v, &z, err) != RC_OK)
         return RC_FAIL;
     if (final)
-        find_peak_error(v, v->maps.change);
+        find_peak_error(v, v->maps.change, spread);
     if (take(v, 0, 1, step * sum * error[WEAR_P1], v->maps.e, of_p1,
              fmax(error[OF_P0], error[LEFT]) + fmax(of_change * change, bends * caution * z / sum),
              err) != RC_OK)
@@ -953,7 +987,7 @@ step(struct rc_model *m, struct rc_err *err)
                 return RC_FAIL;
             memset(v->maps.p0, 0, v->n * sizeof *v->maps.p0);
             memset(v->maps.room, 0, v->n * sizeof *v->maps.room);
-            find_peak_error(v, v->maps.q);
+            find_peak_error(v, v->maps.q, 0);
         }
         if (take(v, 0, 0, 0, v->maps.e, of_p1, 0, err) != RC_OK)
             return RC_FAIL;
