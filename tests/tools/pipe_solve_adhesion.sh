@@ -203,6 +203,10 @@ claim "rc-stress reads the net pressure" bash -c "rc-pick --case 2 p.rcg | rc-st
 near "$(rc-info --json z.rcg | grep -o '"max[a-z]*": [^,]*' | head -n 1 | sed 's/.* //')" "$(awk -v m="$(column min_pressure 2 p.tsv)" 'BEGIN { print -m }')" 1e-3 "  tension where it pulls"
 claim "the colours of net pressures are symmetric about 0" rc-render --case 2 --channel pressure -o net.png p.rcg
 claim "the path is drawn as a curve" bash -c "rc-render --curve approach:load -o path.svg p.tsv && grep -q retraction path.svg && grep -q loading path.svg"
+# 247 uN is drawn by no line: the path ends at the last approach of the list.
+claim "  no line joins the pull-off to it: a mark of its own" bash -c 'grep -q ">pull-off<" path.svg && perl "$RC_SOURCE/tests/tools/points.pl" <path.svg >points.txt && grep -q "solid.* -215\.9[0-9]*$" points.txt &&
+    ! grep -q "solid.*-247\.3" points.txt'
+claim "  in other curves too" bash -c "rc-render --curve case:contact_area -o case.svg p.tsv && grep -q '>pull-off<' case.svg && perl \"\$RC_SOURCE/tests/tools/points.pl\" <case.svg >points.txt && ! grep -q 'solid.* 5 [-0-9.e]*\$' points.txt"
 
 # ---- plan, warnings and refusals ----
 

@@ -39,6 +39,7 @@ enum helper {
     LOAD,
     SEPARATED,
     TIME,
+    PULL_OFF,
     HELPERS
 };
 static const char *const helper_name[HELPERS] = {"nx",
@@ -58,7 +59,8 @@ static const char *const helper_name[HELPERS] = {"nx",
                                                  "source",
                                                  "load",
                                                  "separated",
-                                                 "time"};
+                                                 "time",
+                                                 "pull_off_load"};
 
 /* The columns of the command line. */
 struct choice {
@@ -562,6 +564,13 @@ way_of(const struct curves *c, const struct table *table, size_t from)
     return helper(c, table, is_history(c, table, from) ? INDENTATION : APPROACH);
 }
 
+/* True for the row of a pull-off, an additional case on a retraction of its own. */
+static bool
+is_pull_off(const struct curves *c, const struct table *table, size_t row)
+{
+    return isfinite(helper(c, table, PULL_OFF)[row]);
+}
+
 /* The direction from each row of a path to the next. */
 static enum stretch *
 find_steps(struct curves *c, const struct table *table, size_t from, size_t to)
@@ -574,7 +583,7 @@ find_steps(struct curves *c, const struct table *table, size_t from, size_t to)
         double here = at[from + k], last = at[from + k - 1];
 
         if (jumps[from + k] > 0 || is_separated(c, table, from + k) ||
-            is_separated(c, table, from + k - 1))
+            is_separated(c, table, from + k - 1) || is_pull_off(c, table, from + k))
             step[k] = JUMP;
         else if (fabs(here - last) > rounding * fmax(fabs(here), fabs(last)))
             step[k] = here < last ? UNLOADING : LOADING;
@@ -736,11 +745,68 @@ warn_of_zigzag(struct curves *c, const struct table *table, size_t from, size_t 
                   table->source, turns, c->choice.column[0]);
 }
 
+/* Takes the pull-offs out of a curve, because no line may join them: points (x, y), y after `to - from` x, and
+ * their number. NULL: none, or points that are averaged. */
+static double *
+take_pull_offs(struct curves *c, const struct table *table, size_t k, size_t from, size_t to,
+               size_t *n)
+{
+    const double *x = table->column[0].v;
+    double *y = table->column[k].v, *v = NULL;
+
+    *n = 0;
+    for (size_t row = from; row < to && !c->style->spread; row++) {
+        if (!is_pull_off(c, table, row))
+            continue;
+        v = v == NULL ? tool_room(c->tool, 2 * (to - from), sizeof *v, "a curve") : v;
+        v[*n] = x[row];
+        v[to - from + (*n)++] = y[row];
+        y[row] = NAN;
+    }
+    return v;
+}
+
+static void
+add_pull_offs(struct curves *c, double *v, size_t n, size_t room, const char *whose)
+{
+    struct graph_series *s = new_series(c);
+    char *name = c->name[c->means.n - 1];
+
+    c->means.own[c->means.n - 1] = v;
+    snprintf(name, NAME, "%s", whose);
+    add_word(name, "pull-off");
+    s->name = name;
+    s->kind = GRAPH_POINTS;
+    s->x = v;
+    s->y = v + room;
+    s->n = n;
+}
+
+static void
+add_line(struct curves *c, const struct table *table, size_t k, size_t from, size_t to,
+         const char *name)
+{
+    struct graph_series *s;
+
+    warn_of_zigzag(c, table, from, to);
+    s = new_series(c);
+    snprintf(c->name[c->means.n - 1], NAME, "%s", name);
+    s->name = *name == '\0' ? NULL : c->name[c->means.n - 1];
+    s->kind = c->style->points || c->words > 0 ? GRAPH_POINTS : GRAPH_MARKS;
+    if (c->choice.bys == GROUP_COLUMNS) {
+        s->place = word_number(c, c->choice.columns, word_of(table, c->choice.columns, from));
+        s->mark =
+            1 + word_number(c, c->choice.columns + 1, word_of(table, c->choice.columns + 1, from));
+    }
+    set_points(c, table, k, from, to, s);
+}
+
 static void
 add_curve(struct curves *c, const struct table *table, size_t k, size_t p)
 {
     size_t from = table->piece[p], to = p + 1 < table->pieces ? table->piece[p + 1] : table->rows;
-    struct graph_series *s;
+    size_t pulled;
+    double *pull_off;
     char name[NAME] = "", text[NAME];
 
     if (c->tables > 1)
@@ -753,21 +819,13 @@ add_curve(struct curves *c, const struct table *table, size_t k, size_t p)
     }
     if (*name == '\0' && c->style->law != NULL)
         add_word(name, base_name(table->source));
-    if (is_path(c, table, from, to)) {
+    pull_off = take_pull_offs(c, table, k, from, to, &pulled);
+    if (is_path(c, table, from, to))
         add_path(c, table, k, from, to, name);
-        return;
-    }
-    warn_of_zigzag(c, table, from, to);
-    s = new_series(c);
-    memcpy(c->name[c->means.n - 1], name, NAME);
-    s->name = *name == '\0' ? NULL : c->name[c->means.n - 1];
-    s->kind = c->style->points || c->words > 0 ? GRAPH_POINTS : GRAPH_MARKS;
-    if (c->choice.bys == GROUP_COLUMNS) {
-        s->place = word_number(c, c->choice.columns, word_of(table, c->choice.columns, from));
-        s->mark =
-            1 + word_number(c, c->choice.columns + 1, word_of(table, c->choice.columns + 1, from));
-    }
-    set_points(c, table, k, from, to, s);
+    else if (pulled < to - from)
+        add_line(c, table, k, from, to, name);
+    if (pulled > 0)
+        add_pull_offs(c, pull_off, pulled, to - from, name);
 }
 
 static void
