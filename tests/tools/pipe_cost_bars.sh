@@ -52,6 +52,8 @@ near "$(of rms noise_bias squares.json)" "$(awk -v r="$rms" 'BEGIN { print sqrt(
 near "$(of rms noise squares.json)" "$(awk -v b="$(of rms noise_bias squares.json)" -v s="$(of rms noise_scatter squares.json)" 'BEGIN { print (b < 0 ? -b : b) + 1.895 * s }')" \
     1e-3 "  the bar of the noise is the bias and 1.895 standard deviations of eight repeats"
 near "$(of rms bar squares.json)" "$(of rms noise squares.json)" "$rounding" "  which is the bar"
+claim "without --resolution the last line says that the error of the grid is not in the bars" test "$(tail -n 1 squares.txt)" = \
+    '# the error of the grid is not in these bars: add --resolution'
 slope_of() { sed -n 's/^# noise:.*; its slope is \(.*\)/\1/p' "$1"; }
 near "$(slope_of squares.txt)" 0.4 0.02 "the slope of white noise is 2 sigma/dx"
 study wide a.rcg "--noise 0.2um,3um" rc-info
@@ -82,6 +84,7 @@ rc-solve $contact --quiet --report fine.json fine.rcg | rc-leak --quiet --report
 study rough a.rcg "--noise 10nm --resolution" rc-solve $contact '|' rc-leak
 for figure in contact_area mean_gap max_pressure elastic_energy; do holds rough $figure "$(field $figure fine.json)"; done
 for figure in flow_conductance critical_gap; do holds rough $figure "$(field $figure leak.json)"; done
+claim "  with --resolution the grid is in the bars" bash -c '! grep -q "not in these bars" rough.txt'
 claim "  the bar joins noise and grid in squares, the grid with 0.85 of the larger of the change and half the one before" perl -MJSON::PP -e '
     open my $f, "<", "rough.json" or die;
     while (<$f>) {
@@ -114,8 +117,8 @@ slope_on() { rc-pick --quiet --resample "$1x$1" fractal.rcg | rc-info --json | g
 read -r first second <<<"$(sed -n 's/^# grid:.*grows by \([0-9.]*\) % from a quarter .* by \([0-9.]*\) % from half.*/\1 \2/p' fractal.txt)"
 near "$second" "$(awk -v a="$(slope_on 128)" -v b="$(slope_on 64)" 'BEGIN { print 100 * (a / b - 1) }')" 0.03 "  by how much the slope grows with the last doubling of the nodes"
 near "$first" "$(awk -v a="$(slope_on 64)" -v b="$(slope_on 32)" 'BEGIN { print 100 * (a / b - 1) }')" 0.03 "  and with the one before"
-claim "  its figures have no bar and say why" bash -c "grep -Eq '^contact_area .* m2 +- .*no limit with the grid' fractal.txt"
-claim "  with the spacing to quote" grep -q '^contact_area .*no limit with the grid: quote it with its spacing, 1 um$' fractal.txt
+claim "  its figures have no bar and say why" bash -c "grep -Eq '^contact_area .* m2 +- .*a finer grid may change it further' fractal.txt"
+claim "  with the spacing to quote" grep -q '^contact_area .*a finer grid may change it further, so give the spacing, 1 um, with the value$' fractal.txt
 claim "  and the part of the noise" test "$(of contact_area noise_relative fractal.json | grep -c '^[0-9]')" = 1
 claim "  in the report too" test "$(of contact_area bar fractal.json)/$(of contact_area limit fractal.json)/$(of contact_area waves_end fractal.json)" = null/false/false
 

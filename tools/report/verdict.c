@@ -234,7 +234,7 @@ put_unlimited(struct page *run, const char *title, const char *const row[][2])
     FILE *out = run->page.file;
     char text[PAGE_CELL];
 
-    fprintf(out, "the %s has ", title);
+    fprintf(out, "the %s has no bar: ", title);
     if (page_cell(run, bars, "why", row, text))
         page_text(out, text);
     if (page_cell(run, bars, "noise_relative", row, text) && strcmp(text, "NaN") != 0)

@@ -56,7 +56,7 @@ scan_judge_grid(struct scan *s)
     s->unlimited =
         s->slope[0] == 0 ? s->sigma > 0 : s->ratio > ends && change > smooth * s->slope[0];
     snprintf(s->note, sizeof s->note,
-             "no limit with the grid: quote it with its spacing, %sm%s%s%s",
+             "a finer grid may change it further, so give the spacing, %sm%s%s%s, with the value",
              shown_number(g->dx, 4, "m"), g->dx == g->dy || g->ny == 1 ? "" : " by ",
              g->dx == g->dy || g->ny == 1 ? "" : shown_number(g->dy, 4, "m"),
              g->dx == g->dy || g->ny == 1 ? "" : "m");

@@ -177,6 +177,8 @@ scan_show_table(const struct scan *s, FILE *out)
             fprintf(out, "# %s: %s\n", cost_name(s->c, t, false, name),
                     t->why[0] == '\0' ? "left out: interrupted" : t->why);
     }
+    if (!is_studied(s, SCAN_GRID))
+        fputs("# the error of the grid is not in these bars: add --resolution\n", out);
 }
 
 void
