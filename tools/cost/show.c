@@ -338,6 +338,40 @@ better(double budget, const struct cost_trial *a, const struct cost_trial *b)
     return isnan(budget) ? seconds < 0 : error < 0 || (error == 0 && seconds < 0);
 }
 
+/* The ranked object has the error of --error; names other figures that do not, the worst ones first. */
+static void
+warn_of_others(const struct cost_case *c, const struct cost_trial *t)
+{
+    char text[COST_SHOWN * (COST_NAME + 40)];
+    size_t at = 0, others = 0;
+    double below = INFINITY;
+
+    for (size_t n = 0; n <= COST_SHOWN; n++) {
+        size_t worst = SIZE_MAX, as_bad = 0;
+
+        for (size_t k = 0; k < c->figures; k++) {
+            const double error = fabs(t->figure[k]);
+
+            if (!(error > c->error) || !(error < below) ||
+                (c->ranked.known && !c->ranked.frame && c->ranked.k == k))
+                continue;
+            as_bad++;
+            if (worst == SIZE_MAX || error > fabs(t->figure[worst]))
+                worst = k;
+        }
+        others = as_bad;
+        if (worst == SIZE_MAX || n == COST_SHOWN)
+            break;
+        below = fabs(t->figure[worst]);
+        at += (size_t)snprintf(text + at, sizeof text - at, "%s%s %.2g %%", n > 0 ? ", " : "",
+                               c->figure[worst].shown, 100 * below);
+    }
+    if (at > 0)
+        tool_warn(c->tool,
+                  "other figures are off by more than %.2g %%: %s%s; --of NAME chooses one",
+                  100 * c->error, text, others > 0 ? " and others" : "");
+}
+
 void
 cost_show_command(const struct cost_case *c, FILE *out)
 {
@@ -369,6 +403,8 @@ cost_show_command(const struct cost_case *c, FILE *out)
     tool_warn(c->tool, "%s: %.3g s, %s off by at most %.2g %% (%s)",
               cost_name(c, best, false, name), best->seconds, cost_object_name(c, c->ranked),
               100 * best->bound, own);
+    if (!timed)
+        warn_of_others(c, best);
     put_command(c, best, out);
     putc('\n', out);
 }
