@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Checks of rc-app in headless Chromium for pipe_app_browser.sh: app_browser.py CHROMIUM ADDRESS FOLDER.
 
-FOLDER has rough-steel.x3p, broken.x3p, big.x3p (2048 x 2048), node.rcg and spike.rcg, and receives downloads and pictures.
+FOLDER has rough-steel.x3p, broken.x3p, big.x3p (2048 x 2048), jagged.rcg, node.rcg and spike.rcg, and receives downloads and pictures.
 """
 import base64
 import os
@@ -86,6 +86,9 @@ def by_keyboard(page):
     page.keyboard.press('Enter')
     shown(page, 'Map height')
     ok('by keyboard: the scan is chosen and shown', 'rough-steel.x3p' in page.inner_text('#source'))
+    ok('  the page says that only the file was read, and what to press', page.inner_text('#said') == 'File read. Press “Run all steps”.'
+       and page.locator('#runs option').all_text_contents()[-1].endswith(': file read'),
+       page.inner_text('#said') + ' ' + ', '.join(page.locator('#runs option').all_text_contents()))
     picture(page, 'scan')
     focus(page, '#go')
     page.keyboard.press('Enter')
@@ -107,6 +110,13 @@ def by_keyboard(page):
             ok('  one load is a value, no curve', 'contact area' in page.inner_text('#numbers') and not page.is_visible('#picture'), page.inner_text('#numbers'))
     numbers = page.inner_text('#numbers')
     ok('  numbers have titles and units', re.search(r'Contact area\t[0-9]{1,4}(\.[0-9]+)? µm²', numbers), numbers[:60].replace('\n', ' '))
+    solver = re.search(r'Error of the pressure \(relative, of the solver, not of the grid\)\t([0-9.e−]+) %', numbers)
+    told = page.evaluate("""async () => {
+        const [heads, row] = rowsOf(await (await ask('file', {...place(), of: 'report'})).text());
+        return +row[heads.indexOf('pressure_error_estimate')];
+    }""")
+    ok('  errors are per cent, and say that they are of the solver', solver and abs(float(solver[1].replace('−', '-')) / 100 / told - 1) < 0.06,
+       '%s, %g' % (solver and solver[0], told))
     raw = page.locator('#numbers th').evaluate_all('all => all.map(th => th.firstChild.textContent).filter(text => /_|^[a-z]/.test(text))')
     ok('  no title is the name of a key', not raw, ', '.join(raw))
     ok('  the list of all figures has the names for curves', 'contact_area' in page.locator('#numbers details th code').all_text_contents())
@@ -239,8 +249,24 @@ def accuracy(page):
     page.wait_for_selector('body[data-measured]', state='attached')
     table = page.inner_text('#bars')
     ok('the contact has bars', re.search(r'contact area\t[0-9.]+ µm²\t± [0-9.]+ %\tmostly by ', table), table[:400])
+    text = page.inner_text('#bars')
+    area, less = (float(re.search(name + r'\t([0-9.]+) µm²', text)[1]) for name in ('contact area', 'contact area corrected'))
+    quote = re.search(r'Quote the corrected contact area, ([0-9.]+) µm², with the spacing of the grid: .* is ([0-9.]+) % larger', text)
+    ok('  the corrected area is the one to quote', quote and abs(float(quote[1]) / less - 1) < 1e-3
+       and abs(float(quote[2]) / (100 * (area / less - 1)) - 1) < 0.06, quote and quote[0])
     page.locator('#accuracy').scroll_into_view_if_needed()
     picture(page, 'accuracy')
+    page.evaluate('() => { delete document.body.dataset.measured; }')
+    page.set_input_files('#file', place('jagged.rcg'))
+    page.wait_for_selector('#source:has-text("jagged.rcg")')
+    page.keyboard.press('Control+Enter')
+    shown(page, 'Map pressure')
+    page.click('#measure')
+    page.wait_for_selector('body[data-measured]', state='attached')
+    text = page.inner_text('#bars')
+    ok('  where a finer grid may show more, the part of the noise says that the error of the grid is not in it',
+       re.search(r'contact area\t[0-9.]+ µm²\tnoise alone ± [0-9.]+ %, without the error of the grid\t\ta finer grid may change it further, so give '
+                 'the spacing, 1 um, with the value', text) and 'Noise alone: the error of the grid is not in this bar' in text, text[:400])
 
 
 def errors(page):
@@ -300,6 +326,10 @@ def effects(page):
     judge()
     table = page.inner_text('#verdicts')
     ok('the contact is judged', 'hardness\tcalls for it: changes the largest pressure by ' in table and 'Data are missing for: ' in table, table[:200])
+    ok('  missing data have the titles of their fields', 'Load (' not in table and re.search('Data are missing for: .*“Friction coefficient”', table)
+       and '(mu' not in table and 'bending-limit' not in table, table[-500:])
+    ok('  the contact that is judged is elastic, which the page says',
+       'The verdicts are those of the elastic contact, without “Hardness” of the step “Press”.' in table, table[:300])
     picture(page, 'effects')
     page.click('#verdicts [name=wear]')
     ok('  wear is added as a step', command('rc-wear').startswith('rc-wear --coefficient 1e-6mm3/Nm --distance 1m '), command('rc-wear'))
@@ -340,6 +370,39 @@ def effects(page):
     ok('a study that fails says why below the result', '300kg' in page.inner_text('#verdicts'), page.inner_text('#verdicts'))
     page.locator('#known [data-name=yield] input').fill('')
     page.click('details:has(> summary code:text("rc-wear")) > button:text-is("Remove")')
+
+
+def queue(page):
+    """Files and studies wait for each other and say so; during a run they are made of the result that is shown."""
+    page.check('#views input[value=Map]', force=True)
+    shown(page, 'Map')
+    page.evaluate('() => { delete document.body.dataset.judged; window.noted = []; new MutationObserver(() => noted.push($("job").textContent)).observe($("job"), {childList: true}); }')
+    with page.expect_download() as download:
+        page.evaluate("""() => {
+            document.querySelector('#judge').click();
+            setTimeout(() => document.querySelector('#save [name="report.html"]').click(), 50);
+        }""")
+    noted = page.evaluate('() => noted')
+    ok('the report page waits for the verdicts, and says so', 'rc-report waits until rc-scene has ended.' in noted
+       and page.evaluate('() => Boolean(document.body.dataset.judged)') and noted[-1] == 'report.html is saved.', ' | '.join(noted))
+    download.value.save_as(place('waited.html'))
+    load = page.locator('details:has(code:text("rc-solve")) input').first
+    before = load.input_value()
+    load.fill('1N:60N:4000')
+    page.keyboard.press('Control+Enter')
+    page.wait_for_selector('#said:has-text("case 2")')
+    with page.expect_download() as download:
+        page.click('#save [name="pressure-map.png"]')
+    download.value.save_as(place('during.png'))
+    page.wait_for_selector('#job:text-is("pressure-map.png is saved.")')
+    ok('during a run the result that is shown is saved', page.get_attribute('body', 'data-run').endswith('running')
+       and open(place('during.png'), 'rb').read(4) == b'\x89PNG', page.inner_text('#job'))
+    page.keyboard.press('Escape')
+    page.wait_for_selector('body[data-run$=stopped]', state='attached')
+    load.fill(before)
+    page.keyboard.press('Control+Enter')
+    page.wait_for_selector('body[data-run$=done]', state='attached')
+    shown(page, 'Map pressure')
 
 
 def headlines(page):
@@ -441,7 +504,7 @@ def large(page):
 with sync_playwright() as playwright:
     wide = Browser(playwright)
     page = wide.open()
-    for check in (by_keyboard, sections, words, errors, headlines, effects, accuracy, remove, crop, spikes, compare, large):
+    for check in (by_keyboard, sections, words, errors, headlines, effects, queue, accuracy, remove, crop, spikes, compare, large):
         try:
             check(page)
         except Exception as e:

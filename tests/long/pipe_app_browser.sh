@@ -16,6 +16,7 @@ mkdir -p "$folder/shots" pasted
 cp "$RC_SOURCE/sample_surfaces/rough-steel.x3p" "$folder"
 head -c 3000 "$folder/rough-steel.x3p" >"$folder/broken.x3p"
 rc-synth selfaffine --nx 2048 --dx 1um --hurst 0.8 --rms-slope 0.05 --rolloff 500um --short-cut 8um --seed 1 | rc-export --format x3p -o "$folder/big.x3p"
+rc-synth selfaffine --nx 512 --dx 0.25um --hurst 0.7 --rms-slope 0.1 --rolloff 24um --seed 7 | rc-pick --quiet --resample 128x128 -o "$folder/jagged.rcg"
 "$python" - "$folder/node.rcg" "$folder/spike.rcg" "$folder" <<'END'
 import sys, numpy, rcg
 pressure = numpy.zeros((2048, 2048))

@@ -51,6 +51,8 @@ const FIGURES = {
   volume_error: 'Uncertainty of the volume (95 %)', overlap: 'Part that overlaps', changed: 'Part that has changed',
   missing: 'Part that is missing', nx: 'Nodes along x', ny: 'Nodes along y', dx: 'Spacing along x', dy: 'Spacing along y',
 };
+// What lowers an estimated error, if it is not the grid.
+const OF_SOLVER = {tol: ' (relative, of the solver, not of the grid)'};
 // A change, by the scan that was measured later.
 const LESS = {first: 'first scan less second', second: 'second scan less first'};
 // What the page says of the states of steps and of runs.
@@ -79,6 +81,17 @@ function tell(textContent, className = '') { Object.assign($('said'), {textConte
 const trying = act => async (...given) => {
   try { await act(...given); } catch (e) { tell(e.message, 'failed'); }
 };
+// Files and studies are made one after another, each of the result that is shown when its button is pressed.
+// jobs: the tools of those that have not ended. Their messages have a line of their own, beside that of the runs.
+const jobs = [];
+let lastJob = Promise.resolve();
+function note(textContent, className = '') { Object.assign($('job'), {textContent, className}); }
+function queued(tool, act) {
+  const at = place();
+  jobs.push(tool);
+  if (jobs.length > 1) note(`${tool} waits until ${jobs.at(-2)} has ended.`);
+  lastJob = lastJob.then(() => act(at)).catch(e => note(e.message, 'failed')).then(() => { jobs.shift(); });
+}
 function command(textContent) {
   const copy = button('Copy', async () => {
     await navigator.clipboard.writeText(textContent + '\n');
@@ -108,8 +121,11 @@ const clash = (rows, a, b) => a !== b && rows.some(row => row.name === a && excl
 // Words for people: the title of an option, and its help with the words that it takes.
 const named = (name, tool) => TITLES[`${tool} ${name}`] ?? TITLES[name] ??
   name[0].toUpperCase() + name.slice(1).replaceAll('-', ' ');
-const figured = (name, tool) => tables[tool]?.figures.find(row => row.name === name)?.title ?? FIGURES[name] ??
-  name[0].toUpperCase() + name.slice(1).replaceAll('_', ' ');
+const figureOf = (name, tool) => tables[tool]?.figures.find(row => row.name === name);
+const figured = (name, tool) => (figureOf(name, tool)?.title ?? FIGURES[name] ??
+  name[0].toUpperCase() + name.slice(1).replaceAll('_', ' ')) + (OF_SOLVER[figureOf(name, tool)?.by] ?? '');
+// Estimated errors are relative: shares, of which those of the solver say nothing of the grid.
+const isError = (name, tool) => figureOf(name, tool)?.role === 'error' || /_error_estimate$/.test(name);
 // A message of a tool names options as a shell has them: the form has titles.
 const spoken = (words, tool) => words.replace(/--([a-zA-Z][a-zA-Z0-9-]*)/g, (whole, name) =>
   (tables[tool]?.options.some(row => row.name === name) ? `“${named(name, tool)}” (${whole})` : whole));
@@ -240,6 +256,8 @@ const start = trying(async count => {
 // ---- runs ----
 
 const active = one => one?.state === 'running' || one?.state === 'waiting';
+const isRead = one => one.state === 'done' && one.steps.length === 1 && /import|pick/.test(one.steps[0].tool);
+const ended = one => (isRead(one) && used().length > 1 ? 'File read. Press “Run all steps”.' : WORDS[one.state]);
 const well = step => step.state === 'done' || step.state === 'short';
 function select(number) {
   run = runs.find(other => other.number === number) ?? {number, state: 'waiting', steps: []};
@@ -249,7 +267,7 @@ function select(number) {
 const drop = trying(number => ask('remove', {run: number}, ''));
 function news() {
   run = runs.find(other => other.number === run?.number) ?? (active(run) ? run : runs.at(-1) ?? null);
-  const names = runs.map(({number, state}) => new Option(`Run ${number}: ${state}`, number));
+  const names = runs.map(one => new Option(`Run ${one.number}: ${isRead(one) ? 'file read' : STATES[one.state] ?? one.state}`, one.number));
   const said = names.map(option => option.text).join('');
   if ($('runs').textContent !== said) $('runs').replaceChildren(...names); // an open list stays
   $('runs').value = run?.number ?? '';
@@ -264,7 +282,7 @@ function news() {
   document.body.dataset.run = `${run.number} ${run.state}`;
   if (seen === document.body.dataset.run && !now) return;
   seen = document.body.dataset.run;
-  const doing = now ? `${now.tool}: ${now.doing || 'running'}` : WORDS[run.state];
+  const doing = now ? `${now.tool}: ${now.doing || 'running'}` : ended(run);
   tell(failed ? spoken(failed.words, failed.tool) : doing, failed && 'failed');
   if (!active(run)) collect();
 }
@@ -277,7 +295,7 @@ const collect = trying(async () => {
       const name = [change ? `change of height (${LESS[change]})` : f.channel, 'after ' + one.tool,
         f.case && 'case ' + f.case, f.load && shown(+f.load, 'N'),
         f.depth && shown(+f.depth, 'm') + ' deep'].filter(Boolean).join(', ');
-      found.push({dunit: 'm', ...f, nx: +f.nx, ny: +f.ny, dx: +f.dx, dy: +f.dy, step, n, name});
+      found.push({dunit: 'm', ...f, nx: +f.nx, ny: +f.ny, dx: +f.dx, dy: +f.dy, run: number, step, n, name});
     }
   }
   if (run?.number !== number) return;
@@ -304,7 +322,8 @@ const collect = trying(async () => {
 // ---- views ----
 
 const map = new MapView($('map'), text => { $('at').textContent = text; });
-const place = () => ({run: run.number, step: frame.step});
+const place = () => ({run: frame.run, step: frame.step});
+const runShown = () => runs.find(({number}) => number === frame.run) ?? run; // another one may be selected and work
 const show = trying(async () => {
   const turn = ++shows, valid = () => turn === shows;
   frame = frames[$('channel').value];
@@ -327,7 +346,7 @@ const show = trying(async () => {
     throw e;
   }
   if (!valid()) return;
-  if ($('said').textContent === show.failed) tell(WORDS[run.state] ?? ''); // it was of another view
+  if ($('said').textContent === show.failed) tell(ended(run) ?? ''); // it was of another view
   document.body.dataset.shown = `${run.number} ${view} ${frame.channel}`;
   $('stage').classList.remove('busy');
 });
@@ -380,12 +399,12 @@ function framed(options, colours = true) { // colours: those of a picture
   const clips = colours && frame.clips && /Map|Figure|Relief/.test(view) && !has('clip') && !has('range') ? [['clip', true]] : [];
   return [...more.map(name => [name, frame[name]]), ...clips, ...given(options)];
 }
-const made = (tool, options, name) => ask('made', {...place(), tool, options: JSON.stringify(options), name});
+const made = (tool, options, name, at = place()) => ask('made', {...at, tool, options: JSON.stringify(options), name});
 const rowsOf = report => report.trim().split('\n').map(line => line.split('\t'));
 // The reports of the other steps of the run, of the last one first.
-const reportsBeside = at => Promise.all([...run.steps.entries()].reverse()
+const reportsBeside = at => Promise.all([...runShown().steps.entries()].reverse()
   .filter(([step, one]) => step !== at && one.report && well(one))
-  .map(async ([step, one]) => [one, rowsOf(await (await ask('file', {run: run.number, step, of: 'report'})).text())]));
+  .map(async ([step, one]) => [one, rowsOf(await (await ask('file', {run: frame.run, step, of: 'report'})).text())]));
 async function showMade(f, valid) {
   const numbers = view === 'Numbers', tool = numbers ? 'rc-info' : 'rc-render', options = VIEWS[view];
   const redo = () => { clearTimeout(show.later); show.later = setTimeout(show, 300); };
@@ -397,7 +416,7 @@ async function showMade(f, valid) {
   const free = id => !$(id).contains(document.activeElement);
   if (free('sliders')) $('sliders').replaceChildren(...sliders(f, options[0], redo));
   if (free('look')) $('look').replaceChildren(make('div'), form(tool, options, redo, again));
-  const curve = !numbers && given(options).find(([name]) => name === 'curve')?.[1], one = run.steps[f.step];
+  const curve = !numbers && given(options).find(([name]) => name === 'curve')?.[1], one = runShown().steps[f.step];
   const table = (numbers || curve) && one.report ? await ask('file', {...place(), of: 'report'}) : null;
   const lines = rowsOf(await table?.text() ?? ''), others = numbers ? await reportsBeside(f.step) : [];
   const heads = lines[0].map(head => head.split('/')[0]), lacking = curve === VIEWS.Curves[0][1] && table &&
@@ -462,7 +481,7 @@ function firstOf(figures, tool) {
 function showNumbers(lines, textContent, {tool, later}, others) {
   const [heads, ...rows] = lines, known = figuresOf(lines), first = firstOf(known, tool), all = make('details', {});
   const table = (some, code, of = tool) => numberTable(some, name =>
-    [figured(name, of), ...(code ? [' ', make('code', {textContent: name})] : [])]);
+    [figured(name, of), ...(code ? [' ', make('code', {textContent: name})] : [])], name => isError(name, of));
   const heading = of => make('h3', {textContent: `${title(of)} (${of})`});
   const more = others.map(([step, report]) => [step.tool, firstOf(figuresOf(report), step.tool)])
     .filter(([, figures]) => figures.length)
@@ -475,10 +494,11 @@ function showNumbers(lines, textContent, {tool, later}, others) {
   $('numbers').replaceChildren(...(more.length && known.length ? [heading(tool)] : []), ...lost,
     ...(first.length ? [table(first, false), all] : [table(known, true)]), ...more, make('pre', {textContent}));
 }
-const valued = (value, unit) => (value === '' || isNaN(value) ? value : shown(+value, unit.join('/') || '1', 4));
-function numberTable(lines, head) {
+const valued = (value, unit, share) => (value === '' || isNaN(value) ? value
+  : share && !unit.length ? `${shown(100 * value, '1', 2)} %` : shown(+value, unit.join('/') || '1', 4));
+function numberTable(lines, head, isShare) {
   return make('table', {}, ...lines.map(([[name, ...unit], values]) => make('tr', {}, make('th', {}, ...head(name)),
-    ...values.map(value => make('td', {textContent: valued(value, unit)})))));
+    ...values.map(value => make('td', {textContent: valued(value, unit, isShare(name))})))));
 }
 // One load has no curve: the value of each column, in words.
 function showPoint(heads, row, columns) {
@@ -489,15 +509,15 @@ function showPoint(heads, row, columns) {
   $('numbers').replaceChildren(make('p', {textContent: columns.map(text).filter(Boolean).join(', ') + '.'}),
     hint('A curve needs several loads in the step “Press”, as in 1N:60N:log:8.'));
 }
-const save = trying(async (tool, options, name) => {
-  tell(`${tool} makes ${name} …`);
-  const href = URL.createObjectURL(await (await made(tool, options, name)).blob());
+const save = (tool, options, name) => queued(tool, async at => {
+  note(`${tool} makes ${name} …`);
+  const href = URL.createObjectURL(await (await made(tool, options, name, at)).blob());
   make('a', {href, download: name}).click();
-  tell(`${name} is saved.`);
+  note(`${name} is saved.`);
   setTimeout(() => URL.revokeObjectURL(href), 60000);
 });
 function downloads() {
-  const {output, report} = run.steps[frame.step], contact = steps.find(step => step.tool === 'rc-solve');
+  const {output, report} = runShown().steps[frame.step], contact = steps.find(step => step.tool === 'rc-solve');
   const link = (download, of) => make('a', {className: 'button', textContent: download, download,
     href: address('file', {...place(), of})});
   const known = tables['rc-report'].options.map(row => row.name);
@@ -516,6 +536,8 @@ function downloads() {
 
 let known = [['mu', ''], ['yield', '']]; // data of the effects, beside the options of the contact
 const pressed = () => steps.find(step => step.tool === 'rc-solve');
+// Effects of the contact that rc-scene does not solve: it judges the elastic contact.
+const UNJUDGED = ['hardness', 'yield', 'adhesion', 'relaxation', 'travel', 'history'];
 const judged = name => tables['rc-scene'].options.some(row => row.name === name);
 // The options of the contact that rc-scene takes too; the form asks for none of them.
 const carried = () => given(pressed()?.options ?? []).filter(([name]) => judged(name));
@@ -530,28 +552,32 @@ function drawKnown() {
     form('known', known, () => {}, drawKnown));
 }
 // A study below the result: its message stands where its table would.
-const studying = (id, act) => trying(async () => {
-  try { await act(); } catch (e) {
+const studying = (id, tool, act) => () => queued(tool, async at => {
+  try { await act(at); } catch (e) {
     $(id).replaceChildren(make('p', {className: 'said failed', textContent: e.message}));
     throw e;
   }
 });
-const judge = studying('verdicts', async () => {
+const judge = studying('verdicts', 'rc-scene', async at => {
   if (!pressed()) throw new Error('Add the step “Press” first: the verdicts are about its contact.');
   const own = given(known), names = own.map(([name]) => name);
   const words = [...carried().filter(([name]) => !names.includes(name)), ...own];
-  tell('rc-scene judges the effects …');
-  const answer = await made('rc-scene', words, 'scene.json'), said = decodeURIComponent(answer.headers.get('X-Words'));
+  note('rc-scene judges the effects …');
+  const answer = await made('rc-scene', words, 'scene.json', at), said = decodeURIComponent(answer.headers.get('X-Words'));
   const lines = (await answer.text()).trim().split('\n').map(line => JSON.parse(line));
   const {scene} = lines[(frame?.case ?? 1) - 1] ?? lines.at(-1), missing = scene.filter(e => !e.sentence);
+  const effects = given(pressed().options).map(([name]) => name).filter(name => UNJUDGED.includes(name));
+  const lacking = e => `${e.title} (${e.missing.split(' ').map(name => `“${named(name, 'known')}”`).join(', ')})`;
   $('verdicts').replaceChildren(make('p', {className: 'said', textContent: said}),
+    ...(effects.length ? [hint('The verdicts are those of the elastic contact, without ' +
+      `${effects.map(name => `“${named(name, 'rc-solve')}”`).join(', ')} of the step “Press”.`)] : []),
     make('table', {}, ...scene.filter(e => e.sentence).map(e => make('tr', {}, make('th', {textContent: e.title}),
       make('td', {textContent: e.sentence}),
       make('td', {}, ...(!e.command.length ? [] : present(e) ? ['in the steps'] :
         [button('Add', () => addEffect(e), {name: e.effect})]))))),
-    hint(missing.length ? 'Data are missing for: ' + missing.map(e => `${e.title} (${e.missing})`).join(', ') + '.' : ''));
+    hint(missing.length ? 'Data are missing for: ' + missing.map(lacking).join(', ') + '.' : ''));
   document.body.dataset.judged = scene.length;
-  tell('The table below the result has the verdicts.');
+  note('The table below has the verdicts.');
 });
 // The options of a command, [[name, value], ...], of which the first word is the tool.
 function optionsOf([tool, ...words]) {
@@ -596,22 +622,30 @@ function addEffect(e) {
 
 // ---- accuracy: the bars of rc-cost, for the noise and the resolution of the scan ----
 
-const measure = studying('bars', async () => {
+const measure = studying('bars', 'rc-cost', async at => {
   if (!pressed()) throw new Error('Add the step “Press” first: the bars are those of its contact.');
   const noise = $('noise').value.trim(), words = [...(noise ? [['noise', noise]] : []), ['resolution', true]];
-  tell('rc-cost solves the contact again with other noise and resolution …');
-  const answer = await made('rc-cost', words, 'bars.json');
+  note('rc-cost solves the contact again with other noise and resolution …');
+  const answer = await made('rc-cost', words, 'bars.json', at);
   const rows = (await answer.text()).trim().split('\n').map(line => JSON.parse(line)), number = +(frame?.case ?? 1);
   const figures = rows.filter(row => row.what === 'figure' && row.case === number && (row.bar_relative || row.why));
   const per = value => (value ? `± ${shown(100 * value, '1', 2)} %` : ''), any = figures.some(row => row.bar_relative);
-  const bar = row => (row.limit === false && row.noise_relative ? 'noise alone ' + per(row.noise_relative) : per(row.bar_relative));
+  const alone = row => row.limit === false && row.noise_relative;
+  const bar = row => (alone(row) ? `noise alone ${per(row.noise_relative)}, without the error of the grid` : per(row.bar_relative));
+  // A grid counts whole nodes, so the area is too large by about the correction.
+  const [area, less] = ['contact_area', 'contact_area_corrected'].map(name => rows.find(row => row.what === 'figure' &&
+    row.case === number && row.name === name && row.value));
   $('bars').replaceChildren(command(decodeURIComponent(answer.headers.get('X-Command'))),
     make('table', {}, ...figures.map(row => make('tr', {}, make('th', {textContent: row.name.replaceAll('_', ' ')}),
       ...[shown(row.value, row.unit ?? '1', 4), bar(row), row.bar_relative && row.dominant ? 'mostly by ' + row.dominant : '',
         row.why ?? ''].map(textContent => make('td', {textContent}))))),
-    ...(any ? [hint('In 90 % of the cases the value of the true surface is within the bar.')] : []));
+    ...(any ? [hint('In 90 % of the cases the value of the true surface is within the bar.')] : []),
+    ...(figures.some(alone) ? [hint('Noise alone: the error of the grid is not in this bar and may be many times larger. ' +
+      '“Judge the effects” says how much a finer grid would change the contact.')] : []),
+    ...(area && less ? [hint(`Quote the corrected contact area, ${shown(less.value, 'm2', 4)}, with the spacing of the grid: the contact ` +
+      `area counts each node on the edge of the contact as a whole one and is ${shown(100 * (area.value / less.value - 1), '1', 2)} % larger.`)] : []));
   document.body.dataset.measured = figures.length;
-  tell(any ? 'The table below the result has the bars.' : 'No figure has a bar: the table below the result says why.');
+  note(any ? 'The table below has the bars.' : 'No figure has a bar: the table below says why.');
 });
 
 // ---- the beginning ----
