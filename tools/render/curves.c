@@ -745,7 +745,7 @@ warn_of_zigzag(struct curves *c, const struct table *table, size_t from, size_t 
                   table->source, turns, c->choice.column[0]);
 }
 
-/* Takes the pull-offs out of a curve, because no line may join them: points (x, y), y after `to - from` x, and
+/* Takes the pull-offs out of a curve, because no line may join them: points, y after `to - from` x, and
  * their number. NULL: none, or points that are averaged. */
 static double *
 take_pull_offs(struct curves *c, const struct table *table, size_t k, size_t from, size_t to,
