@@ -653,7 +653,8 @@ respond(struct wear *v, double *sum, struct rc_err *err)
     return RC_OK;
 }
 
-/* The errors of the nodes by the contact, Pa, from the gap that it has left open. The call overwrites `room`. */
+/* The errors of the nodes by the contact, Pa, from the gap that it has left open. The call overwrites
+ * `room`. */
 static enum rc_status
 find_contact_errors(struct wear *v, double *to, struct rc_err *err)
 {
@@ -669,11 +670,11 @@ find_contact_errors(struct wear *v, double *to, struct rc_err *err)
     return RC_OK;
 }
 
-/* How far the error z of the largest pressure can be from its estimate, Pa. z is the sum of m_j e_j over the
- * nodes, with their errors e_j and the response m to a unit height at the node of the largest pressure. A step
- * with a bend errs by 0.44 to `bends` caution times its estimate. Each node has another such factor, and the
- * parts m_j e_j of neighbours nearly cancel, so that z alone was down to 0.06 of the error. The deviations of
- * the nodes are independent and add as squares. The call overwrites `unit` and `room`. */
+/* How far the error z of the largest pressure can be from its estimate, Pa. z is the sum of m_j e_j over
+ * the nodes, with their errors e_j and the response m to a unit height at the node of the largest pressure.
+ * A step with a bend errs by 0.44 to `bends` caution times its estimate. Each node has another such factor,
+ * and the parts m_j e_j of neighbours nearly cancel, so that z alone was down to 0.06 of the error. The
+ * deviations of the nodes are independent and add as squares. The call overwrites `unit` and `room`. */
 static enum rc_status
 find_spread(struct wear *v, double *unit, double *spread, struct rc_err *err)
 {
@@ -698,12 +699,12 @@ find_spread(struct wear *v, double *unit, double *spread, struct rc_err *err)
     return RC_OK;
 }
 
-/* The error of the largest pressure: how far it can move while each node moves by its error. The pressure is
- * that of the worn heights, and its error the response z to their error, in `room`, to which the last step
- * adds. Steps with bends have the sign of their estimate, so that a node can move by the factor of these along
- * z. The parts of z due to the neighbours may cancel, so that it can also move by z the other way. The error of
- * the last step, in p0, replaces z where it is larger. `contacts`: errors by the contact; `spread`: see
- * find_spread. All are in Pa. */
+/* The error of the largest pressure: how far it can move while each node moves by its error. The pressure
+ * is that of the worn heights, and its error the response z to their error, in `room`, to which the last
+ * step adds. Steps with bends have the sign of their estimate, so that a node can move by the factor of
+ * these along z. The parts of z due to the neighbours may cancel, so that it can also move by z the other
+ * way. The error of the last step, in p0, replaces z where it is larger. `contacts`: errors by the contact;
+ * `spread`: see find_spread. All are in Pa. */
 static void
 find_peak_error(struct wear *v, const double *contacts, double spread)
 {
@@ -743,9 +744,9 @@ allowed(const struct wear *v)
     return v->way.strict * (v->rates.part == NULL ? most : fmax(most, left));
 }
 
-/* Accepts the smoothing step, or tries a shorter one. The error of the pressure is the response to the error of
- * the heights, which holds that of the last step; where the estimate of the last step alone is larger, it is
- * that. */
+/* Accepts the smoothing step, or tries a shorter one. The error of the pressure is the response to the
+ * error of the heights, which holds that of the last step; where the estimate of the last step alone is
+ * larger, it is that. */
 static enum rc_status
 even(struct wear *v, double of_p1, struct rc_err *err)
 {
@@ -812,10 +813,10 @@ even(struct wear *v, double of_p1, struct rc_err *err)
 }
 
 /* Adds the error of the step to the error of all steps. That error goes through the step as a difference of
- * two histories does: a part of it that decays by exp(-y) gets the factor (1 - (1 - 2 d) y)/(1 + d y)^2. The
- * response of the contact gives S = 1/(1 + d y), and with d = 1 - sqrt(1/2) the factor is
- * S (S - sqrt 2 (1 - S)). Outside the contact S is 1. Where the error was taken to decay as 1/s, it was up to 3
- * times too large, and its response at the node of the largest pressure down to a quarter of the error. */
+ * two histories does: a part of it that decays by exp(-y) gets the factor (1 - (1 - 2 d) y)/(1 + d y)^2.
+ * The response of the contact gives S = 1/(1 + d y), and with d = 1 - sqrt(1/2) the factor is S (S - sqrt 2
+ * (1 - S)). Outside the contact S is 1. Where the error was taken to decay as 1/s, it was up to 3 times too
+ * large, and its response at the node of the largest pressure down to a quarter of the error. */
 static enum rc_status
 age(struct wear *v, struct rc_err *err)
 {
