@@ -289,18 +289,20 @@ struct rc_alignment {
 /* A - B on the grid of A (m), NaN where either is missing, with B moved, turned and tilted so that the part
  * that has not changed is 0. Shift, rotation, tilt and offset are fitted with Tukey's biweights, from the
  * peak of a correlation on; patches of 7 x 7 nodes whose mean has changed do not count, or of 3 x 3 nodes
- * where changes are all over the map. At least half of the overlap must be unchanged. B is a cubic spline
- * between its nodes. A and B have the same spacings, and may have different sizes; a quarter of the smaller
- * side must overlap. Rotations up to 12 degrees are found. Profiles are not turned. The volume includes the
- * holes of the overlap, where the change follows from the changes around them by rc_inpaint; out is NaN
- * there. The uncertainties contain the noise, with its correlation between neighbours, and the errors of
- * the fit; that of the volume also the pull of changes that are smaller than the noise, and for each hole
- * its area times the spread of the changes around it. out is not ha. RC_FAIL as rc_add_shape; also when a
- * side has fewer than 16 nodes, a height is infinite, three quarters are missing, the maps do not fit on
- * each other, or memory is short. Switches off GSL's error handler, which belongs to the process, during
- * the call. */
+ * where changes are all over the map. Below 1, `below` is the part of the nodes of B that the fit knows: the
+ * lowest of the levelled B, as grooves that wear does not reach; each is chosen by the mean of 3 x 3 nodes. At
+ * least half of these nodes, of all if below is 1, must be unchanged. B is a cubic spline between its nodes.
+ * A and B have the same spacings, and may have different sizes; a quarter of the smaller
+ * side must overlap. Rotations up to 12 degrees are found. Profiles are not turned. The volume is that of all
+ * nodes and includes the holes of the overlap, where the change follows from the changes around them by
+ * rc_inpaint; out is NaN there. The uncertainties contain the noise, with its correlation between neighbours,
+ * and the errors of the fit; that of the volume also the pull of changes that are smaller than the noise, the
+ * mean noise of the lowest nodes, and for each hole its area times the spread of the changes around it. out is
+ * not ha. RC_FAIL as rc_add_shape; also when `below` is not in (0, 1], a side has fewer than 16 nodes, a height
+ * is infinite, three quarters are missing, the maps do not fit on each other, or memory is short. Switches off
+ * GSL's error handler, which belongs to the process, during the call. */
 RC_API enum rc_status rc_align(const struct rc_shape *a, const double *ha, const struct rc_shape *b,
-                               const double *hb, size_t threads, double *out,
+                               const double *hb, double below, size_t threads, double *out,
                                struct rc_alignment *found, struct rc_err *err);
 
 /* ---- figures and sums of maps ---- */

@@ -10,8 +10,9 @@
 
 static struct args {
     bool subtract, align;
+    double below;
     const char *report;
-} args;
+} args = {.below = 100};
 
 static struct report report;
 
@@ -22,6 +23,10 @@ static const struct opt opts[] = {
     {.name = "align", .type = OPT_FLAG, .at = offsetof(struct args, align), .result = true,
      .needs = RULES({.with = "subtract", .because = "it aligns two scans of one surface"}),
      .help = "shift, turn and tilt B so that the part that has not changed is 0"},
+    {.name = "align-below", .type = OPT_NUMBER, .at = offsetof(struct args, below), .min = 0, .max = 100,
+     .above = true, .result = true, .arg = "PERCENT",
+     .needs = RULES({.with = "align", .because = "it chooses the nodes of the fit"}),
+     .help = "fit on the lowest PERCENT of the nodes of B only, as on grooves, where more than half of the overlap is worn"},
     {.name = "report", .type = OPT_REPORT, .at = offsetof(struct args, report), .arg = "FILE",
      .needs = RULES({.with = "align", .because = "it reports the alignment"}),
      .help = "write one JSON object per surface, or a row of FILE.tsv or .csv: shift, volume, errors"},
@@ -334,6 +339,33 @@ tell(struct tool *t, const struct rc_grid *a, const struct rc_alignment *is)
             where, is->shift_error / fmin(a->dx, a->dy));
 }
 
+/* Warns of single points and groups of up to 9 that stand alone in the change, if filling them from around
+ * changes the volume by a tenth of its uncertainty or more. */
+static void
+warn_of_spikes(struct tool *t, const struct rc_grid *a, const struct rc_alignment *is)
+{
+    const double times = 5, least = 0.1; /* as rc-detrend(1) advises; part of the uncertainty */
+    const struct rc_shape shape = rc_grid_shape(a);
+    const size_t n = rc_grid_nodes(a);
+    RC_OWNED double *filled = tool_room(t, n, sizeof *filled, "the change without spikes");
+    size_t spikes, holes;
+    double volume = 0;
+
+    memcpy(filled, a->v, n * sizeof *filled);
+    tool_must(t, a, rc_spikes(&shape, times, RC_FREE, t->threads, filled, &spikes, &t->err));
+    if (spikes == 0)
+        return;
+    tool_must(t, a, rc_inpaint(&shape, filled, &holes, &t->err));
+    for (size_t k = 0; k < n; k++)
+        volume += isnan(a->v[k]) ? 0 : (a->v[k] - filled[k]) * a->dx * a->dy;
+    if (fabs(volume) >= least * is->volume_error)
+        tool_warn(t,
+                  "%s: %zu isolated points of the change are %.2g mm3 of the volume: if they are "
+                  "spikes of "
+                  "the instrument, run rc-detrend --spikes %g on both scans first",
+                  tool_where(t, a), spikes, volume * 1e9, times);
+}
+
 static void
 report_alignment(const struct rc_grid *a, const struct rc_alignment *is)
 {
@@ -372,7 +404,8 @@ align(struct tool *t, struct rc_grid *a, struct second *second)
 
     if (rc_add_shape(&sa, &sb, &both, &t->err) != RC_OK)
         refuse_spacings(t, a, b);
-    tool_must(t, a, rc_align(&sa, a->v, &sb, b->v, t->threads, change, &is, &t->err));
+    tool_must(t, a,
+              rc_align(&sa, a->v, &sb, b->v, args.below / 100, t->threads, change, &is, &t->err));
     free(a->v);
     a->v = change;
     t->input.missing = true;
@@ -387,6 +420,7 @@ align(struct tool *t, struct rc_grid *a, struct second *second)
     tool_must(t, a, add_history(t, a, b, &t->err));
     a->type = b->type == RC_F64 ? RC_F64 : a->type;
     tell(t, a, &is);
+    warn_of_spikes(t, a, &is);
     report_alignment(a, &is);
     tool_write(t, a);
 }

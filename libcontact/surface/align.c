@@ -36,6 +36,9 @@ enum {
     PEAKS = 6,       /* of each correlation, by phases and by heights: starts      */
     FIRST_PEAKS = 2, /* the others are tried if these give two maps that differ    */
     ROUNDS = 40,     /* of weights                                                 */
+    TRIAL = 8,       /* rounds that compare starts, on about as many nodes as      */
+    SAMPLE = 3072,
+    STEPS = 12,      /* of each round                                              */
     POINTS = 1 << 20 /* most nodes of a fit                                        */
 };
 static const double widest_turn = 12 * RC_PI / 180;
@@ -174,6 +177,115 @@ spline_at(const struct spline *s, double x, double y, double *h, double gradient
     return true;
 }
 
+/* ---- the lowest nodes ---- */
+
+/* The nodes of B whose height, as the mean with their neighbours, is among the lowest. The mean, because the
+ * noise of a node that is chosen by its own height has a mean: chosen by a mean of m nodes, white noise of
+ * variance s^2 has the mean -s^2 / m * slope, where `slope` is the density of the means at the limit over the
+ * part below (Stein's identity). */
+struct low {
+    unsigned char *on; /* 1: chosen; NULL: all nodes */
+    double slope, m;   /* 1/m, and nodes of a mean   */
+    double part;       /* of the nodes               */
+};
+
+static void
+low_free(struct low *low)
+{
+    free(low->on);
+}
+
+/* Values that are not NAN, sorted. */
+static size_t
+sort_present(size_t n, const double *h, double *sorted)
+{
+    size_t count = 0;
+
+    for (size_t k = 0; k < n; k++)
+        if (!isnan(h[k]))
+            sorted[count++] = h[k];
+    gsl_sort(sorted, 1, count);
+    return count;
+}
+
+static enum rc_status
+levelled(const struct rc_shape *shape, const double *h, double *out, struct rc_err *err)
+{
+    const struct rc_form plane = {.degree = 1, .threads = 1};
+
+    memcpy(out, h, shape->nx * shape->ny * sizeof *h);
+    return rc_detrend_form(shape, &plane, out, NULL, err);
+}
+
+/* Cuts the levelled heights above the lowest part of them, so that coarse maps of worn and of new plateaus
+ * agree. */
+static enum rc_status
+cut_tops(const struct rc_shape *shape, double below, double *h, struct rc_err *err)
+{
+    const size_t n = shape->nx * shape->ny;
+    RC_OWNED double *flat = rc_alloc(n, sizeof *flat), *sorted = rc_alloc(n, sizeof *sorted);
+    size_t count;
+    double limit;
+
+    if (flat == NULL || sorted == NULL)
+        return rc_err_set(err, "out of memory for the lowest of %zu heights", n);
+    if (levelled(shape, h, flat, err) != RC_OK)
+        return RC_FAIL;
+    count = sort_present(n, flat, sorted);
+    limit = gsl_stats_quantile_from_sorted_data(sorted, 1, count, below);
+    for (size_t k = 0; k < n; k++)
+        if (flat[k] > limit)
+            h[k] -= flat[k] - limit;
+    return RC_OK;
+}
+
+/* The mean in the square around a node, NAN where most of it is missing. */
+static double
+patch_mean(const struct rc_shape *s, const double *v, size_t k, size_t side)
+{
+    const size_t i = k % s->nx, j = k / s->nx;
+    double sum = 0, n = 0, all = 0;
+
+    for (size_t b = j < side ? 0 : j - side; b <= j + side && b < s->ny; b++)
+        for (size_t a = i < side ? 0 : i - side; a <= i + side && a < s->nx; a++) {
+            const double at = v[b * s->nx + a];
+            sum += isnan(at) ? 0 : at;
+            n += isnan(at) ? 0 : 1;
+            all++;
+        }
+    return 2 * n > all ? sum / n : NAN;
+}
+
+static enum rc_status
+low_new(const struct rc_shape *shape, const double *h, double below, struct low *low,
+        struct rc_err *err)
+{
+    const size_t n = shape->nx * shape->ny;
+    RC_OWNED double *flat = rc_alloc(n, sizeof *flat), *mean = rc_alloc(n, sizeof *mean);
+    size_t count;
+    double limit, width;
+
+    *low = (struct low){.m = shape->ny == 1 ? 3 : 9, .part = fmin(below, 1)};
+    if (!(below < 1))
+        return RC_OK;
+    if (flat == NULL || mean == NULL || (low->on = rc_calloc(n, 1)) == NULL)
+        return rc_err_set(err, "out of memory for the lowest of %zu heights", n);
+    if (levelled(shape, h, flat, err) != RC_OK)
+        return RC_FAIL;
+    for (size_t k = 0; k < n; k++)
+        mean[k] = patch_mean(shape, flat, k, 1);
+    count = sort_present(n, mean, flat);
+    if (count == 0)
+        return rc_err_set(err, "too few heights without holes around them");
+    limit = gsl_stats_quantile_from_sorted_data(flat, 1, count, below);
+    width = gsl_stats_quantile_from_sorted_data(flat, 1, count, fmin(1.1 * below, 1)) -
+            gsl_stats_quantile_from_sorted_data(flat, 1, count, 0.9 * below);
+    low->slope = width > 0 ? (fmin(1.1 * below, 1) / below - 0.9) / width : 0;
+    for (size_t k = 0; k < n; k++)
+        low->on[k] = mean[k] <= limit;
+    return RC_OK;
+}
+
 /* ---- the fit ---- */
 
 /* B turned counterclockwise and then moved lies on A. The fit has its numbers in units that make them
@@ -187,10 +299,13 @@ struct fit {
     size_t numbers;      /* NUMBERS or ON_PROFILE              */
     size_t n, step;      /* nodes of A in the fit: every step-th */
     bool fresh;          /* the numbers are not near the result yet */
+    size_t rounds;       /* most rounds of weights             */
     unsigned char *skip; /* nodes that have changed, or NULL   */
-    double q[NUMBERS];   /* the result, in SI                  */
-    double spread;       /* of the residuals without change, m */
-    double *r, *work;    /* n residuals, m; NAN: none          */
+    const struct low *low;
+    const double *weight; /* of n nodes; those with 0 are not computed */
+    double q[NUMBERS];    /* the result, in SI                  */
+    double spread;        /* of the residuals without change, m */
+    double *r, *work;     /* n residuals, m; NAN: none          */
     int threads;
 };
 
@@ -201,9 +316,6 @@ set_place(const struct fit *f, size_t k, double *x, double *y)
     *y = ((double)(k / f->shape.nx) - (double)(f->shape.ny - 1) / 2) * f->shape.dy;
 }
 
-/* The order of the numbers in `q`; a profile has no shift along y, rotation and tilt along y. */
-static const size_t order[NUMBERS] = {0, 3, 4, 1, 2, 5};
-
 /* A place on A, from the middle of B. */
 static void
 set_on_b(const double q[NUMBERS], double x, double y, double *u, double *v)
@@ -211,6 +323,33 @@ set_on_b(const double q[NUMBERS], double x, double y, double *u, double *v)
     *u = cos(q[2]) * (x - q[0]) - sin(q[2]) * (y - q[1]);
     *v = sin(q[2]) * (x - q[0]) + cos(q[2]) * (y - q[1]);
 }
+
+/* True if the nearest node of B is one of the lowest. */
+static bool
+in_low(const struct fit *f, size_t k)
+{
+    const struct rc_shape *b = &f->b->shape;
+    double x, y, u, v;
+
+    if (f->low->on == NULL)
+        return true;
+    set_place(f, k, &x, &y);
+    set_on_b(f->q, x, y, &u, &v);
+    u = round(u / b->dx + (double)(b->nx - 1) / 2);
+    v = round(v / b->dy + (double)(b->ny - 1) / 2);
+    return u >= 0 && u < (double)b->nx && v >= 0 && v < (double)b->ny &&
+           f->low->on[(size_t)v * b->nx + (size_t)u];
+}
+
+/* True if node k may count in the fit. */
+static bool
+counts(const struct fit *f, size_t k)
+{
+    return (f->skip == NULL || !f->skip[k]) && in_low(f, k);
+}
+
+/* The order of the numbers in `q`; a profile has no shift along y, rotation and tilt along y. */
+static const size_t order[NUMBERS] = {0, 3, 4, 1, 2, 5};
 
 /* A - B at node k, and the derivatives of B there by all numbers (not NULL). NAN where one is missing. */
 static double
@@ -253,7 +392,7 @@ residuals(const gsl_vector *x, void *data, gsl_vector *to)
     from_gsl(f, x, q);
 #pragma omp parallel for num_threads(f->threads) schedule(static)
     for (size_t i = 0; i < f->n; i++) {
-        const double d = difference(f, q, i * f->step, NULL);
+        const double d = f->weight[i] > 0 ? difference(f, q, i * f->step, NULL) : NAN;
         gsl_vector_set(to, i, isnan(d) ? 0 : d / f->height);
     }
     return GSL_SUCCESS;
@@ -269,7 +408,7 @@ derivatives(const gsl_vector *x, void *data, gsl_matrix *to)
 #pragma omp parallel for num_threads(f->threads) schedule(static)
     for (size_t i = 0; i < f->n; i++) {
         double by[NUMBERS];
-        const bool there = !isnan(difference(f, q, i * f->step, by));
+        const bool there = f->weight[i] > 0 && !isnan(difference(f, q, i * f->step, by));
         for (size_t k = 0; k < f->numbers; k++)
             gsl_matrix_set(to, i, k, there ? -by[order[k]] * f->unit[order[k]] / f->height : 0);
     }
@@ -320,8 +459,7 @@ find_spread(struct fit *f)
 
 #pragma omp parallel for num_threads(f->threads) schedule(static)
     for (size_t i = 0; i < f->n; i++)
-        f->r[i] =
-            f->skip != NULL && f->skip[i * f->step] ? NAN : difference(f, f->q, i * f->step, NULL);
+        f->r[i] = counts(f, i * f->step) ? difference(f, f->q, i * f->step, NULL) : NAN;
     for (size_t i = 0; i < f->n; i++)
         if (!isnan(f->r[i]))
             f->work[count++] = f->r[i];
@@ -351,13 +489,14 @@ fit_free(struct fit *f)
 }
 
 static enum rc_status
-fit_new(const struct rc_shape *shape, const double *a, const struct spline *b, int threads,
-        struct fit *f, struct rc_err *err)
+fit_new(const struct rc_shape *shape, const double *a, const struct spline *b,
+        const struct low *low, int threads, struct fit *f, struct rc_err *err)
 {
     const size_t n = shape->nx * shape->ny;
     struct rc_statistics is;
 
-    *f = (struct fit){.shape = *shape, .a = a, .b = b, .threads = threads};
+    *f = (struct fit){.shape = *shape, .a = a, .b = b, .low = low, .threads = threads};
+    f->rounds = ROUNDS;
     f->numbers = shape->ny == 1 ? ON_PROFILE : NUMBERS;
     f->step = (n + POINTS - 1) / POINTS;
     f->n = (n + f->step - 1) / f->step;
@@ -376,12 +515,23 @@ fit_new(const struct rc_shape *shape, const double *a, const struct spline *b, i
     return RC_OK;
 }
 
+/* Of two sets of numbers, or of a step, in units that end the rounds: 1e-4 nodes, and 1e-3 deviations. */
+static double
+largest_change(const struct fit *f, const gsl_vector *to, const gsl_vector *from)
+{
+    double most = 0;
+
+    for (size_t k = 0; k < f->numbers; k++)
+        most =
+            fmax(most, fabs(gsl_vector_get(to, k) - (from == NULL ? 0 : gsl_vector_get(from, k))) /
+                           (order[k] < 3 ? 1e-4 : 1e-3 * f->spread / f->height));
+    return most;
+}
+
 /* Fits from f->q on, with weights that are renewed. RC_FAIL: memory is short. */
 static enum rc_status
 fit_solve(struct fit *f, struct rc_err *err)
 {
-    /* changes that end the rounds: of places in nodes, and of heights in deviations */
-    const double closest = 1e-4, level = 1e-3;
     gsl_multifit_nlinear_parameters how = gsl_multifit_nlinear_default_parameters();
     gsl_multifit_nlinear_fdf what = {
         .f = residuals, .df = derivatives, .n = f->n, .p = f->numbers, .params = f};
@@ -394,9 +544,9 @@ fit_solve(struct fit *f, struct rc_err *err)
     find_level(f);
     how.solver = gsl_multifit_nlinear_solver_cholesky;
     w = gsl_multifit_nlinear_alloc(gsl_multifit_nlinear_trust, &how, f->n, f->numbers);
-    for (int round = 0; w != NULL && start != NULL && weight != NULL && round < ROUNDS; round++) {
+    for (size_t round = 0; w != NULL && start != NULL && weight != NULL && round < f->rounds;
+         round++) {
         double change = 0;
-        int info;
         if (find_spread(f) <= f->numbers || !(f->spread > 1e-12 * f->height))
             break;
         for (size_t i = 0; i < f->n; i++)
@@ -405,14 +555,16 @@ fit_solve(struct fit *f, struct rc_err *err)
                                                   : rc_biweight(f->r[i], reach * f->spread));
         for (size_t k = 0; k < f->numbers; k++)
             gsl_vector_set(start, k, f->q[order[k]] / f->unit[order[k]]);
+        f->weight = weight->data;
         status = gsl_multifit_nlinear_winit(start, weight, &what, w);
-        if (status == GSL_SUCCESS)
-            status = gsl_multifit_nlinear_driver(12, 1e-6, 1e-9, 0, NULL, NULL, &info, w);
+        for (int step = 0; step < STEPS && status == GSL_SUCCESS; step++) {
+            status = gsl_multifit_nlinear_iterate(w);
+            if (status == GSL_SUCCESS && largest_change(f, w->dx, NULL) < 0.1)
+                break;
+        }
         if (status == GSL_ENOMEM)
             break;
-        for (size_t k = 0; k < f->numbers; k++)
-            change = fmax(change, fabs(gsl_vector_get(w->x, k) - gsl_vector_get(start, k)) /
-                                      (order[k] < 3 ? closest : level * f->spread / f->height));
+        change = largest_change(f, w->x, start);
         from_gsl(f, w->x, f->q);
         if (change < 1)
             break;
@@ -575,30 +727,92 @@ find_starts(const struct rc_shape *a, const double *ha, const struct rc_shape *b
     return RC_OK;
 }
 
+/* ---- how alike the maps are ---- */
+
+/* A - B on all nodes. */
+static void
+find_change(const struct fit *f, double *out)
+{
+    const size_t n = f->shape.nx * f->shape.ny;
+
+#pragma omp parallel for num_threads(f->threads) schedule(static)
+    for (size_t k = 0; k < n; k++)
+        out[k] = difference(f, f->q, k, NULL);
+}
+
+/* The spread of A - B over that of the levelled heights of A, both as median absolute deviations: of
+ * unrelated surfaces too, whose differences have no side. */
+static enum rc_status
+find_likeness(const struct fit *f, const double *change, double *room, double *ratio,
+              struct rc_err *err)
+{
+    const struct rc_form plane = {.degree = 1, .threads = 1};
+    const size_t n = f->shape.nx * f->shape.ny;
+    double *values = room + n, *work = room + 2 * n;
+    size_t count = 0;
+
+    for (size_t k = 0; k < n; k++) {
+        const bool there = !isnan(change[k]) && in_low(f, k);
+        room[k] = there ? f->a[k] : NAN;
+        if (there)
+            values[count++] = change[k];
+    }
+    *ratio = gsl_stats_mad(values, 1, count, work);
+    if (rc_detrend_form(&f->shape, &plane, room, NULL, err) != RC_OK)
+        return RC_FAIL;
+    count = 0;
+    for (size_t k = 0; k < n; k++)
+        if (!isnan(room[k]))
+            values[count++] = room[k];
+    *ratio /= gsl_stats_mad(values, 1, count, work);
+    return RC_OK;
+}
+
 /* ---- levels ---- */
 
-/* A map of means with 1/factor of the nodes; NULL: memory is short. */
+/* A map of means with 1/factor of the nodes, without the tops above the lowest part. NULL: memory is short. */
 static double *
-coarsened(const struct rc_shape *from, const double *h, size_t factor, struct rc_shape *to)
+coarsened(const struct rc_shape *from, const double *h, size_t factor, double below,
+          struct rc_shape *to, struct rc_err *err)
 {
+    const size_t n = from->nx * from->ny;
+    RC_OWNED double *cut = NULL;
     double *v;
 
     to->nx = (from->nx + factor - 1) / factor;
     to->ny = (from->ny + factor - 1) / factor;
     to->dx = from->dx * (double)from->nx / (double)to->nx;
     to->dy = from->dy * (double)from->ny / (double)to->ny;
-    if ((v = rc_alloc(to->nx * to->ny, sizeof *v)) != NULL)
-        rc_resample_means(from, h, to, v);
+    if (below < 1 && (cut = rc_alloc(n, sizeof *cut)) != NULL) {
+        memcpy(cut, h, n * sizeof *h);
+        if (cut_tops(from, below, cut, err) != RC_OK)
+            return NULL;
+    }
+    if ((below < 1 && cut == NULL) || (v = rc_alloc(to->nx * to->ny, sizeof *v)) == NULL) {
+        rc_err_set(err, "out of memory for the fit of two maps");
+        return NULL;
+    }
+    rc_resample_means(from, cut != NULL ? cut : h, to, v);
     return v;
 }
 
-/* Fits the first starts or the others on a coarse map; the least spread wins. NAN: none fits. */
+/* Compares the first starts or the others by some rounds on some nodes of a coarse map; from the one with the
+ * least spread the fit goes on to its end. NAN: none fits, and *likeness is that of the best, or INFINITY. */
 static enum rc_status
-try_starts(struct fit *f, const struct starts *starts, bool others, struct rc_err *err)
+try_starts(struct fit *f, const struct starts *starts, bool others, double *likeness,
+           struct rc_err *err)
 {
     const size_t from = others ? FIRST_PEAKS : 0, to = others ? PEAKS : FIRST_PEAKS;
+    const size_t all = f->n, n = f->shape.nx * f->shape.ny, step = f->step;
+    RC_OWNED double *room = rc_alloc(4 * n, sizeof *room);
     double q[NUMBERS] = {NAN}, least = INFINITY;
 
+    *likeness = INFINITY;
+    if (room == NULL)
+        return rc_err_set(err, "out of memory for the fit of %zu heights", n);
+    f->step = (n + SAMPLE - 1) / SAMPLE;
+    f->n = (n + f->step - 1) / f->step;
+    f->rounds = TRIAL;
     for (size_t k = 2 * from; k < 2 * to; k++) {
         const struct start *start = (k % 2 == 0 ? starts->of_phases : starts->of_heights) + k / 2;
         size_t count;
@@ -612,37 +826,51 @@ try_starts(struct fit *f, const struct starts *starts, bool others, struct rc_er
         if (fit_solve(f, err) != RC_OK)
             return RC_FAIL;
         count = find_spread(f);
-        if (10 * count > f->n && f->spread < least) {
+        if (10 * (double)count > f->low->part * (double)f->n && f->spread < least) {
             least = f->spread;
             memcpy(q, f->q, sizeof q);
         }
     }
     f->fresh = false;
+    f->step = step;
+    f->n = all;
+    f->rounds = ROUNDS;
     memcpy(f->q, q, sizeof q);
+    if (isnan(q[0]))
+        return RC_OK;
+    if (fit_solve(f, err) != RC_OK)
+        return RC_FAIL;
+    find_change(f, room + 3 * n);
+    if (find_likeness(f, room + 3 * n, room, likeness, err) != RC_OK)
+        return RC_FAIL;
+    if (*likeness > unlike)
+        f->q[0] = NAN;
     return RC_OK;
 }
 
 /* Improves q on maps with 1/factor of the nodes; a NAN: there is no q yet, and starts are tried. */
 static enum rc_status
 solve_level(const struct rc_shape *a, const double *ha, const struct rc_shape *b, const double *hb,
-            size_t factor, int threads, bool others, double q[NUMBERS], struct rc_err *err)
+            double below, size_t factor, int threads, bool others, double q[NUMBERS],
+            double *likeness, struct rc_err *err)
 {
     struct rc_shape sa, sb;
-    RC_OWNED double *va = coarsened(a, ha, factor, &sa);
-    RC_OWNED double *vb = coarsened(b, hb, factor, &sb);
+    RC_OWNED double *va = coarsened(a, ha, factor, below, &sa, err);
+    RC_OWNED double *vb = coarsened(b, hb, factor, below, &sb, err);
     RC_ENDS(spline_free) struct spline spline = {0};
+    RC_ENDS(low_free) struct low low = {0};
     RC_ENDS(fit_free) struct fit f = {0};
     struct starts starts;
     const bool first = isnan(q[0]);
 
     if (va == NULL || vb == NULL)
-        return rc_err_set(err, "out of memory for the fit of two maps");
-    if (spline_new(&sb, vb, &spline, err) != RC_OK ||
-        fit_new(&sa, va, &spline, threads, &f, err) != RC_OK)
+        return RC_FAIL;
+    if (spline_new(&sb, vb, &spline, err) != RC_OK || low_new(&sb, vb, below, &low, err) != RC_OK ||
+        fit_new(&sa, va, &spline, &low, threads, &f, err) != RC_OK)
         return RC_FAIL;
     if (first) {
         if (find_starts(&sa, va, &sb, vb, &starts, err) != RC_OK ||
-            try_starts(&f, &starts, others, err) != RC_OK)
+            try_starts(&f, &starts, others, likeness, err) != RC_OK)
             return RC_FAIL;
     } else {
         memcpy(f.q, q, sizeof f.q);
@@ -661,34 +889,6 @@ solve_level(const struct rc_shape *a, const double *ha, const struct rc_shape *b
 static const struct patch {
     size_t side, margin;
 } patches[] = {{3, 10}, {3, 4}, {1, 3}, {1, 1}};
-
-/* A - B on all nodes. */
-static void
-find_change(const struct fit *f, double *out)
-{
-    const size_t n = f->shape.nx * f->shape.ny;
-
-#pragma omp parallel for num_threads(f->threads) schedule(static)
-    for (size_t k = 0; k < n; k++)
-        out[k] = difference(f, f->q, k, NULL);
-}
-
-/* The mean in the square around a node, NAN where most of it is missing. */
-static double
-patch_mean(const struct rc_shape *s, const double *v, size_t k, size_t side)
-{
-    const size_t i = k % s->nx, j = k / s->nx;
-    double sum = 0, n = 0, all = 0;
-
-    for (size_t b = j < side ? 0 : j - side; b <= j + side && b < s->ny; b++)
-        for (size_t a = i < side ? 0 : i - side; a <= i + side && a < s->nx; a++) {
-            const double at = v[b * s->nx + a];
-            sum += isnan(at) ? 0 : at;
-            n += isnan(at) ? 0 : 1;
-            all++;
-        }
-    return 2 * n > all ? sum / n : NAN;
-}
 
 static void
 mark_patch(const struct rc_shape *s, size_t k, size_t margin, unsigned char *skip)
@@ -897,7 +1097,7 @@ correlated_nodes(const struct fit *f, const double *change)
                 for (size_t j = b; j < b + side && j < f->shape.ny; j++)
                     for (size_t i = a; i < a + side; i++) {
                         const size_t k = j * f->shape.nx + i;
-                        if (f->skip[k] || !(fabs(change[k]) < reach * f->spread))
+                        if (!counts(f, k) || !(fabs(change[k]) < reach * f->spread))
                             continue;
                         sum += change[k];
                         nodes += change[k] * change[k];
@@ -927,13 +1127,14 @@ find_errors(const struct fit *f, const double *change, double level, struct rc_a
     gsl_matrix_view m = gsl_matrix_view_array(normal, p, p);
     gsl_vector_view right = gsl_vector_view_array(all, p);
     double by[NUMBERS], part;
+    double chosen; /* m: bound of the mean noise of the lowest nodes */
     struct holes holes;
 
     if (fill_holes(f, change, &holes, err) != RC_OK)
         return RC_FAIL;
     for (size_t k = 0; k < n; k++) {
         const double r = change[k], u = r / (reach * f->spread);
-        const double w = k % f->step != 0 || f->skip[k] ? 0 : rc_biweight(u, 1);
+        const double w = k % f->step != 0 || !counts(f, k) ? 0 : rc_biweight(u, 1);
         if (isnan(r))
             continue;
         difference(f, f->q, k, by);
@@ -962,7 +1163,7 @@ find_errors(const struct fit *f, const double *change, double level, struct rc_a
     gsl_linalg_cholesky_svx(&m.matrix, &right.vector); /* now N^-1 sum G */
     for (size_t k = 0; k < n; k++) {
         const double r = change[k];
-        const double w = k % f->step != 0 || f->skip[k] ? 0 : rc_biweight(r, reach * f->spread);
+        const double w = k % f->step != 0 || !counts(f, k) ? 0 : rc_biweight(r, reach * f->spread);
         double pull = 0;
         if (isnan(r))
             continue;
@@ -986,66 +1187,44 @@ find_errors(const struct fit *f, const double *change, double level, struct rc_a
                 variance += pulls[a] * scatter[a * p + b] * pulls[b];
         by[order[i]] = bar * sqrt(sum * variance) / slope * f->unit[order[i]];
     }
+    chosen = f->spread * f->spread * f->low->slope * fmin(1, sum / f->low->m);
     found->shift_error = p == NUMBERS ? hypot(by[0], by[1]) : by[0];
     found->rotation_error = p == NUMBERS ? by[2] : 0;
     found->changed = changed / there;
     found->volume += holes.sum * f->shape.dx * f->shape.dy;
     found->volume_error =
         (hypot(bar_of_volume * (1 + found->changed) * sqrt(sum * volume), sqrt(holes.square)) +
-         fabs(level) * there / part) *
+         (fabs(level) + chosen) * there / part) *
         f->shape.dx * f->shape.dy;
     found->overlap = there / part / (double)n;
     found->missing = 1 - part;
     return RC_OK;
 }
 
-/* The spread of A - B over that of the levelled heights of A, both as median absolute deviations: of
- * unrelated surfaces too, whose differences have no side. */
-static enum rc_status
-find_likeness(const struct fit *f, const double *change, double *room, double *ratio,
-              struct rc_err *err)
-{
-    const struct rc_form plane = {.degree = 1, .threads = 1};
-    const size_t n = f->shape.nx * f->shape.ny;
-    double *values = room + n, *work = room + 2 * n;
-    size_t count = 0;
-
-    for (size_t k = 0; k < n; k++) {
-        room[k] = isnan(change[k]) ? NAN : f->a[k];
-        if (!isnan(change[k]))
-            values[count++] = change[k];
-    }
-    *ratio = gsl_stats_mad(values, 1, count, work);
-    if (rc_detrend_form(&f->shape, &plane, room, NULL, err) != RC_OK)
-        return RC_FAIL;
-    count = 0;
-    for (size_t k = 0; k < n; k++)
-        if (!isnan(room[k]))
-            values[count++] = room[k];
-    *ratio /= gsl_stats_mad(values, 1, count, work);
-    return RC_OK;
-}
-
 static const char apart[] = "the two maps do not fit on each other: are they scans of one surface, "
-                            "turned by less than 12 degrees, with half of the overlap unworn?";
+                            "turned by less than 12 degrees, with half of the overlap unworn? "
+                            "Where more is worn, rc-add --align-below 20 fits on the lowest nodes";
 
 static enum rc_status
-do_not_fit(double *likeness, struct rc_err *err)
+do_not_fit(double likeness, struct rc_err *err)
 {
-    *likeness = INFINITY;
-    return rc_err_set(err, "%s", apart);
+    if (isinf(likeness))
+        return rc_err_set(err, "%s", apart);
+    return rc_err_set(err, "%s (the spread of A - B is %.0f %% of that of A; the limit is %.0f %%)",
+                      apart, 100 * likeness, 100 * unlike);
 }
 
 /* From the first starts or the others. *likeness: see find_likeness; INFINITY: the maps
  * do not fit, 0: not known. */
 static enum rc_status
 align_from(const struct rc_shape *a, const double *ha, const struct rc_shape *b, const double *hb,
-           int threads, bool others, double *out, struct rc_alignment *found, double *likeness,
-           struct rc_err *err)
+           double below, int threads, bool others, double *out, struct rc_alignment *found,
+           double *likeness, struct rc_err *err)
 {
     const size_t n = a->nx * a->ny;
     size_t side = a->nx, factor = 1;
     RC_ENDS(spline_free) struct spline spline = {0};
+    RC_ENDS(low_free) struct low low = {0};
     RC_ENDS(fit_free) struct fit f = {0};
     RC_OWNED unsigned char *skip = rc_calloc(n, 1);
     RC_OWNED double *mean = rc_alloc(n, sizeof *mean);
@@ -1062,13 +1241,13 @@ align_from(const struct rc_shape *a, const double *ha, const struct rc_shape *b,
     while (side > factor * COARSE)
         factor *= 2;
     for (; factor > 1 || isnan(q[0]); factor = factor > 1 ? factor / 2 : 1) {
-        if (solve_level(a, ha, b, hb, factor, threads, others, q, err) != RC_OK)
+        if (solve_level(a, ha, b, hb, below, factor, threads, others, q, likeness, err) != RC_OK)
             return RC_FAIL;
         if (isnan(q[0]))
-            return do_not_fit(likeness, err);
+            return do_not_fit(*likeness, err);
     }
-    if (spline_new(b, hb, &spline, err) != RC_OK ||
-        fit_new(a, ha, &spline, threads, &f, err) != RC_OK)
+    if (spline_new(b, hb, &spline, err) != RC_OK || low_new(b, hb, below, &low, err) != RC_OK ||
+        fit_new(a, ha, &spline, &low, threads, &f, err) != RC_OK)
         return RC_FAIL;
     memcpy(f.q, q, sizeof q);
     f.skip = skip;
@@ -1079,16 +1258,17 @@ align_from(const struct rc_shape *a, const double *ha, const struct rc_shape *b,
         if (pass < 2 && !mark_all(&f, out, mean, room, skip))
             break;
     }
-    if (find_spread(&f) <= f.numbers)
-        return do_not_fit(likeness, err);
+    if (find_spread(&f) <= f.numbers) {
+        *likeness = INFINITY;
+        return do_not_fit(*likeness, err);
+    }
     pull = take_pull(&f);
     find_spread(&f);
     find_change(&f, out);
     if (find_likeness(&f, out, room, likeness, err) != RC_OK)
         return RC_FAIL;
     if (*likeness > unlike)
-        return rc_err_set(err, "%s (they differ by %.0f %% of the heights)", apart,
-                          100 * *likeness);
+        return do_not_fit(*likeness, err);
     *found = (struct rc_alignment){.shift_x = f.q[0],
                                    .shift_y = f.q[1],
                                    .rotation = f.q[2],
@@ -1120,7 +1300,7 @@ check(const struct rc_shape *s, const double *h, const char *name, struct rc_err
 
 enum rc_status
 rc_align(const struct rc_shape *a, const double *ha, const struct rc_shape *b, const double *hb,
-         size_t threads, double *out, struct rc_alignment *found, struct rc_err *err)
+         double below, size_t threads, double *out, struct rc_alignment *found, struct rc_err *err)
 {
     const int team = rc_useful_threads(a, threads);
     struct rc_shape both;
@@ -1132,10 +1312,13 @@ rc_align(const struct rc_shape *a, const double *ha, const struct rc_shape *b, c
         return RC_FAIL;
     if ((a->ny == 1) != (b->ny == 1))
         return rc_err_set(err, "one is a profile and the other a map: they cannot be aligned");
+    if (!(below > 0 && below <= 1))
+        return rc_err_set(
+            err, "the lowest %g of the nodes: an alignment takes a part above 0, up to 1", below);
     rc_handler_begin();
-    status = align_from(a, ha, b, hb, team, false, out, found, &likeness, err);
+    status = align_from(a, ha, b, hb, below, team, false, out, found, &likeness, err);
     if (status != RC_OK && likeness > unlike)
-        status = align_from(a, ha, b, hb, team, true, out, found, &likeness, err);
+        status = align_from(a, ha, b, hb, below, team, true, out, found, &likeness, err);
     rc_handler_end();
     return status;
 }

@@ -241,7 +241,7 @@ aligned(double *out, struct rc_err *err)
         a[k] = 1e-6 * (sin(0.9 * x) + cos(0.7 * y + 0.3 * x));
         b[k] = 1e-6 * (sin(0.9 * (x + 1)) + cos(0.7 * y + 0.3 * (x + 1))) + 1e-9 * sin(x * y);
     }
-    if (rc_align(&s, a, &s, b, 1, change, &found, err) != RC_OK)
+    if (rc_align(&s, a, &s, b, 1, 1, change, &found, err) != RC_OK)
         return RC_FAIL;
     out[N] = found.shift_x;
     return RC_OK;

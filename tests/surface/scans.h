@@ -99,6 +99,7 @@ struct scans {
     double groove, width;          /* m: depth of a groove in A, and its half width */
     double share, cut;    /* of the nodes of A that lose their tops, and the height (m) above */
     double lay;           /* 1: no lay */
+    double below;         /* part of the nodes of B in the fit, 0: all */
     int holes;            /* in each scan */
     double missing, size; /* part of each scan in holes more, and their largest radius, nodes */
 };
@@ -268,7 +269,7 @@ align_scans(const struct surface *s, const struct scans *c)
     struct rc_err err;
 
     scan_both(s, c, a, b);
-    if (rc_align(&c->a, a, &c->b, b, 1, out, &found, &err) != RC_OK) {
+    if (rc_align(&c->a, a, &c->b, b, c->below > 0 ? c->below : 1, 1, out, &found, &err) != RC_OK) {
         printf("refused: %s\n", err.text);
         free(a);
         free(b);

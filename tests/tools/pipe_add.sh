@@ -110,6 +110,12 @@ holed 20e-6
 claim "  a large one has a warning" warns '16 % of the overlap is missing in A or B: the volume there is estimated' rc-add --subtract --align holed.rcg new.rcg -o c.rcg
 refuses 2 '--align has no effect without --subtract' "no alignment of a sum" "rc-add --align later.rcg new.rcg"
 refuses 1 'an alignment needs 16 a side' "too small a map" "rc-pick --crop 0,0,12,12 new.rcg | rc-add --subtract --align later.rcg -"
+# spikes: 12 single points of 2 um; their volume without the warning is wear
+rc-export --format xyz later.rcg | awk '!/^#/ { if (NR % 700 == 9) $3 += 2e-6 } { print }' | rc-import --format xyz --xy-unit m --z-unit m - -o spiky.rcg
+claim "  points that stand alone have a warning" warns '[0-9]+ isolated points of the change are .* of the volume: if they are spikes of the instrument, run rc-detrend --spikes 5' rc-add --subtract --align spiky.rcg new.rcg -o c.rcg
+refuses 2 '--align-below has no effect without --align' "no choice of nodes without an alignment" "rc-add --subtract --align-below 20 later.rcg new.rcg"
+claim "the lowest nodes can be enough" bash -c 'rc-add --subtract --align --align-below 30 --report low.json later.rcg new.rcg -o c.rcg'
+near "$(field shift_x low.json)" -5e-6 1e-9 "  with the same shift"
 unrelated() { for seed in 6 7 8; do rc-synth selfaffine --nx 96 --dx 1um --hurst 0.7 --rms-height 0.3um --seed $seed -o other.rcg
     rc-add --subtract --align later.rcg other.rcg -o c.rcg 2>err; [ $? = 1 ] && grep -q 'the two maps do not fit on each other' err || return 1; done; }
 claim "scans of two surfaces do not fit on each other" unrelated
