@@ -531,7 +531,9 @@ print_change(const struct line *l, FILE *out)
     else if (l->figure == RC_SCENE_PULL_OFF || strcmp(name, "rolling") == 0)
         print_force(l, out);
     else if (l->figure == RC_SCENE_FATIGUE)
-        fprintf(out, ": the index is %s to %s, and 1 at the endurance limit",
+        fprintf(out,
+                ": the index is %s to %s, and 1 at the endurance limit, as if this surface passed "
+                "over a smooth body 1; a rough body 1 needs 'rc-solve --travel'",
                 amount(l->figure, c->low, c->high, low), amount(l->figure, c->high, c->high, high));
     else if (isinf(c->high))
         fputs(": the largest pressure is at the edge of the map, where it is no property of the "

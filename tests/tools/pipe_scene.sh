@@ -107,6 +107,8 @@ rc-synth sphere --radius 7.5mm --nx 31 --dx 50um -o lone.rcg
 scene --load 240N $steel --bending-limit 700MPa --torsion-limit 450MPa ball.rcg >fatigue.json
 between "$(awk 'BEGIN { print 0.98 * 0.62 * 2.2238e9 / (2 * sqrt(3)) / 450e6 }')" "$(of fatigue fatigue.json figures fatigue_index high)" \
     "$(awk 'BEGIN { print 1.06 * 0.62 * 2.2238e9 / sqrt(3) / 450e6 }')" "the index of fatigue is between the bounds by the Mises stress"
+claim "  of a smooth body 1, and the row says so" bash -c "rc-scene --quiet --load 240N $steel --bending-limit 700MPa --torsion-limit 450MPa ball.rcg |
+    grep -q 'as if this surface passed over a smooth body 1; a rough body 1 needs .rc-solve --travel'"
 rc-solve --quiet --load 240N $steel -o pressed.rcg ball.rcg
 rc-fatigue --quiet --bending-limit 700MPa --torsion-limit 450MPa --pass x --depths auto --report f.json -o x.rcg pressed.rcg
 index=$(awk -v a="$(field crossland f.json)" -v b="$(field dangvan f.json)" 'BEGIN { print (a > b ? a : b) }')
