@@ -519,6 +519,26 @@ judge(struct run *run, const struct rc_grid *g, const struct rc_heat_figures *f)
     }
 }
 
+/* The main figures, with --verbose. */
+static void
+tell(struct run *run, const struct rc_grid *g, const struct rc_heat_figures *f, double seconds)
+{
+    char place[64 + 2 * SHOWN_NUMBER] = "", share[64 + SHOWN_NUMBER] = "", x[SHOWN_NUMBER],
+                        y[SHOWN_NUMBER];
+
+    if (!isnan(f->max_x))
+        snprintf(place, sizeof place, ", at x = %s, y = %s", shown_in_unit_to(x, f->max_x, "m"),
+                 shown_in_unit_to(y, f->max_y, "m"));
+    if (!isnan(f->share_1))
+        snprintf(share, sizeof share, "; body 1 takes %s of the heat",
+                 shown_percent(f->share_1, 3));
+    tool_note(&run->t,
+              "%s: hottest %.3g K above the bulk of body 1%s%s; %s to %.2g in %zu iterations, "
+              "%.2g s",
+              tool_where(&run->t, g), f->max_temperature, place, share,
+              f->converged ? "converged" : "not converged", f->mismatch, f->iterations, seconds);
+}
+
 /* Warns of a profile on a free boundary. */
 static void
 check_profile(struct run *run, const struct rc_grid *g)
@@ -570,6 +590,7 @@ do_case(struct run *run, struct rc_grid *g)
     tool_progress_end(&run->t);
     if (status == RC_FAIL)
         tool_must(&run->t, g, status);
+    tell(run, g, rc_heat_result(h), tool_now() - began);
     judge(run, g, rc_heat_result(h));
     for (size_t kind = 0; kind < 2; kind++)
         for (size_t k = 0; k < args.depths.n && args.output >> kind & 1; k++)

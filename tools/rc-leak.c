@@ -223,6 +223,7 @@ do_case(struct run *run, const struct rc_grid *gap)
     c.setup = tool_now() - began;
     solve(run, &c, leak);
     c.solve = tool_now() - began - c.setup;
+    leak_tell(&run->t, &c);
     leak_judge(&run->t, &c);
     for (size_t kind = 0; kind < FRAMES; kind++)
         if (args.output >> kind & 1)

@@ -15,6 +15,13 @@ for pair in 0.1:20.2 1:176.7 10:1109; do
     near "$(column max_temperature t.tsv)" "${pair#*:}" 1e-2 "rough steel at ${pair%:*} m/s"
     near "$(column heat_power t.tsv)" "$(awk "BEGIN { print 0.3 * 5 * ${pair%:*} }")" 1e-3 "  heat: mu P V"
 done
+rc-heat --verbose --mu 0.3 --speed 10 $steel --report t.json -o hot.rcg rough.rcg 2>told.txt
+told=$(sed -n 's/.*: hottest \([0-9.e+]*\) K above the bulk of body 1, at x = \([-0-9.]*\) um, y = \([-0-9.]*\) um; body 1 takes \([0-9.]*\) % of the heat; converged to [0-9.e-]* in [0-9]* iterations, [0-9.e-]* s$/\1 \2e-6 \3e-6 \4e-2/p' told.txt)
+read -r hottest at_x at_y share <<<"$told"
+near "$hottest" "$(field max_temperature t.json)" 5e-3 "--verbose prints the largest temperature"
+near "$at_x" "$(field max_x t.json)" 5e-3 "  and where it is"
+near "$at_y" "$(field max_y t.json)" 5e-3 "  along both axes"
+near "$share" "$(field share_1 t.json)" 5e-3 "  and the heat into body 1"
 claim "frames" test "$(grep -a '^channel=' hot.rcg | tr '\n' ' ')" = \
     "channel=temperature-1 channel=temperature-2 channel=heat-1 channel=heat-2 channel=contact "
 

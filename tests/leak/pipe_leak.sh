@@ -66,6 +66,10 @@ claim "the frames have their units" bash -c 'rc-info --json flow.rcg | grep -o "
 claim "the frames have the keys for a picture" bash -c 'rc-info flow.rcg | says "throat_x=" cat && rc-info flow.rcg | says "flow_rate=4.16666.*e-12" cat'
 claim "the frames have the history" says 'rc-leak [^|]* --viscosity 0.002 --pressure-drop 100000' head -c 2000 flow.rcg
 
+told() { rc-leak --verbose "$@" channel.rcg -o x.rcg 2>&1; }
+claim "--verbose prints the flow, the contact and the gap" bash -c "grep -qx 'rc-leak: channel.rcg[^:]*: flow 4.17e-12 m3/s, contact 25 %, narrowest gap 2 um; [0-9]* unknowns, [0-9.e-]* s' <<<'$(told --viscosity 2mPas --pressure-drop 100kPa)'"
+claim "  without a fluid its conductance, with sliding the flow that it drags" bash -c "grep -q ': flow conductance 1e-18 m3, dragged along by sliding [0-9.e-]* m3/s, contact 25 %' <<<'$(told --sliding 2m/s)'"
+claim "  across the wall that no path is open" bash -c "grep -q ': no path from edge to edge: sealed, contact 25 %; ' <<<'$(told --direction y)'"
 rc-leak --quiet --report bare.json channel.rcg -o bare.rcg
 claim "without a fluid there is a conductance, but no flow rate" grep -q '"viscosity": null, "pressure_drop": null, .*"flow_rate": null, .*"flow_conductance": [19]' bare.json
 claim "  pressures fall from 1 to 0, and fluxes are in m2" bash -c 'rc-info --json bare.rcg | grep -o "\"unit\": \"[^\"]*\"" | tr "\n" " " | grep -qx "\"unit\": \"1\" \"unit\": \"m2\" \"unit\": \"1\" "'

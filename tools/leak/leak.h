@@ -24,6 +24,8 @@ struct leak_case {
 void leak_judge(struct tool *tool, const struct leak_case *c);
 /* The effects of the case: computed, or why not. */
 const struct effect_state *leak_effects(const struct leak_case *c);
+/* The main figures, with --verbose. */
+void leak_tell(struct tool *tool, const struct leak_case *c);
 void leak_report(struct report *report, const struct leak_case *c);
 
 #endif

@@ -2,6 +2,8 @@
 #include "leak.h"
 
 #include <math.h>
+#include <stdio.h>
+#include <string.h>
 
 /* The flow if each square of the map had one such critical constriction (Persson and Yang, J. Phys.: Condens.
  * Matter 20, 2008, 315011). */
@@ -95,6 +97,30 @@ leak_report(struct report *r, const struct leak_case *c)
     report_value(r, "speed", key_of(g, "speed"));
     report_value(r, "position", key_of(g, "position"));
     report_finish_row(r);
+}
+
+void
+leak_tell(struct tool *t, const struct leak_case *c)
+{
+    const struct rc_leak_figures *f = c->figures;
+    char text[512] = "no path from edge to edge: sealed";
+    size_t n = strlen(text);
+
+    if (f->percolates && !isnan(c->rate))
+        n = (size_t)snprintf(text, sizeof text, "flow %.3g m3/s", c->rate * f->conductance);
+    else if (f->percolates)
+        n = (size_t)snprintf(text, sizeof text, "flow conductance %.3g m3", f->conductance);
+    if (!isnan(c->smooth))
+        n += (size_t)snprintf(text + n, sizeof text - n, ", dragged along by sliding %.3g m3/s",
+                              shear_flow(c));
+    if (!isnan(c->contact))
+        n += (size_t)snprintf(text + n, sizeof text - n, ", contact %s",
+                              shown_percent(c->contact, 3));
+    if (f->percolates)
+        snprintf(text + n, sizeof text - n, ", narrowest gap %s",
+                 shown_in_unit(f->critical_gap, "m"));
+    tool_note(t, "%s: %s; %zu unknowns, %.2g s", tool_where(t, c->gap), text, f->unknowns,
+              c->setup + c->solve);
 }
 
 /* ---- what is wrong with it ---- */
