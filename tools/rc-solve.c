@@ -2,12 +2,26 @@
 /* Contact of a height map with an elastic half-space. */
 #include "tools/solve/solve.h"
 
+/* Effects without a heading of their own, and other names of headings. */
+static const struct help_topic topics[] = {
+    {"conductance conductivity resistance", "stiffness conductivity"},
+    {"hardness plasticity", "hardness history output"},
+    {"layers coating layered", "layer E1 nu1"},
+    {"mpi", ""},
+    {"relaxation creep viscoelasticity viscoelastic rubber",
+     "relaxation shift temperature time increments"},
+    {"theory", ""},
+    {"tilt", "tilt at"},
+    {0},
+};
+
 static struct tool_info info = {
     .name = "rc-solve",
     .summary = "Contact of a height map with an elastic half-space: pressure, gap, displacement",
     .operands = "[FILE...]",
     .examples = "  rc-synth sphere --nx 128 --dx 5um --radius 7.5mm |\n"
                 "      rc-solve --load 240N --estar 114GPa --report hertz.json | rc-info\n",
+    .topics = topics,
     .figures = (const char *const[]){"contact", "elastic", "yield", "adhesion", "travel", "sliding",
                                      "viscoelastic", NULL},
     .own = solve_figures,

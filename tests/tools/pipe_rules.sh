@@ -55,6 +55,15 @@ claim "  and no others" bash -c '! grep -e "--tilt fixed" -e "--yield Y" adhesio
 claim "a beginning is enough" bash -c 'rc-solve --help adh | cmp - adhesion.txt'
 claim "  also after -h" bash -c 'rc-solve -h adh | cmp - adhesion.txt'
 claim "an equals sign may stand before it" bash -c 'rc-solve --help=adhesion | cmp - adhesion.txt'
+for page in "$RC_SOURCE"/man/contact-*.7; do
+    name=$(basename "$page" .7)
+    name=${name#contact-}
+    claim "  the name of a page of an effect is known: $name" bash -c "rc-solve --help $name | grep -qE '^  --[a-z]|contact-$name\(7\)'"
+done
+for words in creep:--relaxation coating:--layer visco:--time conductivity:--conductivity tilt:--at; do
+    claim "  so is '${words%:*}', with ${words#*:}" bash -c "rc-solve --help ${words%:*} | grep -q '^  ${words#*:} '"
+done
+claim "  it has the rules of its options, and no others" bash -c "rc-solve --help tilt >tilt.txt && grep -q 'needs --tilt free' tilt.txt && ! grep -qe '--load LIST' tilt.txt"
 refuses 2 '--help friction: there is no such group of options: the groups are load and bodies, yield, adhesion, ' \
     "an unknown group" 'rc-solve --help friction'
 refuses 2 '--help t: this begins more than one group of options: the groups are' "a beginning of two" 'rc-solve --help t'

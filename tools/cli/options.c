@@ -241,6 +241,54 @@ help_rows(const struct tool *t, const char *title)
         printf("\n");
 }
 
+/* True if a word of the list, of blanks between words, begins with this text; `whole`: is it. */
+static bool
+has_word(const char *list, const char *text, bool whole)
+{
+    for (const char *at = list; *at != '\0'; at += strspn(at, " ")) {
+        const size_t n = strcspn(at, " ");
+
+        if (strncasecmp(at, text, strlen(text)) == 0 && (!whole || strlen(text) == n))
+            return true;
+        at += n;
+    }
+    return false;
+}
+
+/* The topic of this word, or the only one with a word that begins with it; NULL: there is none. */
+static const struct help_topic *
+topic_named(const struct tool *t, const char *text)
+{
+    const struct help_topic *found = NULL;
+    size_t matches = 0;
+
+    for (const struct help_topic *p = t->info->topics; p != NULL && p->words != NULL; p++) {
+        if (has_word(p->words, text, true))
+            return p;
+        if (has_word(p->words, text, false)) {
+            found = p;
+            matches++;
+        }
+    }
+    return matches == 1 ? found : NULL;
+}
+
+static void
+help_topic(const struct tool *t, const struct help_topic *topic)
+{
+    const int n = (int)strcspn(topic->words, " ");
+
+    if (*topic->options != '\0')
+        printf("%c%.*s:\n", toupper((unsigned char)*topic->words), n - 1, topic->words + 1);
+    for (size_t k = 0; k < t->option.n; k++)
+        if (has_word(topic->options, t->option.row[k].name, true)) {
+            help_row("--", &t->option.row[k]);
+            help_rules(t, &t->option.row[k]);
+        }
+    printf("%sThe manual is contact-%.*s(7).\n", *topic->options != '\0' ? "\n" : "", n,
+           topic->words);
+}
+
 /* The heading that begins with this text; ends the tool if there is none, or several. */
 static const char *
 heading_named(struct tool *t, const char *text)
@@ -259,10 +307,26 @@ heading_named(struct tool *t, const char *text)
         if (used < LIST)
             used += (size_t)snprintf(list + used, LIST - used, "%s%s", k == 0 ? "" : ", ", title);
     }
+    for (const struct help_topic *p = t->info->topics; p != NULL && p->words != NULL; p++)
+        if (used < LIST)
+            used += (size_t)snprintf(list + used, LIST - used, ", %.*s",
+                                     (int)strcspn(p->words, " "), p->words);
     if (matches != 1)
         tool_usage(t, "--help %s: %s group of options: the groups are %s", text,
                    matches == 0 ? "there is no such" : "this begins more than one", list);
     return found;
+}
+
+/* True if this text is a heading, or begins one. */
+static bool
+begins_heading(const struct tool *t, const char *text)
+{
+    const char *title;
+
+    for (size_t k = 0; (title = heading(t, k)) != NULL; k++)
+        if (strncasecmp(title, text, strlen(text)) == 0)
+            return true;
+    return false;
 }
 
 /* Prints the options of one group, or the whole help with NULL. */
@@ -274,7 +338,12 @@ print_help(struct tool *t, const char *group)
     const char *title;
 
     if (group != NULL) {
-        help_rows(t, heading_named(t, group));
+        const struct help_topic *topic = begins_heading(t, group) ? NULL : topic_named(t, group);
+
+        if (topic != NULL)
+            help_topic(t, topic);
+        else
+            help_rows(t, heading_named(t, group));
         exit(fflush(stdout) == 0 && !ferror(stdout) ? 0 : EXIT_IMPOSSIBLE);
     }
     printf("Usage: %s [OPTION]... %s\n%s.\n\n", info->name, info->operands, info->summary);

@@ -145,6 +145,13 @@ enum tool_writes {
 
 struct tool;
 
+/* Words after --help beside the headings of a tool. */
+struct help_topic {
+    /* separated by blanks, the name of the page contact-WORD(7) first; NULL: the end */
+    const char *words;
+    const char *options; /* their names, separated by blanks */
+};
+
 struct tool_info {
     const char *name;
     const char *summary;    /* "contact of a height map with an elastic half-space"          */
@@ -171,6 +178,8 @@ struct tool_info {
     bool mends;        /* takes keys with values that they cannot have, to correct them */
     bool shares;       /* true: under mpirun its processes share the maps; else they are refused */
     const char *alone; /* advice in this refusal; NULL: none */
+    /* NULL, or topics up to one without words */
+    const struct help_topic *topics;
 };
 
 struct tool {
