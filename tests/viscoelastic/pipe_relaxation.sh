@@ -174,6 +174,26 @@ claim "  of a list, with the time of the case" warns 'time: 0.09 s .*, below the
     $range --relaxation curve.csv --shift 1,0.5 --time 90ms
 claim "  of times" warns 'time: 0.2 s .*, below 1.59155 Hz, 1/.2 pi t. of the last time of the table, 0.1 s' \
     $range --relaxation relax.tsv --time 1ms,0.2s
+# the table ends at 1 + 9e2/(1e6 + 1e2) MPa; the fitted relaxed modulus is that of the report
+$range --quiet --relaxation curve.csv --time 1ms,0.2s,1h,1d --report ranged.json
+relaxed=$(sed -n 1p ranged.json | field modulus_relaxed /dev/stdin | awk '{ printf "%.6g", $1 / 1e6 }')
+claim "  which has both moduli, and the number of other cases" warns \
+    "time: 0.2 s .*, 1.59155 Hz: its relaxed modulus, ${relaxed//./\\.}[0-9]* MPa, is an extrapolation; the lowest modulus of the table is 1.0009 MPa at 1.59155 Hz; so it is in 2 later cases" \
+    $range --relaxation curve.csv --time 1ms,0.2s,1h,1d
+claim "  the rows of these cases are extrapolated" test "$(for k in 1 2 3 4; do sed -n ${k}p ranged.json | field extrapolated /dev/stdin; done | tr '\n' ' ')" = "false true true true "
+near "$(sed -n 4p ranged.json | field time /dev/stdin)" 86400 "$same" "  a day has 86400 s"
+$range --quiet --relaxation curve.csv --time 0,90ms --report ranged.json
+claim "  so is the load at 0 s, whose frequency no table has" test "$(for k in 1 2; do sed -n ${k}p ranged.json | field extrapolated /dev/stdin; done | tr '\n' ' ')" = "true false "
+$range --quiet --relaxation 1MPa,9MPa:1ms --time 1h --report ranged.json
+claim "  given terms have no table" test "$(field extrapolated ranged.json)" = null
+$range --quiet --relaxation curve.csv --shift wlf,17.44,51.6,20degC --temperature 20degC,60degC --time 90ms --report ranged.json
+claim "  a higher temperature moves the table past its end" test "$(for k in 1 2; do sed -n ${k}p ranged.json | field extrapolated /dev/stdin; done | tr '\n' ' ')" = "false true "
+claim "    and its warning has the frequency at this temperature" warns "the lowest modulus of the table is 1.0009 MPa at $(awk 'BEGIN { printf "%.6g", 10 / (2 * atan2(0, -1)) * 10 ^ (17.44 * 40 / 91.6) }' | sed 's/[+]/[+]/') Hz\$" \
+    $range --relaxation curve.csv --shift wlf,17.44,51.6,20degC --temperature 20degC,60degC --time 90ms
+claim "  a measured E(t) has a time" warns "below 1.59155 Hz.*: its relaxed modulus, .*; the lowest modulus of the table is $(awk 'NR > 1 && (low == "" || $2 < low) { low = $2 } END { printf "%.6g", low }' relax.tsv) MPa at 0.1 s\$" \
+    $range --relaxation relax.tsv --time 1ms,0.2s
+claim "  too short times have the instantaneous modulus" warns 'time: 5e-06 s .*: its instantaneous modulus, .*; the highest modulus of the table is 9.9[0-9]* MPa at 15915.5 Hz' \
+    $range --relaxation curve.csv --time 0,5us,90ms
 inside --relaxation curve.csv --time 0,20us,99ms
 inside --relaxation relax-inf.csv --time 0,20us,0.2s
 inside --relaxation 1MPa,9MPa:1ms --time 0,20us,0.2s

@@ -165,16 +165,26 @@ take_terms(struct relaxation_law *law, struct columns *c, double shift, struct r
     return law->material != NULL ? RC_OK : RC_FAIL;
 }
 
-/* Sets the range of the table to that of v[0..n), angular frequencies or times; `whole`: without an upper
- * end. */
+/* Sets the range of the table to that of v[0..n), angular frequencies or times, with the modulus at each;
+ * `whole`: without an upper end. */
 static void
-set_range(struct relaxation_law *law, size_t n, const double *v, bool in_time, bool whole)
+set_range(struct relaxation_law *law, size_t n, const double *v, const double *modulus,
+          bool in_time, bool whole)
 {
     double low = INFINITY, high = 0;
 
+    law->least.modulus = INFINITY;
     for (size_t k = 0; k < n; k++) {
+        const struct relaxation_measured at = {modulus[k], in_time ? 1 / v[k] : v[k]};
+
         low = fmin(low, v[k]);
         high = fmax(high, v[k]);
+        if (at.modulus < law->least.modulus ||
+            (at.modulus == law->least.modulus && at.omega < law->least.omega))
+            law->least = at;
+        if (at.modulus > law->most.modulus ||
+            (at.modulus == law->most.modulus && at.omega > law->most.omega))
+            law->most = at;
     }
     law->in_time = in_time;
     law->lowest = !in_time ? low : whole ? 0 : 1 / high;
@@ -222,7 +232,7 @@ fit_curve(struct relaxation_law *law, struct columns *c, double shift, struct rc
                                   (int)strcspn(wanted[kind[i]].names, " "), wanted[kind[i]].names);
         omega[k] *= (frequency == FREQUENCY ? hertz : 1) / shift;
     }
-    set_range(law, c->n, omega, false, false);
+    set_range(law, c->n, omega, c->v[STORAGE], false, false);
     law->material = rc_relaxation_fit(c->n, omega, c->v[STORAGE], c->v[LOSS], 0, &law->misfit, err);
     return law->material != NULL ? RC_OK : RC_FAIL;
 }
@@ -248,7 +258,7 @@ fit_relaxation(struct relaxation_law *law, struct columns *c, double shift, stru
             modulus[n++] = modulus[k];
         }
     }
-    set_range(law, n, time, true, !isnan(relaxed));
+    set_range(law, n, time, modulus, true, !isnan(relaxed));
     law->material = rc_relaxation_fit_time(n, time, modulus, relaxed, 0, &law->misfit, err);
     return law->material != NULL ? RC_OK : RC_FAIL;
 }
@@ -471,6 +481,7 @@ relaxation_outside_to(char text[RELAXATION_OUTSIDE], const struct relaxation_law
     const double a = relaxation_factor(law->shift, k);
     const bool above = omega > law->highest / a * (1 + rounding);
     const double end = (above ? law->highest : law->lowest) / a;
+    const struct relaxation_measured *measured = above ? &law->most : &law->least;
     char limit[128];
 
     if (!above && !(omega < end * (1 - rounding)))
@@ -482,8 +493,15 @@ relaxation_outside_to(char text[RELAXATION_OUTSIDE], const struct relaxation_law
     else
         snprintf(limit, sizeof limit, "the %s frequency of the table, %s", above ? "last" : "first",
                  shown_in_unit(end / hertz, "Hz"));
-    snprintf(text, RELAXATION_OUTSIDE, "%s, %s %s: there it has its %s modulus by extrapolation",
-             shown_in_unit(omega / hertz, "Hz"), above ? "above" : "below", limit,
-             above ? "instantaneous" : "relaxed");
+    snprintf(
+        text, RELAXATION_OUTSIDE,
+        "%s, %s %s: its %s modulus, %s, is an extrapolation; the %s modulus of the table is %s "
+        "at %s",
+        shown_in_unit(omega / hertz, "Hz"), above ? "above" : "below", limit,
+        above ? "instantaneous" : "relaxed",
+        shown_in_unit(above ? 1 / law->material->instant : law->material->relaxed, "Pa"),
+        above ? "highest" : "lowest", shown_in_unit(measured->modulus, "Pa"),
+        law->in_time ? shown_in_unit(a / measured->omega, "s")
+                     : shown_in_unit(measured->omega / a / hertz, "Hz"));
     return text;
 }

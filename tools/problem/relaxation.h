@@ -24,6 +24,11 @@ struct relaxation_law {
      * INFINITY: there is no end, as of terms */
     double lowest, highest;
     bool in_time; /* the table has times */
+    /* the least and the largest measured modulus (of a frequency: of storage), Pa, each with its frequency
+     * or the inverse of its time, as above */
+    struct relaxation_measured {
+        double modulus, omega;
+    } least, most;
     const struct relaxation_shift
         *shift; /* of several factors, one for each case; NULL: there is one */
 };
@@ -40,9 +45,10 @@ enum rc_status relaxation_shift_read(const char *text, const char *temperature,
 enum rc_status relaxation_law_read(struct relaxation_law *law, const char *text,
                                    const struct relaxation_shift *shift, struct rc_err *err);
 /* Describes the angular frequency `omega` (rad/s) that case k excites, as in "5000 Hz, above the last
- * frequency of the table, 1000 Hz: there ..."; NULL: it is inside the range of the table. */
+ * frequency of the table, 1000 Hz: its instantaneous modulus, ..."; NULL: it is inside the range of the
+ * table. */
 enum {
-    RELAXATION_OUTSIDE = 256
+    RELAXATION_OUTSIDE = 384
 };
 const char *relaxation_outside_to(char text[RELAXATION_OUTSIDE], const struct relaxation_law *law,
                                   size_t k, double omega);

@@ -118,8 +118,9 @@ struct effect {
     enum solve_place place;
     bool columns; /* its columns are there without it, too */
     void (*report)(struct report *r, const struct run *run);
-    /* columns after those of all rows */
+    /* columns after those of all rows, and at the end */
     void (*report_last)(struct report *r, const struct run *run);
+    void (*report_end)(struct report *r, const struct run *run);
 };
 
 #endif

@@ -96,16 +96,47 @@ ask(struct run *run)
     return true;
 }
 
-/* A time t excites the material at the angular frequency 1/t. Case k has the time t times its factor. */
-static void
-warn_of_time(struct run *run, double t, size_t k)
+/* A time t excites the material at the angular frequency 1/t. Case k has the time t times its factor. 1: this
+ * frequency is above those of the table, -1: it is below them. */
+static int
+side_of(double t, size_t k, char text[RELAXATION_OUTSIDE])
 {
-    const double real = t * relaxation_factor(law.shift, k);
-    const char *outside = t > 0 ? relaxation_outside(&law, k, 1 / real) : NULL;
+    const double omega = 1 / (t * relaxation_factor(law.shift, k));
 
-    if (outside != NULL)
-        tool_warn(&run->d.t, "--time: %s excites the material at 1/(2 pi t), %s",
-                  shown_in_unit(real, "s"), outside);
+    return relaxation_outside_to(text, &law, k, omega) == NULL ? 0 : 1 / t > law.highest ? 1 : -1;
+}
+
+/* Warns of the time t of case k, if it is outside the table on this side, and says how many later cases are
+ * there too. */
+static void
+warn_of_time(struct run *run, double t, size_t k, int side)
+{
+    char outside[RELAXATION_OUTSIDE], text[RELAXATION_OUTSIDE], others[64] = "";
+    size_t later = 0;
+
+    if (!(t > 0) || side_of(t, k, outside) != side)
+        return;
+    for (size_t i = k; i < args.time.n; i++)
+        later += args.time.v[i] > t && side_of(args.time.v[i], i, text) == side;
+    if (later > 0)
+        snprintf(others, sizeof others, "; so it is in %zu later case%s", later,
+                 later == 1 ? "" : "s");
+    tool_warn(&run->d.t, "--time: %s excites the material at 1/(2 pi t), %s%s",
+              shown_in_unit(t * relaxation_factor(law.shift, k), "s"), outside, others);
+}
+
+/* Of the shortest time after a change of the load, and of the first case that is too late. */
+static void
+warn_of_times(struct run *run)
+{
+    char text[RELAXATION_OUTSIDE];
+    size_t k = 0;
+
+    warn_of_time(run, soonest, args.time.v[0] > 0 ? 0U : 1U, 1);
+    while (k < args.time.n && side_of(args.time.v[k], k, text) != -1)
+        k++;
+    if (k < args.time.n)
+        warn_of_time(run, args.time.v[k], k, -1);
 }
 
 static void
@@ -126,8 +157,7 @@ warn_of_material(struct run *run)
                              "end under a load: for a solid give its relaxed modulus, first as in "
                              "1MPa,9MPa:1ms, or in a line `inf E` of a table");
     if (args.time.n > 0) {
-        warn_of_time(run, soonest, args.time.v[0] > 0 ? 0U : 1U);
-        warn_of_time(run, args.time.v[args.time.n - 1], args.time.n - 1);
+        warn_of_times(run);
     }
     if (isnan(law.misfit) && m->terms > 0 && soonest > 0 && soonest < m->time[0])
         tool_warn(&run->d.t,
@@ -188,6 +218,15 @@ solve_report_shift(struct report *r, const struct run *run)
 {
     report_number(r, "shift", relaxation_factor(&shift, run->d.at - own.before), NULL);
     report_number(r, "temperature", relaxation_kelvin(&shift, run->d.at - own.before), "K");
+}
+
+void
+solve_report_extrapolated(struct report *r, int outside)
+{
+    if (law.highest < INFINITY)
+        report_bool(r, "extrapolated", outside != 0);
+    else
+        report_text(r, "extrapolated", NULL); /* of given terms */
 }
 
 const struct effect solve_effect_relaxation = {
@@ -526,6 +565,14 @@ report_time(struct report *r, const struct run *run)
     report_named(r, from, "time equivalent_load");
 }
 
+static void
+report_range(struct report *r, const struct run *run)
+{
+    char text[RELAXATION_OUTSIDE];
+
+    solve_report_extrapolated(r, side_of(own.times.v[run->d.at], run->d.at - own.before, text));
+}
+
 const struct effect solve_effect_time = {
     .title = "time",
     .options = time_options,
@@ -549,4 +596,5 @@ const struct effect solve_effect_time = {
     .keys = set_keys,
     .report = report_time,
     .report_last = solve_report_shift,
+    .report_end = report_range,
 };

@@ -221,6 +221,8 @@ solve_report(struct drive *d, const struct rc_model *m)
         if (solve_effects[k]->report_last != NULL && is_active(run, solve_effects[k]))
             solve_effects[k]->report_last(r, run);
     report_number(r, "contact_radius", s->contact_radius, "m");
+    SOLVE_EACH (run, e, report_end)
+        e->report_end(r, run);
 }
 
 /* ---- cost ---- */

@@ -181,14 +181,32 @@ set_errors(struct run *run, struct solution *s)
     s->contact.convolutions = own.found->convolutions;
 }
 
-/* A wave of length L excites the material at the frequency |speed|/L. */
+/* Length of the map along the sliding direction, and the one of 8 nodes. */
+static double
+length_of(const struct run *run, bool map)
+{
+    const struct rc_grid *g = run->g;
+    const bool y = slides_along_y();
+
+    return (map ? (double)(y ? g->ny : g->nx) : 8) * (y ? g->dy : g->dx);
+}
+
+/* A wave of length L excites the material at the frequency |speed|/L. NULL: the table has this frequency. */
+static const char *
+wave_outside_to(char text[RELAXATION_OUTSIDE], const struct run *run, double length)
+{
+    const double omega = 2 * 3.141592653589793 * fabs(own.shown.speed) / length;
+
+    return own.shown.speed == 0 ? NULL
+                                : relaxation_outside_to(text, run->material, run->d.at, omega);
+}
+
 static void
 warn_of_wave(struct run *run, const char *where, const char *waves, double length)
 {
-    const double omega = 2 * 3.141592653589793 * fabs(own.shown.speed) / length;
-    const char *outside = relaxation_outside(run->material, run->d.at, omega);
+    char outside[RELAXATION_OUTSIDE];
 
-    if (outside != NULL && own.shown.speed != 0)
+    if (wave_outside_to(outside, run, length) != NULL)
         tool_warn(&run->d.t, "%s: at %s waves %s (%s) excite the material at %s", where,
                   shown_in_unit(fabs(own.shown.speed), "m/s"), waves, shown_in_unit(length, "m"),
                   outside);
@@ -198,17 +216,14 @@ static void
 warn(struct run *run, const char *where)
 {
     const double traction = 0.3;
-    const struct rc_grid *g = run->g;
-    const bool y = slides_along_y();
-    const double spacing = y ? g->dy : g->dx;
 
     if (own.found->friction > traction)
         tool_warn(&run->d.t,
                   "%s: the coefficient of friction is %.3g, and the contact is that of smooth "
                   "bodies without friction: above %g the tractions along the surface change it",
                   where, own.found->friction, traction);
-    warn_of_wave(run, where, "of 8 nodes", 8 * spacing);
-    warn_of_wave(run, where, "as long as the map", (double)(y ? g->ny : g->nx) * spacing);
+    warn_of_wave(run, where, "of 8 nodes", length_of(run, false));
+    warn_of_wave(run, where, "as long as the map", length_of(run, true));
 }
 
 static bool
@@ -251,6 +266,15 @@ report_last(struct report *r, const struct run *run)
     solve_report_shift(r, run);
 }
 
+static void
+report_range(struct report *r, const struct run *run)
+{
+    char text[RELAXATION_OUTSIDE];
+
+    solve_report_extrapolated(r, wave_outside_to(text, run, length_of(run, false)) != NULL ||
+                                     wave_outside_to(text, run, length_of(run, true)) != NULL);
+}
+
 static const char *
 state(const struct run *run)
 {
@@ -283,4 +307,5 @@ const struct effect solve_effect_sliding = {
     .state = state,
     .report = report,
     .report_last = report_last,
+    .report_end = report_range,
 };

@@ -160,5 +160,7 @@ void solve_plan(struct run *run, const struct rc_problem *problem);
 
 /* relaxation.c: the factor of all times of this case, and the temperature. */
 void solve_report_shift(struct report *report, const struct run *run);
+/* Whether a case leaves the table of --relaxation; null if it has none. */
+void solve_report_extrapolated(struct report *report, int outside);
 
 #endif
