@@ -44,7 +44,8 @@ static const struct opt opts[] = {
     {.name = "history", .type = OPT_TEXT, AT(history), .result = true, .arg = "FILE",
      .help = "the same path from a file with lines of load, force along x, force along y"},
     {.name = "creep", .type = OPT_TEXT, AT(creep), .result = true, .arg = "XI[,ETA[,SPIN]]",
-     .help = "rolling towards +x: motion of body 2 over body 1 per length, as 1e-3 or 0.1%; spin in rad/m; "
+     .help = "rolling towards +x: motion of body 2 over body 1 per length (above 0 it pulls body 1 along +x; "
+             "railway textbooks have the opposite sign), as 1e-3 or 0.1%; spin in rad/m; "
              "with --steady each also as a:b:n or a:b:log:n, each value a case"},
     {.name = "creep-force", .type = OPT_NUMBERS, .unit = UNIT_N, AT(creep_force), .min = -INFINITY,
      .max = INFINITY, .result = true, .arg = "FX[,FY]",

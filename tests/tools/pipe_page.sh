@@ -106,7 +106,7 @@ effects='--load 20N --E1 210GPa --nu1 0.3 --E2 210GPa --nu2 0.3 --mu 0.3 --tange
 claim "a page has sections of the effects whose data are given" bash -c "rc-report --quiet $(echo $effects) -o effects-of.html steel.rcg"
 claim "  in their order" test "$(sed -n 's/<h2>\(.*\)<\/h2>/\1/p' effects-of.html | tr '\n' ,)" = \
     "The surface,Heights and wavelengths,Profiles along x,Under load,Friction,Wear,Heat,Leak,Fatigue,Shakedown,Effects,Accuracy,Limits,Origin,Commands,"
-claim "  a page without data has none" bash -c '! grep -E "<h2>(Travel|Creep|Friction|Wear|Heat|Leak|Fatigue|Shakedown)<" once.html'
+claim "  a page without data has none" bash -c '! grep -E "<h2>(Travel|Creep|Friction|Rolling|Wear|Heat|Leak|Fatigue|Shakedown)<" once.html'
 near "$(figure effects-of.html 'Part of the contact that sticks')" "$(awk 'BEGIN { print (1 - 3 / 6) ^ (2 / 3) }')" 0.05 \
     "  friction: the part that sticks is Cattaneo's, to a row of nodes"
 rc-solve --quiet --load 20N --E1 210GPa --nu1 0.3 --E2 210GPa --nu2 0.3 steel.rcg | rc-slip --quiet --mu 0.3 --tangential 3N -o slips.rcg
@@ -116,6 +116,13 @@ near "$(figure effects-of.html 'Largest slip')" "$(paste -d ' ' <(rc-export --qu
 near "$(figure effects-of.html 'Worn volume')" 2e-16 1e-3 "  wear: the volume is Archard's"
 near "$(figure effects-of.html 'Heat')" 12 1e-3 "  heat: the power of friction"
 claim "  leak: fluid flows around a ball" says 'A fluid gets through the gap\.' said effects-of.html
+claim "  fatigue and shakedown are those of a smooth body 1" bash -c 'sed -n "/<p id=\"verdict\">/,/<\/p>/p" effects-of.html | tr "\n" " " |
+    grep -q "As if this surface passed along x over a smooth body 1, the safety factor against fatigue is [0-9.]*; a rough body 1, over which a smooth body passes, needs .rc-solve --travel.\..*As if this surface passed along x over a smooth body 1, the index of elastic shakedown is"'
+# Kalker's linear theory of small creepage: Fx = C11 G a b xi, C11 = 4.12 for a circle at nu = 0.25
+rc-report --quiet --load 20N --E1 210GPa --nu1 0.25 --E2 210GPa --nu2 0.25 --mu 0.3 --creep 1e-5 -o rolls.html steel.rcg
+near "$(figure rolls.html 'Force along x')" "$(awk 'BEGIN { a2 = (0.75 * 20 * 3e-3 / (210e9 / 1.875)) ^ (2 / 3); print 4.12 * 84e9 * a2 * 1e-5 }')" 0.05 "rolling: the force is Kalker's"
+claim "  with a picture of stick and slip" grep -q '<figcaption>Where the contact sticks, and where it slips, in steady rolling' rolls.html
+claim "  and the first paragraph" says 'Rolling with these creepages leaves a share of 0\.99[0-9]* of the contact sticking\.' said rolls.html
 # Hills and Ashelby: a ball that passes without friction shakes down elastically up to p0 = 4.7 k
 near "$(figure effects-of.html 'Index of shakedown')" "$(awk -v p="$p0" 'BEGIN { print p / (4.7 * 3e9 / sqrt(3)) }')" 0.1 "  shakedown: the index is that of a ball on a half-space"
 area=$(awk 'BEGIN { pi = atan2(0, -1); print pi * (0.75 * 20 * 3e-3 / (210e9 / 1.82)) ^ (2 / 3) * 1e6 }') # mm2

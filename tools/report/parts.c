@@ -166,6 +166,22 @@ const struct page_part page_parts[] = {
      .file = "slip.png",
      .show = page_show_picture,
      .a = "Where the contact sticks, and where it slips"},
+    {.heading = "Rolling",
+     .needs = "mu creep",
+     .command = "rc-slip @mu @creep --steady --output pressure,state --report rolling.tsv last.rcg",
+     .file = "rolling.rcg"},
+    {.needs = "mu creep",
+     .file = "rolling.tsv",
+     .show = page_show_figures,
+     .a = "creep_x creep_y spin tangential_x tangential_y moment limit stick_fraction power "
+          "traction_error_estimate discretization_error_estimate converged",
+     .says = "Rolling with these creepages leaves a share of %s of the contact sticking.",
+     .figure = "stick_fraction"},
+    {.needs = "mu creep",
+     .command = "rc-render --quiet --channel state --width 800 rolling.rcg",
+     .file = "rolling.png",
+     .show = page_show_picture,
+     .a = "Where the contact sticks, and where it slips, in steady rolling towards the right"},
     {.heading = "Wear",
      .needs = "coefficient distance",
      .command = "rc-wear @coefficient @distance --report wear.tsv --steps steps.tsv last.rcg",
@@ -236,7 +252,9 @@ const struct page_part page_parts[] = {
      .show = page_show_figures,
      .a = "safety crossland crossland_depth dangvan dangvan_depth amplitude amplitude_depth "
           "sampling_error_estimate converged",
-     .says = "When the contact passes along x, the safety factor against fatigue is %s.",
+     .says = "As if this surface passed along x over a smooth body 1, the safety factor against "
+             "fatigue is %s; a rough body 1, over which a smooth body passes, needs "
+             "'rc-solve --travel'.",
      .figure = "safety"},
     {.heading = "Shakedown",
      .needs = "yield",
@@ -247,7 +265,8 @@ const struct page_part page_parts[] = {
      .file = "shakedown.tsv",
      .show = page_show_figures,
      .a = "shakedown shakedown_x shakedown_y shakedown_depth shakedown_error_estimate",
-     .says = "The index of elastic shakedown is %s; above 1 the body yields again at each pass.",
+     .says = "As if this surface passed along x over a smooth body 1, the index of elastic "
+             "shakedown is %s; above 1 the body yields again at each pass.",
      .figure = "shakedown"},
     {.heading = "Effects",
      .command = "rc-scene SCENE --report effects.tsv surface.rcg",
