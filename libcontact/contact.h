@@ -268,8 +268,8 @@ struct rc_problem {
 };
 
 /* Estimated relative errors of contact area, largest pressure and approach; NAN: unknown, also that of
- * the last two for a contact at a free edge of the map, and that of the largest pressure at a node with
- * a neighbour out of contact. */
+ * the last two for a contact at a free edge of the map, and that of the largest pressure if a node with a
+ * neighbour out of contact has more than .9 of it, or, in a profile, is beside it. */
 struct rc_discretization {
     double contact_area, max_pressure, approach;
 };
