@@ -26,7 +26,7 @@ static const struct opt opts[] = {
     {.name = "align-below", .type = OPT_NUMBER, .at = offsetof(struct args, below), .min = 0, .max = 100,
      .above = true, .result = true, .arg = "PERCENT",
      .needs = RULES({.with = "align", .because = "it chooses the nodes of the fit"}),
-     .help = "fit on the lowest PERCENT of the nodes of B only, as on grooves, where more than half of the overlap is worn"},
+     .help = "fit on the lowest PERCENT of the nodes of B only, as on grooves, where more than half is worn"},
     {.name = "report", .type = OPT_REPORT, .at = offsetof(struct args, report), .arg = "FILE",
      .needs = RULES({.with = "align", .because = "it reports the alignment"}),
      .help = "write one JSON object per surface, or a row of FILE.tsv or .csv: shift, volume, errors"},
@@ -339,8 +339,8 @@ tell(struct tool *t, const struct rc_grid *a, const struct rc_alignment *is)
             where, is->shift_error / fmin(a->dx, a->dy));
 }
 
-/* Warns of single points and groups of up to 9 that stand alone in the change, if filling them from around
- * changes the volume by a tenth of its uncertainty or more. */
+/* Warns of single points and groups of up to 9 that stand alone above the change around them, if filling them
+ * from around changes the volume by a tenth of its uncertainty or more. Those below can be worn summits. */
 static void
 warn_of_spikes(struct tool *t, const struct rc_grid *a, const struct rc_alignment *is)
 {
@@ -348,7 +348,7 @@ warn_of_spikes(struct tool *t, const struct rc_grid *a, const struct rc_alignmen
     const struct rc_shape shape = rc_grid_shape(a);
     const size_t n = rc_grid_nodes(a);
     RC_OWNED double *filled = tool_room(t, n, sizeof *filled, "the change without spikes");
-    size_t spikes, holes;
+    size_t spikes, holes, points = 0;
     double volume = 0;
 
     memcpy(filled, a->v, n * sizeof *filled);
@@ -356,14 +356,18 @@ warn_of_spikes(struct tool *t, const struct rc_grid *a, const struct rc_alignmen
     if (spikes == 0)
         return;
     tool_must(t, a, rc_inpaint(&shape, filled, &holes, &t->err));
-    for (size_t k = 0; k < n; k++)
-        volume += isnan(a->v[k]) ? 0 : (a->v[k] - filled[k]) * a->dx * a->dy;
-    if (fabs(volume) >= least * is->volume_error)
-        tool_warn(t,
-                  "%s: %zu isolated points of the change are %.2g mm3 of the volume: if they are "
-                  "spikes of "
-                  "the instrument, run rc-detrend --spikes %g on both scans first",
-                  tool_where(t, a), spikes, volume * 1e9, times);
+    for (size_t k = 0; k < n; k++) {
+        const double rise = isnan(a->v[k]) ? 0 : fmax(a->v[k] - filled[k], 0);
+        points += rise > 0;
+        volume += rise * a->dx * a->dy;
+    }
+    if (points > 0 && volume >= least * is->volume_error)
+        tool_warn(
+            t,
+            "%s: %zu isolated points above the change around them are %.2g mm3 of the "
+            "volume: if they are spikes of the instrument, run rc-detrend --spikes %g on both "
+            "scans first",
+            tool_where(t, a), points, volume * 1e9, times);
 }
 
 static void

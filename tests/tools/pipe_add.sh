@@ -112,7 +112,7 @@ refuses 2 '--align has no effect without --subtract' "no alignment of a sum" "rc
 refuses 1 'an alignment needs 16 a side' "too small a map" "rc-pick --crop 0,0,12,12 new.rcg | rc-add --subtract --align later.rcg -"
 # spikes: 12 single points of 2 um; their volume without the warning is wear
 rc-export --format xyz later.rcg | awk '!/^#/ { if (NR % 700 == 9) $3 += 2e-6 } { print }' | rc-import --format xyz --xy-unit m --z-unit m - -o spiky.rcg
-claim "  points that stand alone have a warning" warns '[0-9]+ isolated points of the change are .* of the volume: if they are spikes of the instrument, run rc-detrend --spikes 5' rc-add --subtract --align spiky.rcg new.rcg -o c.rcg
+claim "  points that stand alone have a warning" warns '[0-9]+ isolated points above the change around them are .* of the volume: if they are spikes of the instrument, run rc-detrend --spikes 5' rc-add --subtract --align spiky.rcg new.rcg -o c.rcg
 refuses 2 '--align-below has no effect without --align' "no choice of nodes without an alignment" "rc-add --subtract --align-below 20 later.rcg new.rcg"
 claim "the lowest nodes can be enough" bash -c 'rc-add --subtract --align --align-below 30 --report low.json later.rcg new.rcg -o c.rcg'
 near "$(field shift_x low.json)" -5e-6 1e-9 "  with the same shift"
