@@ -355,7 +355,7 @@ RC_API void rc_extremes(size_t n, const double *v, size_t *least, size_t *larges
 
 struct rc_patch_options {
     struct rc_boundary boundary;  /* periodic: patches continue across the edges of the map */
-    bool each;                    /* fill the list of patches */
+    size_t largest;               /* patches to list, the largest ones; SIZE_MAX: all */
     size_t threads;               /* 0: all */
     const struct rc_ranks *ranks; /* processes that share the map; NULL: none */
 };
@@ -374,7 +374,9 @@ struct rc_patches {
     size_t count, contact_nodes;
     /* m^2, m^2, m */
     double contact_area, contact_area_corrected, perimeter;
-    /* `count` of them, the largest first; NULL if not requested */
+    /* The largest first; of equal ones that with the first node, row by row. The same on all ranks. NULL if
+     * not requested. */
+    size_t listed;
     struct rc_patch *patch;
 };
 /* RC_FAIL when memory is short. Call rc_patches_free in either case. */

@@ -163,7 +163,7 @@ stress_strained(const struct work *w, const double *h, const double *p)
 static bool
 patches(const struct work *w, const double *h, const double *p)
 {
-    const struct rc_patch_options options = {.boundary = w->boundary, .each = true};
+    const struct rc_patch_options options = {.boundary = w->boundary, .largest = SIZE_MAX};
     struct rc_patches found;
 
     (void)h;

@@ -330,7 +330,7 @@ static enum rc_status
 set_figures(struct rc_heat *h, const double *contact, struct rc_err *err)
 {
     const struct rc_patch_options options = {.boundary = h->problem.boundary,
-                                             .each = true,
+                                             .largest = 1,
                                              .threads = h->problem.threads,
                                              .ranks = h->rows.ranks};
     const struct rc_heat_body *body = h->problem.body;

@@ -131,9 +131,11 @@ rc_ranks_share(const struct rc_ranks *r, size_t root, size_t bytes, void *v)
 static void
 reduce(const struct rc_ranks *r, size_t n, double *v, MPI_Op op)
 {
-    if (alone(r) || n == 0)
+    if (alone(r))
         return;
-    MPI_Allreduce(MPI_IN_PLACE, v, (int)n, MPI_DOUBLE, op, r->comm);
+    for (size_t at = 0; at < n; at += INT_MAX)
+        MPI_Allreduce(MPI_IN_PLACE, v + at, n - at < INT_MAX ? (int)(n - at) : INT_MAX, MPI_DOUBLE,
+                      op, r->comm);
     r->traffic->other += (double)(n * sizeof *v);
 }
 

@@ -41,7 +41,7 @@ scene_patches(struct rc_scene *s, double *largest, double *corrected, struct rc_
     const enum rc_status status = rc_patches_find(
         &s->shape, s->now.p,
         &(struct rc_patch_options){
-            .boundary = s->problem.boundary, .each = true, .threads = s->problem.threads},
+            .boundary = s->problem.boundary, .largest = 1, .threads = s->problem.threads},
         &found, err);
 
     if (status == RC_OK) {

@@ -280,7 +280,7 @@ resampled(double *out, struct rc_err *err)
 static enum rc_status
 patches(double *out, struct rc_err *err)
 {
-    static const struct rc_patch_options o = {.each = true, .threads = 1};
+    static const struct rc_patch_options o = {.largest = SIZE_MAX, .threads = 1};
     struct rc_patches found;
     enum rc_status status = rc_patches_find(&shape, pressure, &o, &found, err);
 

@@ -166,7 +166,7 @@ static enum rc_status
 patches(double *out, struct rc_err *err)
 {
     const struct rc_patch_options o = {
-        .boundary = RC_PERIODIC, .each = true, .threads = 1, .ranks = ranks};
+        .boundary = RC_PERIODIC, .largest = SIZE_MAX, .threads = 1, .ranks = ranks};
     struct rc_patches found;
     enum rc_status status = rc_patches_find(&shape, pressure + first, &o, &found, err);
 

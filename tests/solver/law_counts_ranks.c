@@ -73,6 +73,18 @@ MPI_Alltoallv(const void *from, const int out[], const int out_at[], MPI_Datatyp
     return MPI_SUCCESS;
 }
 
+int
+MPI_Allreduce(const void *from, void *to, int count, MPI_Datatype type, MPI_Op op, MPI_Comm comm)
+{
+    if (!note.noting)
+        return PMPI_Allreduce(from, to, count, type, op, comm);
+    note.calls++;
+    note.wrong |= count < 0 || (note.next != NULL && (const char *)to != note.next);
+    note.next = (const char *)to + (size_t)count * sizeof(double);
+    note.sent += (size_t)count;
+    return MPI_SUCCESS;
+}
+
 static void
 begin_noting(void)
 {
@@ -152,6 +164,25 @@ long_rows_beside(void **state)
     }
 }
 
+static void
+long_sums(void **state)
+{
+    static const size_t sizes[] = {0, 5, INT_MAX, (size_t)INT_MAX + 1, (size_t)3 * INT_MAX};
+    double v;
+
+    (void)state;
+    if (rc_ranks_count(ranks) == 1)
+        skip();
+    for (size_t k = 0; k < sizeof sizes / sizeof *sizes; k++) {
+        begin_noting();
+        rc_ranks_each_sum(ranks, sizes[k], &v);
+        note.noting = false;
+        assert_false(note.wrong);
+        assert_int_equal(note.calls, sizes[k] / INT_MAX + (sizes[k] % INT_MAX != 0));
+        assert_true(note.sent == sizes[k]);
+    }
+}
+
 /* Rank r holds `each` + r items; the receiver wants all of them, or the same number from every rank. */
 static void
 long_lists(void **state)
@@ -219,9 +250,13 @@ int
 main(int argc, char **argv)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(fullest_rank_decides), cmocka_unit_test(rows_count_too),
-        cmocka_unit_test(sizes_beyond_all),     cmocka_unit_test(long_rows_beside),
-        cmocka_unit_test(long_lists),           cmocka_unit_test(lists_arrive),
+        cmocka_unit_test(fullest_rank_decides),
+        cmocka_unit_test(rows_count_too),
+        cmocka_unit_test(sizes_beyond_all),
+        cmocka_unit_test(long_rows_beside),
+        cmocka_unit_test(long_sums),
+        cmocka_unit_test(long_lists),
+        cmocka_unit_test(lists_arrive),
     };
     struct rc_err err;
     int failed;

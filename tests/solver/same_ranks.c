@@ -159,7 +159,7 @@ static struct outcome
 contact(struct rc_shape s, size_t n, const double *h, struct rc_problem problem, size_t loads)
 {
     struct rc_patch_options look = {
-        .boundary = problem.boundary, .each = true, .threads = 1, .ranks = problem.ranks};
+        .boundary = problem.boundary, .largest = SIZE_MAX, .threads = 1, .ranks = problem.ranks};
     struct outcome o = {.p = calloc(n + 1, sizeof(double)),
                         .gap = calloc(n + 1, sizeof(double)),
                         .u = calloc(n + 1, sizeof(double))};

@@ -160,7 +160,7 @@ static void
 find_patches(struct tool *t, const struct rc_grid *g, const double *touch, struct info_figures *f)
 {
     const struct rc_patch_options options = {
-        .boundary = map_boundary(g), .each = true, .threads = t->threads};
+        .boundary = map_boundary(g), .largest = SIZE_MAX, .threads = t->threads};
 
     tool_demand_finite(t, g, "solve the contact again");
     f->patches = tool_room(t, 1, sizeof *f->patches, "the patches of a contact");

@@ -189,7 +189,7 @@ look_at_contact(struct run *run, const struct rc_grid *g, const double *touch, s
 {
     struct rc_shape shape = rc_grid_shape(g);
     struct rc_patch_options options = {.boundary = run->physics->boundary,
-                                       .each = report_wanted(&run->d.report),
+                                       .largest = report_wanted(&run->d.report) ? SOLVE_LARGEST : 0,
                                        .threads = run->d.t.threads,
                                        .ranks = ranks_of(&run->d.t)};
 

@@ -74,15 +74,11 @@ const struct rc_figure solve_figures[] = {
 static void
 report_patches(struct report *r, const struct rc_patches *patches)
 {
-    enum {
-        LARGEST = 10
-    };
-
     report_object(r, "patches");
     report_count(r, "count", patches->count, NULL);
     report_number(r, "perimeter", patches->perimeter, "m");
     report_array(r, "largest_areas");
-    for (size_t k = 0; k < patches->count && k < LARGEST && patches->patch != NULL; k++)
+    for (size_t k = 0; k < patches->listed; k++)
         report_number(r, NULL, patches->patch[k].area, "m2");
     report_end(r);
     report_end(r);

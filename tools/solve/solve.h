@@ -45,11 +45,15 @@ struct solve_args {
 extern struct solve_args solve_args;
 extern const struct opt solve_increments[]; /* --increments, for an effect that has them */
 
+enum {
+    SOLVE_LARGEST = 10 /* patches */
+};
+
 /* The figures of a solution. */
 struct solution {
     struct rc_contact contact;
     struct error_parts errors; /* parts of contact.pressure_error, if it has several */
-    struct rc_patches patches; /* patches of the contact; their list only for a report */
+    struct rc_patches patches; /* of the contact; a report lists the SOLVE_LARGEST largest */
     double peak;               /* Pa: the pressure that is judged */
     const char *peak_name;
     double softer;                     /* E* at once over that of the time; 0: both are E*      */

@@ -5,8 +5,9 @@
  * are processed in parallel, then joined.
  *
  * Where ranks share the map, each rank processes its own rows and the rows just before and after them, which
- * it only uses for joins. Each run of the row before is also a run of the last row of another rank: these
- * pairs join the patches of all ranks.
+ * it only uses for joins. Each run of the row before is also a run of the last row of another rank: all ranks
+ * get these pairs, and add up the parts of the patches that cross edges between ranks. A patch belongs to the
+ * rank that holds its first run; no other rank stores it.
  */
 #include "libcontact/contact.h"
 
@@ -18,25 +19,27 @@
 #include "libcontact/ranks/ranks.h"
 
 /* Columns from .. to-1 of a row. Its parent is a run of the same patch with a smaller index, or itself if it
- * is the first run of the patch. */
+ * is the first run of the patch. In the end, nodes and edges of a first run are those of its patch. */
 struct run {
-    size_t from, to;
+    size_t from, to; /* to - from: nodes */
     size_t parent;
     size_t ends;  /* edges of contact at its ends: of length dy */
     size_t sides; /* edges of contact along it: of length dx */
 };
 
-/* The rows to be processed. */
+/* The rows to be processed: those held here, the row after them and the row before them. In this order a
+ * patch has its first run here, unless it has no node here. */
 struct field {
-    size_t nx, rows;  /* rows: with the neighbouring rows of other ranks */
-    size_t own, last; /* the rows held here: own .. last-1 */
-    const double *p, *before, *after;
+    size_t nx, own, rows;             /* rows: with the neighbouring rows of other ranks */
+    const double *p, *after, *before; /* after, before: NULL if there is none */
 };
 
 static const double *
 row_of(const struct field *f, size_t j)
 {
-    return j < f->own ? f->before : j < f->last ? f->p + (j - f->own) * f->nx : f->after;
+    return j < f->own                              ? f->p + j * f->nx
+           : j + 1 == f->rows && f->before != NULL ? f->before
+                                                   : f->after;
 }
 
 struct runs {
@@ -152,7 +155,7 @@ find_runs(const struct field *f, bool wraps, int threads, struct runs *r)
 static void
 join_all(const struct field *f, struct rc_boundary wraps, bool whole, int threads, struct runs *r)
 {
-    size_t nx = f->nx, ny = f->rows, bands = (size_t)threads < ny ? (size_t)threads : ny;
+    size_t nx = f->nx, ny = f->own, bands = (size_t)threads < ny ? (size_t)threads : ny;
 
     /* within a band, patches only contain runs of the band */
 #pragma omp parallel for num_threads(threads) schedule(static)
@@ -163,7 +166,11 @@ join_all(const struct field *f, struct rc_boundary wraps, bool whole, int thread
         join_rows(r, ny * band / bands - 1, ny * band / bands);
     if (wraps.y && whole)
         join_rows(r, ny - 1, 0); /* a map of one row: the row with itself */
-    for (size_t j = 0; j < ny && wraps.x; j++)
+    if (f->after != NULL)
+        join_rows(r, ny - 1, ny);
+    if (f->before != NULL)
+        join_rows(r, f->rows - 1, 0);
+    for (size_t j = 0; j < f->rows && wraps.x; j++)
         if (r->first[j] < r->first[j + 1]) {
             size_t left = r->first[j], right = r->first[j + 1] - 1;
             if (r->run[left].from == 0 && r->run[right].to == nx)
@@ -179,38 +186,45 @@ struct part {
     size_t nodes, ends, sides;
 };
 
-/* Adds nodes and edges of the runs held here to the first run of their patch. Makes a part for each patch
- * with nodes, in the order of the first runs. */
-static size_t
-make_parts(const struct field *f, struct runs *r, size_t before, struct part *part)
-{
-    size_t runs = r->first[f->rows], n = 0;
+struct parts {
+    struct part *part;
+    size_t n;
+};
 
-    for (size_t k = 0; k < runs; k++)
-        part[k] = (struct part){.at = before + k};
-    for (size_t k = r->first[f->own]; k < r->first[f->last]; k++) {
+/* Adds nodes and edges of the runs held here to the first run of their patch. Makes a part for each patch
+ * with nodes here, in the order of the first runs. */
+static enum rc_status
+make_parts(const struct field *f, struct runs *r, size_t before, struct parts *parts)
+{
+    size_t runs = r->first[f->own], n = 0;
+
+    for (size_t k = 0; k < runs; k++) {
         const struct run *run = &r->run[k];
-        struct part *first = &part[find(r->run, k)];
-        first->nodes += run->to - run->from;
+        struct run *first = &r->run[find(r->run, k)];
+        if (first == run) {
+            n++;
+            continue;
+        }
+        first->to += run->to - run->from;
         first->ends += run->ends;
         first->sides += run->sides;
     }
-    for (size_t k = 0; k < runs; k++)
-        if (part[k].nodes > 0)
-            part[n++] = part[k];
-    return n;
+    if ((parts->part = malloc((n + 1) * sizeof *parts->part)) == NULL)
+        return RC_FAIL;
+    for (size_t k = 0; k < runs; k++) {
+        const struct run *run = &r->run[k];
+        if (run->parent == k)
+            parts->part[parts->n++] =
+                (struct part){before + k, run->to - run->from, run->ends, run->sides};
+    }
+    return RC_OK;
 }
+
+/* ---- joining across ranks ---- */
 
 /* One run seen by two ranks: the places of its patch on both. */
 struct pair {
     size_t a, b;
-};
-
-/* The data of all ranks: parts, where the parts of each rank begin, and pairs that join them. */
-struct all {
-    struct part *part;
-    struct pair *pair;
-    size_t parts, pairs;
 };
 
 /* Concatenates the lists of all ranks, of *n entries of `bytes` each here, in memory that the caller frees.
@@ -235,69 +249,52 @@ gather_lists(const struct rc_ranks *ranks, size_t bytes, const void *own, size_t
     return rc_give(&all);
 }
 
-/* The place of the patch of each run of a row, counted over all ranks. */
+#define NOWHERE SIZE_MAX /* a patch without nodes here */
+
+/* The place of the patch of each run of a row, counted over all ranks, or NOWHERE. */
 static void
-patches_of_row(struct runs *r, size_t j, size_t before, size_t *at)
+patches_of_row(const struct field *f, struct runs *r, size_t j, size_t before, size_t *at)
 {
-    for (size_t k = r->first[j]; k < r->first[j + 1]; k++)
-        *at++ = before + find(r->run, k);
+    for (size_t k = r->first[j]; k < r->first[j + 1]; k++) {
+        const size_t first = find(r->run, k);
+        *at++ = first < r->first[f->own] ? before + first : NOWHERE;
+    }
 }
 
-/* The pairs of this rank are runs of the row before its own. They are listed as it sees them and as the rank
- * that holds the row sees them. */
-static enum rc_status
-make_pairs(const struct rc_rows *rows, bool wraps, const struct field *f, struct runs *r,
-           size_t before, struct pair **pairs, size_t *n)
+/* The pairs of all ranks. Those of this rank are runs of the row before its own, as it sees them and as the
+ * rank that holds the row sees them. NULL when memory is short. */
+static struct pair *
+find_pairs(const struct rc_rows *rows, bool wraps, const struct field *f, struct runs *r,
+           size_t before, size_t *n)
 {
-    size_t most = f->nx / 2 + 1;
+    size_t most = f->nx / 2 + 1, runs = 0;
     RC_OWNED size_t *line = calloc(4 * most, sizeof *line);
+    RC_OWNED struct pair *pair = NULL;
     bool has[2];
 
-    *n = f->own > 0 ? r->first[1] : 0;
-    *pairs = malloc((*n + 1) * sizeof **pairs);
-    if (rc_ranks_agree(rows->ranks, line == NULL || *pairs == NULL ? RC_FAIL : RC_OK, NULL) !=
-        RC_OK)
-        return RC_FAIL;
-    if (f->last > f->own)
-        patches_of_row(r, f->last - 1, before, line);
-    if (*n > 0)
-        patches_of_row(r, 0, before, line + most);
+    if (f->before != NULL)
+        runs = r->first[f->rows] - r->first[f->rows - 1];
+    pair = malloc((runs + 1) * sizeof *pair);
+    if (rc_ranks_agree(rows->ranks, line == NULL || pair == NULL ? RC_FAIL : RC_OK, NULL) != RC_OK)
+        return NULL;
+    if (f->own > 0)
+        patches_of_row(f, r, f->own - 1, before, line);
+    if (runs > 0)
+        patches_of_row(f, r, f->rows - 1, before, line + most);
     rc_ranks_beside(rows, wraps, most * sizeof *line, line, line, line + 2 * most, line + 3 * most,
                     has);
-    for (size_t k = 0; k < *n; k++)
-        (*pairs)[k] = (struct pair){line[most + k], line[2 * most + k]};
-    return RC_OK;
+    *n = 0;
+    for (size_t k = 0; k < runs; k++)
+        if (line[most + k] != NOWHERE)
+            pair[(*n)++] = (struct pair){line[most + k], line[2 * most + k]};
+    return gather_lists(rows->ranks, sizeof *pair, pair, n);
 }
-
-/* Parts and pairs of all ranks. */
-static enum rc_status
-gather_all(const struct rc_rows *rows, bool wraps, const struct field *f, struct runs *r,
-           struct part *own, size_t parts, size_t before, struct all *all)
-{
-    RC_OWNED struct pair *pair = NULL;
-    enum rc_status status;
-
-    *all = (struct all){.parts = parts};
-    if (rows->ranks == NULL) {
-        all->part = own;
-        return RC_OK;
-    }
-    status = make_pairs(rows, wraps, f, r, before, &pair, &all->pairs);
-    if (status == RC_OK) {
-        all->part = gather_lists(rows->ranks, sizeof *own, own, &all->parts);
-        all->pair = gather_lists(rows->ranks, sizeof *pair, pair, &all->pairs);
-        status = all->part == NULL || all->pair == NULL ? RC_FAIL : RC_OK;
-    }
-    free(own);
-    return status;
-}
-
-/* ---- joining across ranks ---- */
 
 /* Places are in increasing order. parent[k]: index in this list of the first place of the patch of place k,
  * or of one nearer to it. */
 struct places {
     size_t n, *at, *parent;
+    struct rc_store own;
 };
 
 static int
@@ -309,7 +306,7 @@ by_size(const void *a, const void *b)
 }
 
 static size_t
-place(struct places *q, size_t at)
+place(const struct places *q, size_t at)
 {
     size_t *found = bsearch(&at, q->at, q->n, sizeof at, by_size), k;
 
@@ -320,66 +317,91 @@ place(struct places *q, size_t at)
     return k;
 }
 
-/* Gives each part the place of the first part of its patch. */
 static enum rc_status
-join_parts(struct all *all)
+join_places(const struct pair *pair, size_t pairs, struct places *q)
 {
-    RC_ENDS(rc_store_free) struct rc_store own = {0};
-    struct places q = {.at = rc_store_take(&own, 2 * all->pairs, sizeof *q.at),
-                       .parent = rc_store_take(&own, 2 * all->pairs, sizeof *q.parent)};
-
-    if (own.failed)
+    q->at = rc_store_take(&q->own, 2 * pairs, sizeof *q->at);
+    q->parent = rc_store_take(&q->own, 2 * pairs, sizeof *q->parent);
+    if (q->own.failed)
         return RC_FAIL;
-    for (size_t k = 0; k < all->pairs; k++) {
-        q.at[2 * k] = all->pair[k].a;
-        q.at[2 * k + 1] = all->pair[k].b;
+    for (size_t k = 0; k < pairs; k++) {
+        q->at[2 * k] = pair[k].a;
+        q->at[2 * k + 1] = pair[k].b;
     }
-    qsort(q.at, 2 * all->pairs, sizeof *q.at, by_size);
-    for (size_t k = 0; k < 2 * all->pairs; k++)
-        if (q.n == 0 || q.at[q.n - 1] != q.at[k])
-            q.at[q.n++] = q.at[k];
-    for (size_t k = 0; k < q.n; k++)
-        q.parent[k] = k;
-    for (size_t k = 0; k < all->pairs; k++) {
-        size_t a = place(&q, all->pair[k].a), b = place(&q, all->pair[k].b);
-        q.parent[a < b ? b : a] = a < b ? a : b;
-    }
-    for (size_t k = 0; k < all->parts; k++) {
-        size_t first = place(&q, all->part[k].at);
-        if (first < q.n)
-            all->part[k].at = q.at[first];
+    qsort(q->at, 2 * pairs, sizeof *q->at, by_size);
+    for (size_t k = 0; k < 2 * pairs; k++)
+        if (q->n == 0 || q->at[q->n - 1] != q->at[k])
+            q->at[q->n++] = q->at[k];
+    for (size_t k = 0; k < q->n; k++)
+        q->parent[k] = k;
+    for (size_t k = 0; k < pairs; k++) {
+        size_t a = place(q, pair[k].a), b = place(q, pair[k].b);
+        q->parent[a < b ? b : a] = a < b ? a : b;
     }
     return RC_OK;
 }
 
-static int
-by_place(const void *a, const void *b)
-{
-    const struct part *x = a, *y = b;
-
-    return (x->at > y->at) - (x->at < y->at);
-}
-
-/* Merges the parts of one patch. */
+/* Adds up the parts of each patch that has a place, in `sum`, three numbers a place. Whole numbers, so that
+ * the order of the ranks does not matter. Keeps the patches whose first run is here. */
 static void
-merge_parts(struct all *all)
+merge_parts(const struct rc_ranks *ranks, const struct places *q, double *sum, struct parts *parts)
 {
     size_t n = 0;
 
-    qsort(all->part, all->parts, sizeof *all->part, by_place);
-    for (size_t k = 0; k < all->parts; k++) {
-        if (n > 0 && all->part[n - 1].at == all->part[k].at) {
-            all->part[n - 1].nodes += all->part[k].nodes;
-            all->part[n - 1].ends += all->part[k].ends;
-            all->part[n - 1].sides += all->part[k].sides;
-        } else {
-            all->part[n++] = all->part[k];
-        }
+    for (size_t k = 0; k < parts->n; k++) {
+        const struct part *part = &parts->part[k];
+        const size_t first = place(q, part->at);
+        if (first == q->n)
+            continue;
+        sum[3 * first] += (double)part->nodes;
+        sum[3 * first + 1] += (double)part->ends;
+        sum[3 * first + 2] += (double)part->sides;
     }
-    all->parts = n;
+    rc_ranks_each_sum(ranks, 3 * q->n, sum);
+    for (size_t k = 0; k < parts->n; k++) {
+        struct part part = parts->part[k];
+        const size_t first = place(q, part.at);
+        if (first < q->n && q->at[first] != part.at)
+            continue;
+        if (first < q->n) {
+            part.nodes = (size_t)sum[3 * first];
+            part.ends = (size_t)sum[3 * first + 1];
+            part.sides = (size_t)sum[3 * first + 2];
+        }
+        parts->part[n++] = part;
+    }
+    parts->n = n;
+}
+
+/* Joins the parts of all ranks. */
+static enum rc_status
+join_parts(const struct rc_rows *rows, bool wraps, const struct field *f, struct runs *r,
+           size_t before, struct parts *parts)
+{
+    size_t pairs;
+    RC_OWNED struct pair *pair = find_pairs(rows, wraps, f, r, before, &pairs);
+    RC_OWNED double *sum = NULL;
+    struct places q = {0};
+    enum rc_status status = RC_FAIL;
+
+    if (pair == NULL)
+        return RC_FAIL;
+    if (join_places(pair, pairs, &q) == RC_OK && (sum = calloc(3 * q.n + 1, sizeof *sum)) != NULL)
+        status = RC_OK;
+    status = rc_ranks_agree(rows->ranks, status, NULL);
+    if (status == RC_OK)
+        merge_parts(rows->ranks, &q, sum, parts);
+    rc_store_free(&q.own);
+    return status;
 }
 
 /* ---- figures ---- */
+
+static int
+by_place(const struct part *x, const struct part *y)
+{
+    return (x->at > y->at) - (x->at < y->at);
+}
 
 /* The larger patch first; of equal patches the one whose first run comes first. */
 static int
@@ -387,87 +409,91 @@ larger_first(const void *a, const void *b)
 {
     const struct part *x = a, *y = b;
 
-    return x->nodes != y->nodes ? (x->nodes < y->nodes) - (x->nodes > y->nodes) : by_place(a, b);
+    return x->nodes != y->nodes ? (x->nodes < y->nodes) - (x->nodes > y->nodes) : by_place(x, y);
 }
 
-/* Sorts before the list is allocated: qsort may need as much memory again as the parts that it sorts. */
+/* Each rank sends its largest patches to all. Sorts before the list is allocated: qsort may need as much
+ * memory again as the parts that it sorts. */
 static enum rc_status
-list_patches(const struct rc_shape *s, struct all *all, struct rc_patches *patches)
+list_patches(const struct rc_ranks *ranks, const struct rc_shape *s, size_t largest,
+             struct parts *parts, struct rc_patches *patches)
 {
-    qsort(all->part, all->parts, sizeof *all->part, larger_first);
-    if ((patches->patch = rc_alloc(all->parts + 1, sizeof *patches->patch)) == NULL)
+    qsort(parts->part, parts->n, sizeof *parts->part, larger_first);
+    parts->n = parts->n < largest ? parts->n : largest;
+    if (ranks != NULL) {
+        RC_OWNED struct part *own = parts->part;
+        if ((parts->part = gather_lists(ranks, sizeof *own, own, &parts->n)) == NULL)
+            return RC_FAIL;
+        qsort(parts->part, parts->n, sizeof *parts->part, larger_first);
+        parts->n = parts->n < largest ? parts->n : largest;
+    }
+    if ((patches->patch = rc_alloc(parts->n + 1, sizeof *patches->patch)) == NULL)
         return RC_FAIL;
-    for (size_t k = 0; k < all->parts; k++) {
-        const struct part *part = &all->part[k];
+    for (size_t k = 0; k < parts->n; k++) {
+        const struct part *part = &parts->part[k];
         patches->patch[k] = (struct rc_patch){.nodes = part->nodes,
                                               .area = (double)part->nodes * s->dx * s->dy,
                                               .perimeter = (double)part->ends * s->dy +
                                                            (double)part->sides * s->dx};
     }
+    patches->listed = parts->n;
     return RC_OK;
 }
 
 static void
-add_up(const struct rc_shape *s, const struct all *all, struct rc_patches *patches)
+add_up(const struct rc_ranks *ranks, const struct rc_shape *s, const struct parts *parts,
+       struct rc_patches *patches)
 {
-    size_t ends = 0, sides = 0;
-    double cell = s->dx * s->dy;
+    double cell = s->dx * s->dy, sum[] = {(double)parts->n, 0, 0, 0};
 
-    patches->count = all->parts;
-    for (size_t k = 0; k < all->parts; k++) {
-        patches->contact_nodes += all->part[k].nodes;
-        ends += all->part[k].ends;
-        sides += all->part[k].sides;
+    for (size_t k = 0; k < parts->n; k++) {
+        sum[1] += (double)parts->part[k].nodes;
+        sum[2] += (double)parts->part[k].ends;
+        sum[3] += (double)parts->part[k].sides;
     }
-    patches->contact_area = (double)patches->contact_nodes * cell;
-    patches->perimeter = (double)ends * s->dy + (double)sides * s->dx;
+    rc_ranks_each_sum(ranks, 4, sum); /* whole numbers */
+    patches->count = (size_t)sum[0];
+    patches->contact_nodes = (size_t)sum[1];
+    patches->contact_area = sum[1] * cell;
+    patches->perimeter = sum[2] * s->dy + sum[3] * s->dx;
     patches->contact_area_corrected =
-        patches->contact_area - (RC_PI - 1 + log(2)) / 24 * cell * (double)(ends + sides);
+        patches->contact_area - (RC_PI - 1 + log(2)) / 24 * cell * (sum[2] + sum[3]);
 }
 
 /* The rows held here and the two next to them, which are copied into `room`. */
 static struct field
 field_of(const struct rc_rows *rows, size_t nx, bool wraps, const double *p, double *room)
 {
-    struct field f = {.nx = nx, .rows = rows->n, .last = rows->n, .p = p};
+    struct field f = {.nx = nx, .own = rows->n, .rows = rows->n, .p = p};
     bool has[2] = {false, false};
 
     if (rows->ranks == NULL)
         return f;
     rc_ranks_beside(rows, wraps, nx * sizeof *p, p, p + (rows->n > 0 ? rows->n - 1 : 0) * nx, room,
                     room + nx, has);
-    f.before = room;
-    f.after = room + nx;
-    f.own = has[0];
-    f.last = has[0] + rows->n;
-    f.rows = f.last + has[1];
+    f.before = has[0] ? room : NULL;
+    f.after = has[1] ? room + nx : NULL;
+    f.rows += (size_t)has[0] + has[1];
     return f;
 }
 
-/* The parts of all ranks, merged: each is a whole patch. */
+/* The patches whose first run is held here. */
 static enum rc_status
 find_parts(const struct rc_rows *rows, const struct field *f, struct rc_boundary wraps, int threads,
-           struct runs *r, struct all *all)
+           struct runs *r, struct parts *parts)
 {
     enum rc_status status = find_runs(f, wraps.x, threads, r);
-    RC_OWNED struct part *part = NULL;
-    size_t before, n;
+    size_t before;
 
-    if (status == RC_OK && (part = malloc((r->first[f->rows] + 1) * sizeof *part)) == NULL)
-        status = RC_FAIL;
     if (rc_ranks_agree(rows->ranks, status, NULL) != RC_OK)
         return RC_FAIL;
     join_all(f, wraps, rows->ranks == NULL, threads, r);
     before = rows->ranks == NULL
                  ? 0
-                 : (size_t)rc_ranks_sum_before(rows->ranks, (double)r->first[f->rows]);
-    n = make_parts(f, r, before, part);
-    status = gather_all(rows, wraps.y, f, r, rc_give(&part), n, before, all);
-    if (status == RC_OK && rows->ranks != NULL) {
-        status = join_parts(all);
-        merge_parts(all);
-    }
-    return status;
+                 : (size_t)rc_ranks_sum_before(rows->ranks, (double)r->first[f->own]);
+    status = rc_ranks_agree(rows->ranks, make_parts(f, r, before, parts), NULL);
+    return status == RC_OK && rows->ranks != NULL ? join_parts(rows, wraps.y, f, r, before, parts)
+                                                  : status;
 }
 
 #define FIGURE(member) RC_FIGURE(struct rc_patches, member)
@@ -491,7 +517,7 @@ rc_patches_find(const struct rc_shape *shape, const double *p,
     RC_OWNED double *room = NULL;
     enum rc_status status;
     struct runs r = {0};
-    struct all all = {0};
+    struct parts parts = {0};
     struct field f;
 
     *patches = (struct rc_patches){0};
@@ -501,18 +527,18 @@ rc_patches_find(const struct rc_shape *shape, const double *p,
     status = rc_ranks_agree(rows.ranks, room == NULL ? RC_FAIL : RC_OK, NULL);
     if (status == RC_OK) {
         f = field_of(&rows, shape->nx, wraps.y, p, room);
-        status = find_parts(&rows, &f, wraps, rc_useful_threads(&own, options->threads), &r, &all);
+        status =
+            find_parts(&rows, &f, wraps, rc_useful_threads(&own, options->threads), &r, &parts);
     }
     rc_store_free(&r.own);
     if (status == RC_OK)
-        add_up(shape, &all, patches);
-    if (status == RC_OK && options->each)
-        status = list_patches(shape, &all, patches);
+        add_up(rows.ranks, shape, &parts, patches);
+    if (status == RC_OK && options->largest > 0)
+        status = list_patches(rows.ranks, shape, options->largest, &parts, patches);
     if (rc_ranks_agree(rows.ranks, status, NULL) != RC_OK)
         status = rc_err_set(err, "out of memory for the contact patches of %zu x %zu nodes",
                             shape->nx, shape->ny);
-    free(all.part);
-    free(all.pair);
+    free(parts.part);
     return status;
 }
 
