@@ -73,15 +73,21 @@ struct rc_selfaffine {
     /* heights of a Weibull distribution of this shape, from RC_WEIBULL_MIN to RC_WEIBULL_MAX; 0:
      * Gaussian */
     double weibull;
+    /* 0: all */
+    size_t threads;
+    /* processes that share the map; NULL: none */
+    const struct rc_ranks *ranks;
 };
 #define RC_SKEWNESS_MAX 3.0
 #define RC_WEIBULL_MIN 0.75
 #define RC_WEIBULL_MAX 100.0
-/* Gaussian Fourier amplitudes with random phases, drawn once for each wave vector, without waves of exactly
+/* h: the map, or this rank's rows of it, with the bits of one process. Gaussian Fourier amplitudes with
+ * random phases, drawn once for each wave vector, without waves of exactly
  * two nodes. The mean is 0. The gradient comes from the waves, not from differences of nodes. A
  * distribution that is not Gaussian replaces the heights by rank; the amplitudes of the waves then stay
  * nearly Gaussian (Perez-Rafols and Almqvist 2019). RC_FAIL when a value is out of range, no wave of the map
- * lies between the cut-offs, or memory is short. Switches off GSL's error handler, which belongs to the
+ * lies between the cut-offs, memory is short, or heights
+ * that are not Gaussian are wanted of several ranks. Switches off GSL's error handler, which belongs to the
  * process, during the call. */
 RC_API enum rc_status rc_synth_selfaffine(const struct rc_shape *shape,
                                           const struct rc_selfaffine *what, double *h,

@@ -105,6 +105,7 @@ static const struct tool_info info = {
     .opts = opts,
     .reads = READS_FILES,
     .writes = WRITES_STREAM,
+    .shares = true,
 };
 
 /* ---- the command line ---- */
@@ -150,19 +151,23 @@ check_options(struct tool *t, const struct synth_shape *row)
 static void
 place_highest(struct tool *t, const struct rc_grid *g)
 {
-    size_t n = g->nx * g->ny, top = n, i, j;
+    const struct rc_shape shape = rc_grid_shape(g);
+    size_t n = rc_grid_nodes(g), top = n, first, rows;
+    double place[2];
 
     for (size_t k = 0; k < n; k++)
         if (isfinite(g->v[k]) && (top == n || g->v[k] > g->v[top]))
             top = k;
-    if (top == n)
+    if (ranks_most(t, top < n) == 0)
         tool_die(t, "--like %s: no height was measured: --place highest is nowhere", args.like);
+    ranks_rows(t, &shape, &first, &rows);
+    place[0] = ((double)(top % g->nx) - 0.5 * (double)(g->nx - 1)) * g->dx;
+    place[1] = ((double)(first + top / g->nx) - 0.5 * (double)(g->ny - 1)) * g->dy;
+    ranks_share(t, ranks_where_most(t, top < n ? g->v[top] : -INFINITY), place, sizeof place);
     args.place.n = 2;
     args.place.v = tool_room(t, 2, sizeof *args.place.v, "a place");
-    i = top % g->nx;
-    j = top / g->nx;
-    args.place.v[0] = ((double)i - 0.5 * (double)(g->nx - 1)) * g->dx;
-    args.place.v[1] = ((double)j - 0.5 * (double)(g->ny - 1)) * g->dy;
+    args.place.v[0] = place[0];
+    args.place.v[1] = place[1];
 }
 
 static struct rc_shape
@@ -240,10 +245,11 @@ int
 main(int argc, char **argv)
 {
     const struct synth_shape *row;
+    struct synth_map map = {.tool = NULL};
     struct rc_shape shape;
     struct rc_grid *g;
     struct tool t;
-    bool periodic = false;
+    enum rc_status status;
 
     tool_start(&t, &info, argc, argv, &args);
     row = find_shape(&t);
@@ -255,11 +261,14 @@ main(int argc, char **argv)
         row->check(&t, &args, &shape);
     t.remedy = "take fewer nodes: --nx, --ny";
     tool_must(&t, NULL, rc_shape_check(&shape, &t.err));
-    tool_must(&t, NULL, tool_ask_memory(&t, &shape, shape.nx * shape.ny * sizeof *g->v, &t.err));
-    g = rc_grid_new(&shape, "height", "m", &t.err);
-    if (g == NULL || row->make(&args, &shape, g->v, &periodic, &t.err) != RC_OK)
-        tool_die(&t, "%s", t.err.text);
-    add_keys(&t, row, g, periodic);
+    map = (struct synth_map){.tool = &t, .shape = &shape};
+    ranks_rows(&t, &shape, &map.first, &map.rows);
+    tool_must(&t, NULL, tool_ask_memory(&t, &shape, shape.nx * map.rows * sizeof *g->v, &t.err));
+    g = tool_made(&t, NULL, rc_grid_new_part(&shape, map.rows, "height", "m", &t.err));
+    map.h = g->v;
+    status = row->make(&args, &map, &t.err);
+    tool_must(&t, NULL, ranks_agree(&t, status, &t.err));
+    add_keys(&t, row, g, map.periodic);
     tool_write(&t, g);
     rc_grid_free(g);
     return tool_finish(&t);

@@ -5,6 +5,8 @@
 
 #include "libcontact/contact.h"
 
+/* Cosine and sine of an angle in degrees, exact at right angles. */
+void rc_synth_direction(double degrees, double *c, double *s);
 /* True if the wanted heights are not Gaussian. */
 bool rc_heights_skewed(const struct rc_selfaffine *what);
 /* RC_FAIL when what->skewness or what->weibull is out of range, or both are given. */

@@ -7,6 +7,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "libcontact/memory.h"
 #include "planner.h"
 
 size_t
@@ -36,8 +37,8 @@ run(const struct rc_shape *shape, fftw_plan plan, struct rc_err *err)
     return RC_OK;
 }
 
-static enum rc_status
-check_sides(const struct rc_shape *shape, struct rc_err *err)
+enum rc_status
+rc_fourier_check(const struct rc_shape *shape, struct rc_err *err)
 {
     if (shape->nx > INT_MAX || shape->ny > INT_MAX)
         return rc_err_set(err, "%zu x %zu nodes: a side of at most %d can be transformed",
@@ -66,7 +67,7 @@ rc_fourier_forward(const struct rc_shape *shape, const double *v, double complex
     double *map = (double *)s;
     fftw_plan plan;
 
-    if (check_sides(shape, err) != RC_OK)
+    if (rc_fourier_check(shape, err) != RC_OK)
         return RC_FAIL;
     rc_planner_lock();
     plan = fftw_plan_dft_r2c_2d((int)shape->ny, (int)shape->nx, map, s, FFTW_ESTIMATE);
@@ -81,13 +82,54 @@ rc_fourier_backward(const struct rc_shape *shape, double complex *s, double *v, 
 {
     fftw_plan plan;
 
-    if (check_sides(shape, err) != RC_OK)
+    if (rc_fourier_check(shape, err) != RC_OK)
         return RC_FAIL;
     rc_planner_lock();
     plan = fftw_plan_dft_c2r_2d((int)shape->ny, (int)shape->nx, s, v,
                                 FFTW_ESTIMATE | FFTW_DESTROY_INPUT);
     rc_planner_unlock();
     return run(shape, plan, err);
+}
+
+/* ---- columns ---- */
+
+enum {
+    LANES = 4 /* neighbouring columns that are copied together: a cache line of numbers */
+};
+
+enum rc_status
+rc_fourier_columns_backward(size_t ny, size_t wide, int threads, double complex *s,
+                            struct rc_err *err)
+{
+    const size_t length = (ny + 3) / 4 * 4, room = LANES * length;
+    RC_OWNED double complex *scratch = aligned_alloc(64, (size_t)threads * room * sizeof *scratch);
+    fftw_plan plan = NULL;
+
+    if (scratch != NULL) {
+        rc_planner_lock();
+        plan = fftw_plan_dft_1d((int)ny, scratch, scratch, FFTW_BACKWARD, FFTW_ESTIMATE);
+        rc_planner_unlock();
+    }
+    if (plan == NULL)
+        return rc_err_set(err, "out of memory for a transform of %zu values", ny);
+#pragma omp parallel for num_threads(threads) schedule(static)
+    for (size_t i = 0; i < wide; i += LANES) {
+        double complex *column = scratch + (size_t)omp_get_thread_num() * room;
+        const size_t lanes = wide - i < LANES ? wide - i : LANES;
+
+        for (size_t j = 0; j < ny; j++)
+            for (size_t l = 0; l < lanes; l++)
+                column[l * length + j] = s[j * wide + i + l];
+        for (size_t l = 0; l < lanes; l++)
+            fftw_execute_dft(plan, column + l * length, column + l * length);
+        for (size_t j = 0; j < ny; j++)
+            for (size_t l = 0; l < lanes; l++)
+                s[j * wide + i + l] = column[l * length + j];
+    }
+    rc_planner_lock();
+    fftw_destroy_plan(plan);
+    rc_planner_unlock();
+    return RC_OK;
 }
 
 /* ---- lines ---- */

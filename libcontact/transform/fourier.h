@@ -34,6 +34,8 @@ rc_fourier_q(size_t k, size_t n, double d)
  * prime factors above 7. */
 size_t rc_fourier_length(size_t n, size_t step);
 
+/* RC_FAIL when a side is too long for FFTW. */
+enum rc_status rc_fourier_check(const struct rc_shape *shape, struct rc_err *err);
 /* s_k = sum of v_j exp(-2 pi i jk / n); v is kept. RC_FAIL when a side is too long for FFTW or
  * memory is short. */
 enum rc_status rc_fourier_forward(const struct rc_shape *shape, const double *v, double complex *s,
@@ -41,6 +43,11 @@ enum rc_status rc_fourier_forward(const struct rc_shape *shape, const double *v,
 /* v_j = sum of s_k exp(+2 pi i jk / n) over both half planes; s is destroyed. Fails likewise. */
 enum rc_status rc_fourier_backward(const struct rc_shape *shape, double complex *s, double *v,
                                    struct rc_err *err);
+
+/* The same for each column of ny rows of `wide` complex numbers, in place. The numbers of a column do not
+ * depend on `wide`. RC_FAIL when memory is short. */
+enum rc_status rc_fourier_columns_backward(size_t ny, size_t wide, int threads, double complex *s,
+                                           struct rc_err *err);
 
 /* Transforms of single lines of n real values, for this number of threads. NULL when memory is short. */
 struct rc_line;

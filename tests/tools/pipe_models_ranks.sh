@@ -29,6 +29,24 @@ rc-solve --periodic --estar 1GPa --mean-pressure 2MPa --quiet -o pressed.rcg rou
 rc-solve --periodic --estar 1GPa --mean-pressure 2MPa,4MPa --quiet -o loads.rcg rough.rcg
 rc-solve --estar 1GPa --load 0.2mN --quiet -o pressed-ball.rcg ball.rcg
 
+# ---- surfaces ----
+
+synth() {
+    local n
+    rc-synth "$@" -o alone.rcg || return
+    for n in $ranks; do
+        $MPIRUN -n "$n" rc-synth "$@" -o shared.rcg && cmp alone.rcg shared.rcg || return
+    done
+}
+claim "a surface from a seed" synth selfaffine --nx 131 --ny 45 --dx 1um --hurst 0.8 --rms-height 0.1um --anisotropy 3 --direction 20 --threads 2
+claim "  a profile along y" synth selfaffine --nx 1 --ny 300 --dx 1um --hurst 0.5 --rms-slope 0.1
+claim "a paraboloid beside the middle" synth paraboloid --nx 64 --ny 45 --dx 1um --dy 0.7um --radius 2mm,1mm --direction 30 --place 3um,-7.3um
+claim "a cone on the highest node of another process" synth cone --slope 0.05 --like even.rcg --place highest
+claim "a wave" synth wave --nx 64 --ny 39 --dx 1um --amplitude 1um --wavelength 16um,13um
+refuses 1 'no node lies within the radius' "a punch between nodes" "$MPIRUN -n 2 rc-synth punch --nx 64 --dx 1um --radius 0.1um --height 5um -o no.rcg"
+claim "  the message is printed once" test "$(grep -c 'no node' refuses.err)" = 1
+refuses 1 'not Gaussian need the whole map' "skewed heights" "$MPIRUN -n 2 rc-synth selfaffine --nx 64 --dx 1um --hurst 0.5 --rms-slope 0.1 --skewness -1 -o no.rcg"
+
 # ---- models ----
 
 # Every exchange waits for the other process, so few steps and a large tolerance keep their number small. The bytes of
@@ -239,6 +257,13 @@ perl -MCompress::Zlib -0777 -pe 's/(RCG1\nchannel=height\n.*?\n\n.{46160}).{8}(.
     my $to = "$1\0\0\0\0\0\0\xf8\x7f$2"; sprintf("%scrc32 %08x\n", $to, crc32($to))/se' pressed.rcg >nan-pressed.rcg
 refuses 1 'height 5770 is not a finite number' "  wear" "$run $wear --distance 0.01m -o no.rcg nan-pressed.rcg"
 claim "  nothing else is printed" test "$(grep -ac '^rc-wear' refuses.err)" = 1
+refuses 1 'NaN or infinite, the first in column 7 of row 44' "  sliding on rubber" "$run $speed 10um/s --periodic --mean-pressure 20kPa -o no.rcg nan.rcg"
+perl -MCompress::Zlib -0777 -pe 's/(RCG1\nchannel=pressure\n.*?\n\n.{46160}).{8}(.{992})crc32 .{8}\n/
+    my $to = "$1\0\0\0\0\0\0\xf8\x7f$2"; sprintf("%scrc32 %08x\n", $to, crc32($to))/se' pressed.rcg >nan-pressure.rcg
+for command in "$slip --nu 0.3 --tangential 20uN" "$heat --speed 1m/s --time 1us" "$fatigue --pass x --depths 4um"; do
+    refuses 1 'NaN or infinite, the first in column 6 of row 44' "  ${command%% *}" "$run $command -o no.rcg nan-pressure.rcg"
+    claim "    the message is printed once" test "$(grep -ac 'are NaN' refuses.err)" = 1
+done
 perl -MCompress::Zlib -0777 -pe 's/(RCG1\nchannel=pressure\n.*?\n\n.{46160}).{8}(.{992})crc32 .{8}\n/
     my $to = "$1\0\0\0\0\0\0\xf0\xbf$2"; sprintf("%scrc32 %08x\n", $to, crc32($to))/se' pressed.rcg >pulled.rcg
 refuses 1 'pressure -1 Pa at column 6, row 44' "  heat of a negative pressure" "$run $heat --speed 1m/s --time 1us -o no.rcg pulled.rcg"
@@ -267,30 +292,43 @@ claim "  rolling over a path" memory "$rolls --creep 1e-3,0 way.rcg"
 claim "  creep" memory "$relax --tol 0.1 rough.rcg"
 claim "  wear" memory "$wear --distance 1mm pressed-ball.rcg"
 claim "  heat" memory "$heat --speed 1m/s --time 1us line-x.rcg"
-killed() {
-    local launcher victim= child
-    $run ${yield/--increments 1 --tol 1e-1 --quiet/} --progress line --periodic --increments 200 --mean-pressure 60MPa,20MPa,70MPa --history -o no.rcg rough.rcg >/dev/null 2>killed.err &
-    launcher=$!
-    until grep -aq increment killed.err || ! kill -0 "$launcher"; do sleep 0.05; done
-    for child in $(pgrep -P "$launcher" -x rc-solve); do
-        ! grep -zqx '\(OMPI_COMM_WORLD\|PMI\)_RANK=1' "/proc/$child/environ" || victim=$child
+# kill_second PID: the second process of this launcher.
+kill_second() {
+    local child victim=
+    for child in $(pgrep -P "$1"); do
+        ! grep -zqsx '\(OMPI_COMM_WORLD\|PMI\)_RANK=1' "/proc/$child/environ" || victim=$child
     done
-    kill -KILL "$victim" || return
+    kill -KILL "$victim"
+}
+# killed COMMAND: it prints its progress, and its second process is killed after the first lines.
+killed() {
+    local launcher
+    $run $1 --progress line -o no.rcg >/dev/null 2>killed.err &
+    launcher=$!
+    until [ "$(grep -ac '^rc-' killed.err)" -ge 2 ] || ! kill -0 "$launcher"; do sleep 0.05; done
+    kill_second "$launcher" || return
     wait "$launcher" && return 1
     [ -z "$(ls no.rcg* 2>/dev/null)" ]
 }
-claim "a process that is killed among the increments ends all and leaves no file" killed
+claim "a process that is killed among the increments ends all and leaves no file" \
+    killed "${yield/--increments 1 --tol 1e-1 --quiet/} --periodic --increments 200 --mean-pressure 60MPa,20MPa,70MPa --history rough.rcg"
+further "  adhesion" killed "${stick/--quiet/} --periodic --estar 1GPa --approach 0:1um:400 rough.rcg"
+further "  creep" killed "${relax/--increments 2 --quiet/} --increments 400 rough.rcg"
+further "  sliding on rubber" killed "${speed/--quiet --speed/--speed} 1um/s:100um/s:40 --periodic --mean-pressure 20kPa rough.rcg"
+further "  travel" killed "${travel/--quiet/} --travel=-20um,20um,0.1um rough.rcg"
+further "  friction" killed "rc-slip --mu 0.3 --nu 0.3 --tol 1e-6 --tangential 1mN --increments 200 pressed.rcg"
+further "  steady rolling" killed "${steady/--quiet --tol 3e-2/--tol 1e-6} --creep 1e-4:5e-2:log:60,0 rolls-alike.rcg"
+further "  wear" killed "rc-wear --coefficient 1e-3mm3/Nm --distance 1m --tol 1e-3 pressed.rcg"
+further "  heat" killed "${heat/--tol 0.1 --quiet/} --speed 1m/s --time 1us --time-steps 2000 pressed.rcg"
+further "  fatigue" killed "${fatigue/--quiet/} --pass x --depths 1um:40um:80 pressed.rcg"
 # The second process is killed after 5 states; the others continue from the last one.
 killed_states() {
-    local launcher victim= child n command="${yield/--increments 1/--increments 10} --periodic --mean-pressure 25MPa,5MPa --history rough.rcg"
+    local launcher n command="${yield/--increments 1/--increments 10} --periodic --mean-pressure 25MPa,5MPa --history rough.rcg"
     rm -f *.kept
     $run $command --interval 0 --checkpoint killed.kept -o no.rcg >/dev/null 2>killed.err &
     launcher=$!
     until n=$(grep -acs '^checkpoint.numbers=' killed.kept) && [ "$n" -ge 5 ] || ! kill -0 "$launcher"; do sleep 0.05; done
-    for child in $(pgrep -P "$launcher" -x rc-solve); do
-        ! grep -zqx '\(OMPI_COMM_WORLD\|PMI\)_RANK=1' "/proc/$child/environ" || victim=$child
-    done
-    kill -KILL "$victim" || return
+    kill_second "$launcher" || return
     wait "$launcher" && return 1
     for n in 1 3; do
         cp killed.kept "on-$n.kept"

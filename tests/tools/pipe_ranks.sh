@@ -152,7 +152,7 @@ refuses 1 "needs the map in one process" "an engine that is not shared" \
     "$MPIRUN -n 2 rc-solve --estar 1GPa --load 0.1N --kernel mlms -o no.rcg rough.rcg"
 # Every other tool refuses, once, and writes nothing; one process works. Launching takes most of the time, so one launch
 # has a process of each tool: the message is printed once only if all refuse. Before a release each tool is launched alone.
-others=$(for tool in "$RC_BIN"/rc-*[a-z]; do echo "${tool##*/}"; done | grep -vxE 'rc-(solve|slip|wear|deflect|stress|fatigue|heat)')
+others=$(for tool in "$RC_BIN"/rc-*[a-z]; do echo "${tool##*/}"; done | grep -vxE 'rc-(synth|solve|slip|wear|deflect|stress|fatigue|heat)')
 # refused "launched tools" ARGUMENTS
 refused() {
     local tools=$1 tool launch=

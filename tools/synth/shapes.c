@@ -35,17 +35,34 @@ check_wave(struct tool *t, const struct synth_args *a, const struct rc_shape *sh
                        w->v[k], d[k]);
 }
 
-static enum rc_status
-make_wave(const struct synth_args *a, const struct rc_shape *shape, double *h, bool *periodic,
-          struct rc_err *err)
+/* The y of row j of the map, from the middle. */
+static double
+row_place(const struct rc_shape *shape, size_t j)
 {
+    return ((double)j - 0.5 * (double)(shape->ny - 1)) * shape->dy;
+}
+
+/* Shapes are made row by row, as profiles: a process may hold some rows only. The profile of an indenter has
+ * its apex at minus the y of the row. */
+static struct rc_shape
+row_shape(const struct synth_map *m)
+{
+    return (struct rc_shape){m->shape->nx, 1, m->shape->dx, m->shape->dy};
+}
+
+static enum rc_status
+make_wave(const struct synth_args *a, struct synth_map *m, struct rc_err *err)
+{
+    const struct rc_shape *shape = m->shape, row = row_shape(m);
     const struct numbers *w = &a->wavelength;
     double x = w->v[0] == 0 ? INFINITY : w->v[0];
     double y = w->n < 2 || w->v[1] == 0 ? INFINITY : w->v[1];
 
     (void)err;
-    rc_synth_wave(shape, a->amplitude, x, y, h);
-    *periodic = fits(shape->nx, shape->dx, x) && fits(shape->ny, shape->dy, y);
+    for (size_t j = 0; j < m->rows; j++)
+        rc_synth_wave(&row, a->amplitude * cos(2 * M_PI * row_place(shape, m->first + j) / y), x,
+                      INFINITY, m->h + j * shape->nx);
+    m->periodic = fits(shape->nx, shape->dx, x) && fits(shape->ny, shape->dy, y);
     return RC_OK;
 }
 
@@ -58,57 +75,68 @@ or_default(double value)
     return isnan(value) ? 0 : value;
 }
 
+/* The apex from the middle of row j of those held here. */
 static struct rc_place
-apex(const struct synth_args *a)
+apex(const struct synth_args *a, const struct synth_map *m, size_t j)
 {
-    if (a->place.n == 0)
-        return (struct rc_place){0, 0};
-    return (struct rc_place){a->place.v[0], a->place.v[1]};
+    const struct rc_place whole = {a->place.n == 0 ? 0 : a->place.v[0],
+                                   a->place.n == 0 ? 0 : a->place.v[1]};
+
+    return (struct rc_place){whole.x, whole.y - row_place(m->shape, m->first + j)};
+}
+
+static void
+paraboloids(const struct synth_args *a, struct synth_map *m, double radius_1, double radius_2,
+            double direction)
+{
+    const struct rc_shape row = row_shape(m);
+
+    for (size_t j = 0; j < m->rows; j++)
+        rc_synth_paraboloid(&row, apex(a, m, j), radius_1, radius_2, direction, m->h + j * row.nx);
 }
 
 /* A parabola across its axis, which is along y by default. */
 static enum rc_status
-make_cylinder(const struct synth_args *a, const struct rc_shape *shape, double *h, bool *periodic,
-              struct rc_err *err)
+make_cylinder(const struct synth_args *a, struct synth_map *m, struct rc_err *err)
 {
     (void)err;
-    (void)periodic;
-    rc_synth_paraboloid(shape, apex(a), INFINITY, a->radius.v[0],
-                        isnan(a->direction) ? 90 : a->direction, h);
+    paraboloids(a, m, INFINITY, a->radius.v[0], isnan(a->direction) ? 90 : a->direction);
     return RC_OK;
 }
 
 /* A sphere has one radius. */
 static enum rc_status
-make_paraboloid(const struct synth_args *a, const struct rc_shape *shape, double *h, bool *periodic,
-                struct rc_err *err)
+make_paraboloid(const struct synth_args *a, struct synth_map *m, struct rc_err *err)
 {
     (void)err;
-    (void)periodic;
-    rc_synth_paraboloid(shape, apex(a), a->radius.v[0], a->radius.v[a->radius.n - 1],
-                        or_default(a->direction), h);
+    paraboloids(a, m, a->radius.v[0], a->radius.v[a->radius.n - 1], or_default(a->direction));
     return RC_OK;
 }
 
 static enum rc_status
-make_cone(const struct synth_args *a, const struct rc_shape *shape, double *h, bool *periodic,
-          struct rc_err *err)
+make_cone(const struct synth_args *a, struct synth_map *m, struct rc_err *err)
 {
+    const struct rc_shape row = row_shape(m);
+
     (void)err;
-    (void)periodic;
-    rc_synth_cone(shape, apex(a), a->slope, h);
+    for (size_t j = 0; j < m->rows; j++)
+        rc_synth_cone(&row, apex(a, m, j), a->slope, m->h + j * row.nx);
     return RC_OK;
 }
 
 static enum rc_status
-make_punch(const struct synth_args *a, const struct rc_shape *shape, double *h, bool *periodic,
-           struct rc_err *err)
+make_punch(const struct synth_args *a, struct synth_map *m, struct rc_err *err)
 {
-    (void)periodic;
-    rc_synth_punch(shape, apex(a), a->radius.v[0], or_default(a->edge), a->height, h);
-    for (size_t k = 0; k < shape->nx * shape->ny; k++)
-        if (h[k] == 0)
-            return RC_OK;
+    const struct rc_shape row = row_shape(m);
+    double below = 0; /* nodes of the punch */
+
+    for (size_t j = 0; j < m->rows; j++)
+        rc_synth_punch(&row, apex(a, m, j), a->radius.v[0], or_default(a->edge), a->height,
+                       m->h + j * row.nx);
+    for (size_t k = 0; k < m->rows * row.nx; k++)
+        below += m->h[k] == 0;
+    if (ranks_sum(m->tool, below) > 0)
+        return RC_OK;
     return rc_err_set(err, "no node lies within the radius %g m of the punch: take a finer grid",
                       a->radius.v[0]);
 }
@@ -127,8 +155,7 @@ check_selfaffine(struct tool *t, const struct synth_args *a, const struct rc_sha
 }
 
 static enum rc_status
-make_selfaffine(const struct synth_args *a, const struct rc_shape *shape, double *h, bool *periodic,
-                struct rc_err *err)
+make_selfaffine(const struct synth_args *a, struct synth_map *m, struct rc_err *err)
 {
     const struct rc_selfaffine what = {
         .hurst = a->hurst,
@@ -142,10 +169,12 @@ make_selfaffine(const struct synth_args *a, const struct rc_shape *shape, double
         .direction = isnan(a->direction) ? 90 : a->direction,
         .skewness = or_default(a->skewness),
         .weibull = or_default(a->weibull),
+        .threads = m->tool->threads,
+        .ranks = ranks_of(m->tool),
     };
 
-    *periodic = true;
-    return rc_synth_selfaffine(shape, &what, h, err);
+    m->periodic = true;
+    return rc_synth_selfaffine(m->shape, &what, m->h, err);
 }
 
 /* ---- the table ---- */

@@ -19,15 +19,23 @@ struct synth_args {
     size_t seed;
 };
 
+/* The rows of the map on this process, and their heights. */
+struct synth_map {
+    struct tool *tool;
+    const struct rc_shape *shape; /* of the whole map */
+    size_t first, rows;
+    double *h;
+    bool periodic; /* the surface continues across the edges of the map */
+};
+
 struct synth_shape {
     const char *name;
     const char *needs[4], *takes[12]; /* options, ended by NULL                     */
     size_t radii;                     /* numbers of --radius; 0: none               */
     /* NULL, or ends the tool when options contradict each other or do not suit the grid. */
     void (*check)(struct tool *tool, const struct synth_args *args, const struct rc_shape *shape);
-    /* Sets *periodic if the surface continues across the edges of the map. */
-    enum rc_status (*make)(const struct synth_args *args, const struct rc_shape *shape, double *h,
-                           bool *periodic, struct rc_err *err);
+    enum rc_status (*make)(const struct synth_args *args, struct synth_map *map,
+                           struct rc_err *err);
 };
 
 /* The last row has no name. */
