@@ -106,6 +106,7 @@ struct run {
 /* How a step weighs the w from which it starts. */
 struct weights {
     double dt, last; /* s: the step, and the one before it; 0: it starts from a corner */
+    double jump;     /* part of the change of w that comes at the start of the step, at least */
     double c;        /* C of the step */
     double part;     /* of w' in the mean of w over the step */
     bool mean;       /* `old` belongs to the mean of w over the last step */
@@ -121,6 +122,8 @@ struct material {
     struct term *term;
     double quickest; /* s: shortest time in which a pressure relaxes or grows */
     double settle;   /* s: by then the fast terms have settled; 0: there are none */
+    /* s: mean delay of the fast terms under a held load, and at a held approach */
+    double delay[2];
     /* errors of fast and slow terms, relative to the largest load of the leg and of the history */
     double left_out[2];
 };
@@ -231,6 +234,8 @@ choose_terms(struct material *material, const struct rc_viscoelastic_problem *a)
     material->left_out[0] = of_fast / (1 + at_once);
     material->left_out[1] = of_slow / (1 + flow * a->longest);
     material->settle = at_once > 0 ? low : 0;
+    material->delay[0] = at_once > 0 ? lag / at_once : 0;
+    material->delay[1] = material->delay[0] / (1 + at_once);
     if (at_once > 0)
         material->term[material->terms++] = (struct term){.time = lag / at_once, .j = at_once};
     if (flow > 0)
@@ -292,11 +297,11 @@ weigh(struct material *material, struct weights *to)
 {
     const double old = weigh_linear(material, to->dt), longer = to->dt / to->last;
     const bool stiff = old > 1, corner = to->last == 0;
-    double q = 0;
+    double q = to->jump;
 
     to->mean = stiff && longer <= most_longer;
     if (stiff)
-        q = to->mean ? 1 / (1 + 2 * longer) : 1 - 1 / old;
+        q = to->mean ? 1 / (1 + 2 * longer) : fmax(q, 1 - 1 / old);
     to->part = corner ? 1 : (1 + q) / 2;
     to->c = 1;
     for (size_t k = 0; k < material->terms; k++) {
@@ -464,6 +469,20 @@ find_touch(struct viscoelastic *v, double *to, struct rc_err *err)
     return RC_OK;
 }
 
+/* All runs take the same step for the fast terms to settle, so their differences do not show its error. With
+ * w' after the step, the integral of w - w' over it is (w - w') d, where d is the delay of the fast terms. If
+ * w jumps by a part q of its change and is then linear, the integral is (1 - q)/2 (w - w') dt: q = 1 - 2d/dt.
+ * With the sums a of J and b of th J over the fast terms, d = b/a under a held load. At a held approach the
+ * pressure has the Laplace transform 1/(s (1 + a - s b + ...)), so that d = b/(a (1 + a)). */
+static double
+jump_of(const struct viscoelastic *v)
+{
+    const double dt = v->weights.dt;
+    const bool settles = v->weights.last == 0 && dt > 0 && dt == v->leg.settle;
+
+    return settles ? fmax(0, 1 - 2 * v->material.delay[by_approach(v)] / dt) : 0;
+}
+
 static enum rc_status
 start_step(struct viscoelastic *v, struct rc_err *err)
 {
@@ -476,6 +495,7 @@ start_step(struct viscoelastic *v, struct rc_err *err)
 
     v->weights.dt = dt;
     v->weights.last = run->last;
+    v->weights.jump = jump_of(v);
     weigh(&v->material, &v->weights);
     run->t = dt == v->leg.end - run->t ? v->leg.end : run->t + dt;
     if (v->weights.mean)
@@ -944,6 +964,7 @@ state(struct rc_model *m, struct rc_state *s)
         rc_state_map(s, v->n, v->maps.coarse[k]);
     if (!rc_state_reads(s))
         return;
+    v->weights.jump = jump_of(v);
     weigh(&v->material, &v->weights);
     if (rc_model_set_heights(m->inner, v->maps.posed, &err) != RC_OK)
         rc_state_refuse(s, "its heights are not finite");

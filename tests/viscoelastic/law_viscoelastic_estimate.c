@@ -458,6 +458,7 @@ known_causes(void **state)
         double most; /* error */
     } at[] = {
         {"fast terms settle after a jump", LOAD, 90350077, 29, 4, 5e-5},
+        {"the first step after a jump, which all runs share", APPROACH, 90371078, 40, 1, 1e-5},
         {"a contact ends, and another begins, within a step", APPROACH, 90350078, 148, 3, 1e-4},
         {"a step after a long one from a jump", FLUID, 90350079, 48, 4, 1e-3},
         {"a contact ends within a step", FLUID, 90350079, 144, 2, 1e-4},
