@@ -39,12 +39,12 @@ static const char *const name_of[] = {"one body",         "both bodies", "track"
 /* Runs in which an estimate was below the error: of the pressure, where a node came into contact in the last
  * step (0.9) or the few nodes in contact had just joined (0.985); of the largest pressure, where the error of
  * all steps was taken to decay as 1/s (0.85, 0.46, 0.59), or where the errors of neighbours nearly cancel
- * (0.18). */
+ * (0.18). Of both, where two runs that slide were alike by chance in three alignments (0.61, 0.71, 0.71). */
 static const struct {
     enum kind kind;
     uint64_t number;
-} hard[] = {{ONE_BODY, 24}, {MAPS, 1413},  {TRACK, 1420},
-            {TRACK, 1602},  {LINES, 1615}, {TRACK, 1528}};
+} hard[] = {{ONE_BODY, 24}, {MAPS, 1413},    {TRACK, 1420},   {TRACK, 1602},  {LINES, 1615},
+            {TRACK, 1528},  {SLIDING, 1835}, {SLIDING, 1863}, {SLIDING, 1869}};
 static const char *const estimate_of[] = {"wear", "pressure", "largest pressure"};
 static const double estar = 1e9, node = 1e-6;
 static int only = -1;
