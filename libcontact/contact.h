@@ -1444,8 +1444,11 @@ struct rc_stress_options {
      * NULL: none. The half-space below is infinitely thick and balances its force without
      * stress. */
     const double *residual;
-    /* Estimate the error that tol permits, see rc_stress_counts. */
+    /* Estimate the error by tol and by the errors of the loads, see rc_stress_counts. */
     bool estimate;
+    /* Sum of |error| over sum of |value| of p, and of the maps of traction together; NAN or 0: the
+     * estimate takes them as exact. */
+    double pressure_error, traction_error;
 };
 
 /* Work counters; tests use them to check that only requested fields are computed. An error, for each of enum
@@ -1463,7 +1466,9 @@ struct rc_stress_counts {
     size_t coarse_depths;           /* depths computed on a coarser grid */
     size_t strain_transforms;       /* transforms of maps of plastic strain to wave numbers */
     size_t strain_field_transforms; /* transforms of its stresses back to maps */
-    double error[RC_STRESSES];      /* estimated, by tol; NAN without `estimate` */
+    /* estimated, by tol and the errors of the loads; NAN without `estimate`, and for a section whose
+     * loads have errors */
+    double error[RC_STRESSES];
 };
 
 /* RC_FAIL, and *err says why, when rc_stress_new would refuse these options, except for short memory. */

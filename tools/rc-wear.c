@@ -650,6 +650,7 @@ set_keys(struct drive *d, struct rc_model *m, struct rc_grid *g)
     if (run->coat > 0)
         tool_set_number(&d->t, g, "coat_left", run->left);
     d->is.ended = d->status != RC_MORE && f->distance < d->point[d->at].at[RC_DISTANCE];
+    tool_set_error(&d->t, g, "pressure.error", f->pressure_error);
     tool_set_number(&d->t, g, "wear_1", run->law.k[0]);
     tool_set_number(&d->t, g, "wear_2", run->law.k[1]);
     if (run->energy != NULL)

@@ -108,6 +108,8 @@ static const struct rule keys[] = {
     {"taper", FROM(0), .unit = "m"},
     {"form.radius", NUMBER, .unit = "m"},
     {"height.error", FROM(0), .unit = "m"},
+    {"pressure.error", FROM(0)},
+    {"traction.error", FROM(0)},
     {"align.shift_x", NUMBER, .unit = "m"},
     {"align.shift_y", NUMBER, .unit = "m"},
     {"align.rotation", NUMBER, .unit = "rad"},

@@ -237,14 +237,64 @@ of_derived(int c, const double of[RC_COMPONENTS])
     return sqrt(square * (c == RC_MISES ? 1.5 : c == RC_TRESCA ? 2 : 1));
 }
 
-/* Adds the depth to the errors and to the sizes of the stresses. */
+/* Sums over the nodes: of |error| of each map of the loads. An error of the tractions may lie in either map. */
 static void
-add_errors(struct rc_stress *stress, double *const six_of[RC_COMPONENTS],
-           double *const s[RC_STRESSES])
+errors_of_loads(const struct rc_stress *stress, double sum[RC_LOADS])
+{
+    const struct rc_stress_task *t = &stress->task;
+    const double *x = t->sources > 1 ? t->source[1] : NULL, *y = t->sources > 2 ? t->source[2] : x;
+
+    for (size_t i = 0; i < stress->values; i++) {
+        sum[0] += fabs(t->source[0][i]);
+        if (x != NULL)
+            sum[1] += x == y ? fabs(x[i]) : hypot(x[i], y[i]);
+    }
+    rc_ranks_each_sum(t->options.ranks, RC_LOADS, sum);
+    sum[2] = sum[1];
+    for (size_t k = 0; k < RC_LOADS; k++) {
+        const double share = k == 0 ? t->options.pressure_error : t->options.traction_error;
+
+        sum[k] = share > 0 ? share * sum[k] : 0;
+    }
+}
+
+/* The sums of the errors at a depth that come from the errors of the loads. On a line of nodes they are
+ * unknown: the errors of the loads may be near the line. */
+static enum rc_status
+of_loads(const struct rc_stress *stress, double depth, double of[RC_STRESSES], struct rc_err *err)
+{
+    const struct rc_stress_task *t = &stress->task;
+    const bool line = t->options.section != 0;
+    double sum[RC_LOADS] = {0}, gain[RC_STRESSES];
+
+    memset(of, 0, RC_STRESSES * sizeof *of);
+    for (int c = 0; line && c < RC_STRESSES; c++)
+        of[c] = t->options.pressure_error > 0 || t->options.traction_error > 0 ? NAN : 0;
+    if (line)
+        return RC_OK;
+    errors_of_loads(stress, sum);
+    for (size_t k = 0; k < t->sources; k++) {
+        if (sum[k] == 0)
+            continue;
+        if (rc_stress_gain(t, k, depth, gain, err) != RC_OK)
+            return RC_FAIL;
+        for (int c = 0; c < RC_STRESSES; c++)
+            of[c] += sum[k] * gain[c];
+    }
+    return RC_OK;
+}
+
+/* Adds the depth to the errors and to the sizes of the stresses. */
+static enum rc_status
+add_errors(struct rc_stress *stress, double depth, double *const six_of[RC_COMPONENTS],
+           double *const s[RC_STRESSES], struct rc_err *err)
 {
     const struct rc_stress_options *o = &stress->task.options;
-    double squares[RC_COMPONENTS] = {0}, size[RC_STRESSES] = {0}, anywhere;
+    double squares[RC_COMPONENTS] = {0}, size[RC_STRESSES] = {0}, loads[RC_STRESSES], anywhere;
+    enum rc_status status = of_loads(stress, depth, loads, err);
 
+    if (rc_ranks_agree(o->ranks, status, err) != RC_OK)
+        return RC_FAIL;
     for (int c = 0; c < RC_COMPONENTS; c++)
         for (size_t k = 0; six_of[c] != NULL && k < stress->values; k++)
             squares[c] += six_of[c][k] * six_of[c][k];
@@ -260,10 +310,12 @@ add_errors(struct rc_stress *stress, double *const six_of[RC_COMPONENTS],
     for (int c = 0; c < RC_STRESSES; c++) {
         if (!(o->wanted >> c & 1))
             continue;
-        stress->errors[c] += c < RC_COMPONENTS ? stress->error[c] : of_derived(c, stress->error);
+        stress->errors[c] +=
+            loads[c] + (c < RC_COMPONENTS ? stress->error[c] : of_derived(c, stress->error));
         stress->sizes[c] += size[c];
         stress->counts.error[c] = stress->sizes[c] > 0 ? stress->errors[c] / stress->sizes[c] : NAN;
     }
+    return RC_OK;
 }
 
 /* ---- plan ---- */
@@ -375,9 +427,7 @@ rc_stress_slice(struct rc_stress *stress, double depth, double *const s[RC_STRES
     stress->counts.depths++;
     if (stress->task.options.wanted >> RC_COMPONENTS != 0)
         derive(stress, (const double *const *)six_of, s);
-    if (stress->task.options.estimate)
-        add_errors(stress, six_of, s);
-    return RC_OK;
+    return stress->task.options.estimate ? add_errors(stress, depth, six_of, s, err) : RC_OK;
 }
 
 enum rc_status

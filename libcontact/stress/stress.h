@@ -65,6 +65,14 @@ size_t rc_stress_numbers(const struct rc_stress_task *task);
 struct rc_inside *rc_stress_inside(const struct rc_stress_task *task, double depth,
                                    struct rc_err *err);
 
+/* ---- load_error.c: errors of the loads ---- */
+
+/* For each wanted component the sum of |stress| over the nodes at this depth under a unit load of this source
+ * on one cell, for the cell of the largest sum: times the sum of |error| of the source it bounds the sum of the
+ * changes. RC_FAIL when memory is short or the body is rigid there. */
+enum rc_status rc_stress_gain(const struct rc_stress_task *task, size_t source, double depth,
+                              double gain[RC_STRESSES], struct rc_err *err);
+
 /* ---- strained.c: the stress due to plastic strain ---- */
 
 struct rc_strained;

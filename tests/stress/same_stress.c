@@ -296,6 +296,97 @@ estimates_hold(void **state)
     assert_true(coarse > 25 && 3 * ample < 2 * tried);
 }
 
+/* The share of the told change that the whole error of the loads makes on one cell. */
+static void
+one_cell_within(const struct scene *s, struct rc_stress_options o, double z, size_t at, double told,
+                double least[RC_STRESSES])
+{
+    const size_t n = s->shape.nx * s->shape.ny;
+    struct rc_stress_counts counts;
+    double *before[RC_STRESSES], *after[RC_STRESSES], *map, kept, sum = 0;
+    struct scene other = *s;
+
+    o.estimate = true;
+    if (o.traction[1] != NULL) {
+        o.traction_error = told;
+        map = (double *)(uintptr_t)o.traction[1];
+        for (size_t k = 0; k < n; k++)
+            sum += hypot(o.traction[0] == NULL ? 0 : o.traction[0][k], map[k]);
+    } else {
+        o.pressure_error = told;
+        map = other.p;
+        for (size_t k = 0; k < n; k++)
+            sum += fabs(map[k]);
+    }
+    compute(s, o, z, before, &counts);
+    o.estimate = false;
+    kept = map[at];
+    map[at] += told * sum;
+    compute(&other, o, z, after, NULL);
+    map[at] = kept;
+    for (int c = 0; c < RC_STRESSES; c++) {
+        double change = 0, size = 0;
+        for (size_t k = 0; k < n; k++) {
+            change += fabs(after[c][k] - before[c][k]);
+            size += fabs(before[c][k]);
+        }
+        if (change > 1e-9 * told * size && counts.error[c] < change / size) {
+            print_error("%s at %g m, cell %zu: told %g, true %g\n", rc_component_names[c], z, at,
+                        counts.error[c], change / size);
+            fail();
+        }
+        if (change > 1e-9 * told * size)
+            least[c] = fmin(least[c], counts.error[c] * size / change);
+    }
+    release(before);
+    release(after);
+}
+
+/* An error of the loads changes no stress by more than the estimate, whichever cell has the error; and some
+ * cell changes the six components by most of it. All boundaries, one material and a coat, pressure, friction
+ * and maps of traction. In a section the error is unknown. */
+static void
+errors_of_loads_hold(void **state)
+{
+    const struct rc_layer coat = {.thickness = 3e-6, .e = 6e11, .nu = 0.2};
+    double least[RC_STRESSES], mean = 0;
+
+    (void)state;
+    for (int c = 0; c < RC_STRESSES; c++)
+        least[c] = INFINITY;
+    for (int kind = 0; kind < 12; kind++) {
+        struct scene s = scene_new(kind == 7 ? 100 : 44, kind % 6 == 5 ? 1 : 37, 1e-6,
+                                   kind % 5 == 4 ? 2e-6 : 1e-6);
+        const size_t n = s.shape.nx * s.shape.ny;
+        struct rc_stress_options o = {.boundary = {.x = kind & 1, .y = kind & 2 || s.shape.ny == 1},
+                                      .body = {.nu = 0.1 * (kind % 6)},
+                                      .mu = kind % 3 == 1 ? 0.4 : 0,
+                                      .wanted = ALL,
+                                      .threads = 1};
+        double *map = malloc(n * sizeof *map);
+
+        if (kind % 4 == 3)
+            o.body = (struct rc_body){.e = 2e11, .nu = 0.3, .layer = &coat, .layers = 1};
+        for (size_t k = 0; k < n; k++)
+            map[k] = 0.3 * s.p[n - 1 - k];
+        if (kind % 3 == 2) {
+            o.traction[0] = s.p;
+            o.traction[1] = map;
+        }
+        for (double z = kind % 2 == 0 ? 0 : 0.3e-6; z < 30e-6; z = 8 * z + 1.3e-6) {
+            one_cell_within(&s, o, z, s.shape.ny / 2 * s.shape.nx + s.shape.nx / 2, 0.05, least);
+            one_cell_within(&s, o, z, 3, 1e-3, least);
+            one_cell_within(&s, o, z, n - 1, 1, least);
+        }
+        free(map);
+        free(s.p);
+    }
+    for (int c = 0; c < RC_STRESSES; c++)
+        mean += least[c] / RC_STRESSES;
+    print_message("least estimates over the changes: %.2f on average\n", mean);
+    assert_true(mean < 1.2);
+}
+
 /* Without a tolerance deep slices are summed on coarser grids too, to rounding: sections, which have no
  * coarser grid, agree. */
 static void
@@ -657,19 +748,13 @@ int
 main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(engines_agree),
-        cmocka_unit_test(transforms_by_any_name),
-        cmocka_unit_test(engines_refused),
-        cmocka_unit_test(within_tolerance),
-        cmocka_unit_test(estimates_hold),
-        cmocka_unit_test(deep_slices_are_exact),
-        cmocka_unit_test(sections_are_lines_of_slices),
-        cmocka_unit_test(sections_between_rows),
-        cmocka_unit_test(sections_between_waves),
-        cmocka_unit_test(threads_change_no_bit),
-        cmocka_unit_test(alone_as_in_company),
-        cmocka_unit_test(extremes_as_one_by_one),
-        cmocka_unit_test(nothing_is_done_unasked),
+        cmocka_unit_test(engines_agree),          cmocka_unit_test(transforms_by_any_name),
+        cmocka_unit_test(engines_refused),        cmocka_unit_test(within_tolerance),
+        cmocka_unit_test(estimates_hold),         cmocka_unit_test(errors_of_loads_hold),
+        cmocka_unit_test(deep_slices_are_exact),  cmocka_unit_test(sections_are_lines_of_slices),
+        cmocka_unit_test(sections_between_rows),  cmocka_unit_test(sections_between_waves),
+        cmocka_unit_test(threads_change_no_bit),  cmocka_unit_test(alone_as_in_company),
+        cmocka_unit_test(extremes_as_one_by_one), cmocka_unit_test(nothing_is_done_unasked),
     };
 
     return cmocka_run_group_tests(tests, NULL, NULL);

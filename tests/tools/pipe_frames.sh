@@ -177,7 +177,7 @@ approach=1e-6 hardness=1e6 yield=1e8 hardening=1e9 depth=1e-6 depths=0,1e-6 thic
 tangential_x=1 tangential_y=1 displacement_x=1e-6 displacement_y=1e-6 creep_x=1e-3 creep_y=1e-3 spin=1 position=1e-6 height=1e-6
 window_x=1e-6 time=1 speed=1 distance=1 cycles=10 wear_1=1e-15 wear_2=1e-15 coat_left=1e-7 bending_limit=1e9 torsion_limit=1e9 max_temperature=10
 flow_conductance=1 flow_rate=1 pressure_drop=1 viscosity=1 throat_x=1e-6 throat_y=1e-6 filled=3 outliers=3 spikes=3 taper=1e-6 form.radius=1
-height.error=1e-9 datum=1e-3 align.shift_x=1e-6 align.shift_y=1e-6 align.rotation=1e-3 align.residual=1e-9 align.volume=1e-15
+height.error=1e-9 pressure.error=1e-3 traction.error=1e-3 datum=1e-3 align.shift_x=1e-6 align.shift_y=1e-6 align.rotation=1e-3 align.residual=1e-9 align.volume=1e-15
 align.volume_error=1e-17'
 in_messages='source history case converged separated' # they name the frame, or cause a warning
 claim "each key of the table has a value here" bash -c 'comm -23 rules.txt <(printf "%s\n" $0 | sed "s/=.*//" | sort) >&2

@@ -323,6 +323,15 @@ tool_set_number(struct tool *t, struct rc_grid *g, const char *name, double valu
 }
 
 void
+tool_set_error(struct tool *t, struct rc_grid *g, const char *name, double value)
+{
+    char text[RC_NUMBER_SIZE];
+
+    snprintf(text, sizeof text, "%.2e", 1.005 * value); /* half a unit of the last digit more */
+    tool_set(t, g, name, isfinite(value) ? text : NULL);
+}
+
+void
 tool_set_numbers(struct tool *t, struct rc_grid *g, const char *name, const double *v, size_t n)
 {
     size_t size = n * RC_NUMBER_SIZE + 1, at = 0;

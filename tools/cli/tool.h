@@ -389,6 +389,8 @@ bool map_says(const struct rc_grid *g, const char *key, const char *value);
 /* These set a key of a frame. NULL, or a number that is not finite, removes it. */
 void tool_set(struct tool *tool, struct rc_grid *grid, const char *name, const char *value);
 void tool_set_number(struct tool *tool, struct rc_grid *grid, const char *name, double value);
+/* An estimated error, rounded up to three digits. */
+void tool_set_error(struct tool *tool, struct rc_grid *grid, const char *name, double value);
 void tool_set_numbers(struct tool *tool, struct rc_grid *grid, const char *name, const double *v,
                       size_t n);
 /* True if the last step of this tool in the history of a frame has this text, as in "--tilt free". */

@@ -170,6 +170,10 @@ forget_period(struct tool *t, struct rc_grid *g, struct rc_boundary cut)
     const struct rc_boundary own = own_boundary(g);
     const char *along = map_end_period(t, g, cut);
 
+    if (cut.x || cut.y) { /* the part may hold most of the error */
+        tool_set(t, g, "pressure.error", NULL);
+        tool_set(t, g, "traction.error", NULL);
+    }
     if ((own.x && cut.x) || (own.y && cut.y)) {
         tool_set(t, g, "boundary", NULL);
         tool_set(t, g, "datum", NULL);

@@ -125,8 +125,10 @@ set_keys(struct drive *d, const struct rc_model *m, struct rc_grid *g)
     const struct rc_friction_increment *f = &s->figures.last;
     bool apart = f->stick_nodes + f->slip_nodes == 0;
 
-    (void)m;
+    if (run->solves)
+        tool_set_error(&d->t, g, "pressure.error", rc_model_number(m, "pressure_error_estimate"));
     slip_set_keys(run, g, s->converged, f->load, s->figures.approach);
+    tool_set_error(&d->t, g, "traction.error", s->traction_error);
     tool_set_number(&d->t, g, "tangential_x", f->force[0]);
     tool_set_number(&d->t, g, "tangential_y", f->force[1]);
     tool_set_number(&d->t, g, "displacement_x", apart ? NAN : f->displacement[0]);

@@ -144,6 +144,7 @@ set_keys(struct drive *d, const struct rc_model *m, struct rc_grid *g)
 
     (void)rc_grid_number(g, "approach", &approach);
     slip_set_keys(run, g, d->status == RC_OK, f->load, approach);
+    tool_set_error(&d->t, g, "traction.error", rc_model_number(m, "traction_error_estimate"));
     tool_set_number(&d->t, g, "creep_x", f->creep[0]);
     tool_set_number(&d->t, g, "creep_y", f->creep[1]);
     tool_set_number(&d->t, g, "spin", f->spin);

@@ -48,6 +48,7 @@ set_keys(struct drive *d, const struct rc_model *m, struct rc_grid *g)
     (void)m;
     map_set_boundary(&d->t, g, run->physics->boundary);
     tool_set(&d->t, g, "converged", c->converged ? "yes" : "no");
+    tool_set_error(&d->t, g, "pressure.error", c->pressure_error);
     bodies_set(&d->t, g, &run->physics->pair, run->physics->residual);
     tool_sign(&d->t, g);
     if (d->points > 1)

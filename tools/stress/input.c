@@ -125,6 +125,7 @@ set_traction(struct tool *t, const struct stress_asked *asked, const struct rc_g
         tool_demand_grid_of(t, g, p);
         tool_demand_finite(t, g, "recompute the map");
         o->traction[k] = g->v;
+        (void)rc_grid_number(g, "traction.error", &o->traction_error);
     }
     if (!asked->residual && (asked->mu != 0 || o->traction[0] != NULL || o->traction[1] != NULL))
         warn_of_yield(t, p, asked->mu);
@@ -143,6 +144,8 @@ stress_input_read(struct tool *t, const struct rc_grid *p, const struct stress_a
     o->tol = isnan(asked->tol) ? 0 : asked->tol;
     o->threads = t->threads;
     o->ranks = ranks_of(t);
+    o->pressure_error = o->traction_error = NAN;
+    (void)rc_grid_number(p, "pressure.error", &o->pressure_error);
     o->strain = NULL;
     set_traction(t, asked, p, in, o);
     if (rc_repeats(o->boundary) > 0 && stress_on_free_maps_only(asked->kernel))

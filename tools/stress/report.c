@@ -302,6 +302,8 @@ stress_report_write(struct stress_report *r, struct report *out, const struct rc
     report_memory(out);
     report_ranks(out, out->tool);
     write_figures(out, stress, RC_FIGURE_ERROR);
+    report_number(out, "pressure_error_estimate", o->pressure_error, NULL);
+    report_number(out, "traction_error_estimate", o->traction_error, NULL);
     if (out->separator)
         write_columns(r, out);
     report_finish_row(out);
