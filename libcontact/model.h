@@ -102,7 +102,7 @@ struct rc_figure {
     enum rc_figure_role role;
     /* of an error: the member of the problem that lowers it, or "grid" for the spacing */
     const char *by;
-    /* of an error: the figure or frame that it belongs to */
+    /* of an error: the figure or frame that it belongs to; of a quotient: the figure that it is divided by */
     const char *of;
     /* a warning is printed above it, or below it if `least` is set; 0: no limit */
     double limit;

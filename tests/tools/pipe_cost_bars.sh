@@ -83,18 +83,26 @@ rc-synth selfaffine --nx 512 --dx 0.25um --hurst 0.8 --rms-slope 0.1 --rolloff 2
 rc-solve $contact --quiet --report fine.json fine.rcg | rc-leak --quiet --report leak.json >/dev/null
 study rough a.rcg "--noise 10nm --resolution" rc-solve $contact '|' rc-leak
 for figure in contact_area mean_gap max_pressure elastic_energy; do holds rough $figure "$(field $figure fine.json)"; done
-for figure in flow_conductance critical_gap; do holds rough $figure "$(field $figure leak.json)"; done
+for figure in flow_conductance critical_gap shear_flow_factor; do holds rough $figure "$(field $figure leak.json)"; done
 claim "  with --resolution the grid is in the bars" bash -c '! grep -q "not in these bars" rough.txt'
-claim "  the bar joins noise and grid in squares, the grid with 0.85 of the larger of the change and half the one before" perl -MJSON::PP -e '
+claim "  the bar joins noise and grid in squares, the grid with 0.85 of the larger of the change and half the one before, above and below a quotient" perl -MJSON::PP -e '
     open my $f, "<", "rough.json" or die;
-    while (<$f>) {
-        my $r = decode_json($_);
-        next if $r->{what} ne "figure" || !$r->{bar};
-        my ($a, $b) = (abs $r->{value} - $r->{half_grid}, abs($r->{half_grid} - $r->{quarter_grid}) / 2);
-        my $grid = 0.85 * ($a > $b ? $a : $b);
+    $of{$_->{name}} = $_ for grep { $_->{what} eq "figure" } map { decode_json($_) } <$f>;
+    sub part { # of the values on the map and on the two coarser grids
+        my ($a, $b) = (abs $_[0] - $_[1], abs($_[1] - $_[2]) / 2);
+        0.85 * ($a > $b ? $a : $b);
+    }
+    sub values_of { map { $of{$_[0]}{$_} } qw(value half_grid quarter_grid) }
+    sub quotient { # (name, the figure below)
+        my ($q, $below) = ([values_of($_[0])], [values_of($_[1])]);
+        sqrt(part(map { $q->[$_] * $below->[$_] } 0 .. 2) ** 2 + ($q->[0] * part(@$below)) ** 2) / $below->[0];
+    }
+    for my $r (grep { $_->{bar} } values %of) {
+        my $grid = $r->{name} eq "shear_flow_factor" ? quotient($r->{name}, "gap_rms") : part(values_of($r->{name}));
         die "$r->{name}\n" if abs($grid - $r->{grid}) > 1e-9 * $grid || abs(sqrt($r->{noise} ** 2 + $grid ** 2) - $r->{bar}) > 1e-9 * $r->{bar};
         $n++;
     }
+    die "no shear flow factor\n" if !$of{shear_flow_factor}{bar};
     exit($n < 8)'
 claim "  the source with the largest part is named" bash -c 'grep -Eq "^max_pressure .* noise *$" rough.txt && grep -Eq "^contact_area .* grid *$" rough.txt'
 claim "  figures that the command gives are none of the map" grep -q '^# no change:.* load, mean_pressure' rough.txt

@@ -151,16 +151,41 @@ noise_part(struct scan_bar *b, const double v[], size_t n)
     return student(n - 1) * b->scatter + fabs(b->bias);
 }
 
+/* Of figure f1 of the map and f2, f4 of the coarser grids. */
+static double
+change_with_grid(double f1, const double coarse[2])
+{
+    return grid_factor * fmax(fabs(f1 - coarse[0]), fabs(coarse[0] - coarse[1]) / 2);
+}
+
+/* Changes of the numerator and of the denominator of a quotient nearly cancel in its last change, but not in
+ * its error: each of them counts alone. */
+static double
+quotient_change(const struct scan *s, const struct scan_bar *b)
+{
+    struct cost_figure figure = {.program = b->figure->program};
+    struct scan_bar divisor = {.figure = &figure, .line = b->line};
+    double v[COST_TRIALS], above, below, products[2];
+    size_t of;
+
+    snprintf(figure.name, sizeof figure.name, "%s", b->figure->of);
+    divisor.value = value_of(s, s->c->reference, &divisor);
+    if (values_of(s, SCAN_GRID, &divisor, v, &of) < 2)
+        return NAN;
+    for (size_t k = 0; k < 2; k++)
+        products[k] = b->coarse[k] * v[k];
+    above = change_with_grid(b->value * divisor.value, products);
+    below = b->value * change_with_grid(divisor.value, v);
+    return hypot(above, below) / fabs(divisor.value);
+}
+
 static double
 grid_part(struct scan *s, struct scan_bar *b, const double v[], size_t n)
 {
-    const double first = n < 2 ? NAN : fabs(b->value - v[0]),
-                 second = n < 2 ? NAN : fabs(v[0] - v[1]);
-
     b->coarse[0] = n < 2 ? NAN : v[0];
     b->coarse[1] = n < 2 ? NAN : v[1];
-    b->unlimited = s->unlimited && !(first <= rounding * fabs(b->value));
-    return grid_factor * fmax(first, second / 2);
+    b->unlimited = s->unlimited && !(fabs(b->value - b->coarse[0]) <= rounding * fabs(b->value));
+    return *b->figure->of != '\0' ? quotient_change(s, b) : change_with_grid(b->value, b->coarse);
 }
 
 static double
