@@ -1446,8 +1446,8 @@ struct rc_stress_options {
     const double *residual;
     /* Estimate the error by tol and by the errors of the loads, see rc_stress_counts. */
     bool estimate;
-    /* Sum of |error| over sum of |value| of p, and of the maps of traction together; NAN or 0: the
-     * estimate takes them as exact. */
+    /* Sum of |error| over sum of |value| of p, and of the maps of traction together. NAN: unknown, as are
+     * then the estimates. */
     double pressure_error, traction_error;
 };
 
@@ -1466,8 +1466,8 @@ struct rc_stress_counts {
     size_t coarse_depths;           /* depths computed on a coarser grid */
     size_t strain_transforms;       /* transforms of maps of plastic strain to wave numbers */
     size_t strain_field_transforms; /* transforms of its stresses back to maps */
-    /* estimated, by tol and the errors of the loads; NAN without `estimate`, and for a section whose
-     * loads have errors */
+    /* estimated, by tol and the errors of the loads; NAN without `estimate`, if an error of the loads
+     * is unknown, and for a section whose loads have errors */
     double error[RC_STRESSES];
 };
 

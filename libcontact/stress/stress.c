@@ -254,23 +254,22 @@ errors_of_loads(const struct rc_stress *stress, double sum[RC_LOADS])
     for (size_t k = 0; k < RC_LOADS; k++) {
         const double share = k == 0 ? t->options.pressure_error : t->options.traction_error;
 
-        sum[k] = share > 0 ? share * sum[k] : 0;
+        sum[k] = share == 0 ? 0 : share * sum[k];
     }
 }
 
-/* The sums of the errors at a depth that come from the errors of the loads. On a line of nodes they are
- * unknown: the errors of the loads may be near the line. */
+/* The sums of the errors at a depth that come from the errors of the loads; NAN: unknown. On a line of nodes
+ * they are unknown, because the errors of the loads may be near the line. */
 static enum rc_status
 of_loads(const struct rc_stress *stress, double depth, double of[RC_STRESSES], struct rc_err *err)
 {
     const struct rc_stress_task *t = &stress->task;
-    const bool line = t->options.section != 0;
+    const double told = t->options.pressure_error + t->options.traction_error; /* or NAN */
     double sum[RC_LOADS] = {0}, gain[RC_STRESSES];
 
-    memset(of, 0, RC_STRESSES * sizeof *of);
-    for (int c = 0; line && c < RC_STRESSES; c++)
-        of[c] = t->options.pressure_error > 0 || t->options.traction_error > 0 ? NAN : 0;
-    if (line)
+    for (int c = 0; c < RC_STRESSES; c++)
+        of[c] = told == 0 || (told > 0 && t->options.section == 0) ? 0 : NAN;
+    if (told == 0 || isnan(of[0]))
         return RC_OK;
     errors_of_loads(stress, sum);
     for (size_t k = 0; k < t->sources; k++) {

@@ -344,7 +344,7 @@ one_cell_within(const struct scene *s, struct rc_stress_options o, double z, siz
 
 /* An error of the loads changes no stress by more than the estimate, whichever cell has the error; and some
  * cell changes the six components by most of it. All boundaries, one material and a coat, pressure, friction
- * and maps of traction. In a section the error is unknown. */
+ * and maps of traction. */
 static void
 errors_of_loads_hold(void **state)
 {
@@ -385,6 +385,32 @@ errors_of_loads_hold(void **state)
         mean += least[c] / RC_STRESSES;
     print_message("least estimates over the changes: %.2f on average\n", mean);
     assert_true(mean < 1.2);
+}
+
+/* Unknown errors of the loads, and errors of the loads of a section. */
+static void
+unknown_errors_stay_unknown(void **state)
+{
+    struct scene s = scene_new(20, 16, 1e-6, 1e-6);
+    const struct rc_stress_options all = {
+        .body = {.nu = 0.3}, .wanted = ALL, .threads = 1, .estimate = true};
+
+    (void)state;
+    for (int kind = 0; kind < 4; kind++) {
+        struct rc_stress_options o = all;
+        struct rc_stress_counts counts;
+        double *out[RC_STRESSES];
+
+        o.pressure_error = kind == 0 ? NAN : kind == 2 ? 0.1 : 0;
+        o.traction_error = kind == 1 ? NAN : 0;
+        if (kind >= 2)
+            o.section = 'x';
+        compute(&s, o, 2e-6, out, &counts);
+        for (int c = 0; c < RC_STRESSES; c++)
+            assert_int_equal(isnan(counts.error[c]), kind < 3);
+        release(out);
+    }
+    free(s.p);
 }
 
 /* Without a tolerance deep slices are summed on coarser grids too, to rounding: sections, which have no
@@ -748,13 +774,21 @@ int
 main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(engines_agree),          cmocka_unit_test(transforms_by_any_name),
-        cmocka_unit_test(engines_refused),        cmocka_unit_test(within_tolerance),
-        cmocka_unit_test(estimates_hold),         cmocka_unit_test(errors_of_loads_hold),
-        cmocka_unit_test(deep_slices_are_exact),  cmocka_unit_test(sections_are_lines_of_slices),
-        cmocka_unit_test(sections_between_rows),  cmocka_unit_test(sections_between_waves),
-        cmocka_unit_test(threads_change_no_bit),  cmocka_unit_test(alone_as_in_company),
-        cmocka_unit_test(extremes_as_one_by_one), cmocka_unit_test(nothing_is_done_unasked),
+        cmocka_unit_test(engines_agree),
+        cmocka_unit_test(transforms_by_any_name),
+        cmocka_unit_test(engines_refused),
+        cmocka_unit_test(within_tolerance),
+        cmocka_unit_test(estimates_hold),
+        cmocka_unit_test(errors_of_loads_hold),
+        cmocka_unit_test(unknown_errors_stay_unknown),
+        cmocka_unit_test(deep_slices_are_exact),
+        cmocka_unit_test(sections_are_lines_of_slices),
+        cmocka_unit_test(sections_between_rows),
+        cmocka_unit_test(sections_between_waves),
+        cmocka_unit_test(threads_change_no_bit),
+        cmocka_unit_test(alone_as_in_company),
+        cmocka_unit_test(extremes_as_one_by_one),
+        cmocka_unit_test(nothing_is_done_unasked),
     };
 
     return cmocka_run_group_tests(tests, NULL, NULL);

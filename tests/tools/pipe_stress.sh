@@ -173,6 +173,43 @@ rc-stress --kernel mlms --tol 1e-4 --depths 100um --mu 0.25 --report m.json ball
 near "$(number mises value m.json)" "$(number mises value f.json)" 1e-3 "--kernel mlms agrees"
 claim "  it takes eleven sums" test "$(count engine_sums m.json)" = 11
 
+# ---- errors of the loads ----
+
+rc-synth selfaffine --nx 48 --dx 1um --hurst 0.8 --rms-slope 0.1 --rolloff 20um --short-cut 6um --seed 7 -o rough.rcg
+components=sxx,syy,szz,sxy,sxz,syz,mises,tresca,s1,s2,s3
+stressed() { rc-stress --quiet --depths "$2" --components $components --report "$1.json" "$1.rcg" -o "$1-s.rcg"; }
+for tol in 1e-8 1e-1; do
+    rc-solve --quiet --mean-pressure 20MPa --E1 2GPa --nu1 0.3 --E2 rigid --tol $tol rough.rcg -o p$tol.rcg
+    rc-slip --quiet --mu 0.3 --tangential 1mN $([ $tol = 1e-1 ] || echo --increments 32) --tol ${tol/8/5} p1e-8.rcg | rc-pick --quiet --case 2 -o q$tol.rcg
+    stressed p$tol 2um
+    stressed q$tol 0 # where szz is the pressure, which the tractions of dissimilar bodies change
+done
+# told LOAD MOST: each component's sum of |difference| over sum of |stress| is at most the estimate, and this is at most MOST times as large
+told() {
+    local c
+    for c in ${components//,/ }; do
+        paste <(rc-pick --channel $c "$1"1e-1-s.rcg | rc-export --format csv | grep -v '^[#"]' | tr ',' '\n') \
+            <(rc-pick --channel $c "$1"1e-8-s.rcg | rc-export --format csv | grep -v '^[#"]' | tr ',' '\n') |
+            awk -v told="$(field ${c}_error_estimate "$1"1e-1.json)" -v c=$c -v most="$2" '{ d += sqrt(($1 - $2) ^ 2); s += sqrt($2 ^ 2) }
+                END { print c, told, d / s; exit !(NR == 2304 && d / s > 1e-5 && told >= d / s && told < most * d / s) }' || return
+    done
+}
+claim "the estimates of all components contain the error of the pressure" told p 50
+claim "  and of the tractions, whose increments have an estimate that is safe" told q 300
+tells() { [ "$(rc-stress --quiet --depths 2um --report - -o x.rcg "$3" | grep -o "\"$1\": [^,]*" | head -n 1 | cut -d ' ' -f 2)" = "$2" ]; }
+rc-pick --channel pressure p1e-1.rcg | rc-pick --set pressure.error= --set converged= -o imported.rcg
+claim "a pressure without a solver is taken as exact" tells pressure_error_estimate 0 imported.rcg
+claim "  one whose solver tells no error is not" bash -c "rc-pick --set pressure.error= p1e-1.rcg -o silent.rcg"
+for name in pressure mises; do
+    claim "  its ${name/mises/Mises stress} has an unknown error" tells ${name}_error_estimate null silent.rcg
+done
+rc-pick --quiet --crop 0,0,24,48 p1e-1.rcg -o part.rcg
+rc-pick --quiet --resample 24x24 p1e-1.rcg -o means.rcg
+rc-pick --mirror x p1e-1.rcg | rc-pick --rotate 90 -o turned.rcg
+claim "  as has a part of a map" tells mises_error_estimate null part.rcg
+claim "  and one on another grid" tells mises_error_estimate null means.rcg
+claim "a turned map keeps the error" tells pressure_error_estimate "$(field pressure_error_estimate p1e-1.json)" turned.rcg
+
 # ---- dry run ----
 
 claim "--dry-run prints the plan" bash -c \

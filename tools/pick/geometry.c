@@ -278,8 +278,10 @@ resample(struct tool *t, struct rc_grid *g, const struct request *r, struct rc_e
         map->v[k] = map->v[k] < 0.5 ? 0 : 1; /* 1 if most of the cell is in contact */
     replace(g, map);
     forget_period(t, g, cut);
-    if ((!same &&
-         remove_keys(g, (const char *const[]){"filled", "outliers", "spikes", NULL}, err) != RC_OK))
+    if (!same && remove_keys(g,
+                             (const char *const[]){"filled", "outliers", "spikes", "pressure.error",
+                                                   "traction.error", NULL},
+                             err) != RC_OK)
         return RC_FAIL;
     if (covers && to.nx <= from.nx && to.ny <= from.ny)
         return RC_OK;

@@ -117,6 +117,20 @@ slip_set_keys(struct slip_run *run, struct rc_grid *g, bool converged, double lo
     tool_set_number(t, g, "tau_max", run->args->tau_max);
 }
 
+/* The error of the pressure of a state that was solved. Under dissimilar bodies the tractions, of which |q| is at
+ * most mu p, change the pressure by about beta |q|, and so do their errors: in 12 random contacts by 0.35 to 0.78
+ * of this. */
+static double
+pressure_error(const struct slip_run *run, const struct rc_model *m)
+{
+    const struct slip_state *s = &run->state;
+    const struct rc_friction_increment *f = &s->figures.last;
+    const double own = rc_model_number(m, "pressure_error_estimate");
+
+    return run->alternates ? own + fabs(run->bodies.beta) * s->traction_error * f->limit / f->load
+                           : own;
+}
+
 static void
 set_keys(struct drive *d, const struct rc_model *m, struct rc_grid *g)
 {
@@ -125,8 +139,8 @@ set_keys(struct drive *d, const struct rc_model *m, struct rc_grid *g)
     const struct rc_friction_increment *f = &s->figures.last;
     bool apart = f->stick_nodes + f->slip_nodes == 0;
 
-    if (run->solves)
-        tool_set_error(&d->t, g, "pressure.error", rc_model_number(m, "pressure_error_estimate"));
+    if (run->alternates || (run->solves && s->corner->load != run->load))
+        tool_set_error(&d->t, g, "pressure.error", pressure_error(run, m));
     slip_set_keys(run, g, s->converged, f->load, s->figures.approach);
     tool_set_error(&d->t, g, "traction.error", s->traction_error);
     tool_set_number(&d->t, g, "tangential_x", f->force[0]);

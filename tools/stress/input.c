@@ -105,6 +105,18 @@ warn_of_yield(struct tool *t, const struct rc_grid *p, double mu)
               mu != 0 ? "--mu" : "the frames of traction");
 }
 
+/* A map without a solver is taken as exact. A solver that leaves out the key does not know its error, and the
+ * part of a map may hold most of it. */
+static double
+error_of(const struct rc_grid *g, const char *key)
+{
+    double error;
+
+    if (rc_grid_number(g, key, &error))
+        return error;
+    return rc_grid_get(g, "converged") == NULL ? 0 : NAN;
+}
+
 /* Frames of traction replace --mu. */
 static void
 set_traction(struct tool *t, const struct stress_asked *asked, const struct rc_grid *p,
@@ -125,7 +137,7 @@ set_traction(struct tool *t, const struct stress_asked *asked, const struct rc_g
         tool_demand_grid_of(t, g, p);
         tool_demand_finite(t, g, "recompute the map");
         o->traction[k] = g->v;
-        (void)rc_grid_number(g, "traction.error", &o->traction_error);
+        o->traction_error = error_of(g, "traction.error");
     }
     if (!asked->residual && (asked->mu != 0 || o->traction[0] != NULL || o->traction[1] != NULL))
         warn_of_yield(t, p, asked->mu);
@@ -144,8 +156,8 @@ stress_input_read(struct tool *t, const struct rc_grid *p, const struct stress_a
     o->tol = isnan(asked->tol) ? 0 : asked->tol;
     o->threads = t->threads;
     o->ranks = ranks_of(t);
-    o->pressure_error = o->traction_error = NAN;
-    (void)rc_grid_number(p, "pressure.error", &o->pressure_error);
+    o->pressure_error = error_of(p, "pressure.error");
+    o->traction_error = 0;
     o->strain = NULL;
     set_traction(t, asked, p, in, o);
     if (rc_repeats(o->boundary) > 0 && stress_on_free_maps_only(asked->kernel))
