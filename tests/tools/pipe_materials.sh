@@ -106,5 +106,13 @@ bad 'has more than [0-9]* bytes' "a long line" "name\n$(printf 'x%.0s' {1..5000}
 bad 'it is in no table' "an empty file" ''
 refuses 1 'missing.tsv: No such file' "no such file" "rc-solve --materials missing.tsv --load 1N --body1 x --body2 rigid ball.rcg"
 refuses 2 'stel: it is in no table; .* reads yours: did you mean steel?' "a mistyped name" "rc-solve --load 1N --body1 stel --body2 rigid ball.rcg"
+for name in rail-steel gear-steel 100Cr7 AISI-52109 rubber 6061-T5; do
+    claim "no other material is offered for $name" bash -c \
+        '! rc-solve --load 1N --body1 "$1" --body2 rigid ball.rcg 2>said.txt >ball.out; grep -q "$1: it is in no table; --materials prints" said.txt && ! grep -q "did you mean" said.txt' - "$name"
+done
+for pair in alumninium:aluminium stainles-steel:stainless-steel 100cr6s:100Cr6 tungsten-carbid:tungsten-carbide; do
+    refuses 2 "${pair%:*}: it is in no table; .*: did you mean ${pair#*:}?" "a misspelling of ${pair#*:}" \
+        "rc-solve --load 1N --body1 ${pair%:*} --body2 rigid ball.rcg"
+done
 refuses 2 "'steel' is not a number; a material by its name is --body1 or --body2, and --materials prints the names" "a name instead of a number" "rc-solve --load 1N --E1 steel ball.rcg"
 refuses 2 'or materials by name' "one body only" "rc-solve --load 1N --body1 steel ball.rcg"

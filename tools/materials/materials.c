@@ -109,7 +109,8 @@ nearest_in(const struct material *table, const char *name, char nearest[NAME_SIZ
 
     for (; table != NULL && table->names != NULL; table++)
         for (const char *names = table->names; next_name(&names, one);)
-            name_nearer(name, one, nearest);
+            if (name_misspelt(name, one))
+                name_nearer(name, one, nearest);
 }
 
 static const struct material *

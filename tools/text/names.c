@@ -131,6 +131,29 @@ distance(const char *typed, const char *name)
     return n > 2 && is_part(typed, n, name) ? most + 1 : SIZE_MAX;
 }
 
+/* The next digit of a name, or its end. */
+static const char *
+next_digit(const char *s)
+{
+    return s + strcspn(s, "0123456789");
+}
+
+bool
+name_misspelt(const char *typed, const char *name)
+{
+    const size_t letters_per_mistake = 5, n = strlen(typed), m = strlen(name);
+    const char *a = next_digit(typed), *b = next_digit(name);
+
+    if (n < 3 || n >= NAME_SIZE || m >= NAME_SIZE)
+        return false;
+    while (*a != '\0' && *a == *b) {
+        a = next_digit(a + 1);
+        b = next_digit(b + 1);
+    }
+    return *a == *b &&
+           mistakes(typed, n, name, m) <= (n < letters_per_mistake ? 1 : n / letters_per_mistake);
+}
+
 void
 name_nearer(const char *typed, const char *name, char nearest[NAME_SIZE])
 {
