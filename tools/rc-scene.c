@@ -663,6 +663,29 @@ missing_of(struct tool *t, const char *needs, const char *before, char text[MISS
     return text;
 }
 
+/* For an effect that lacks nothing but values of named materials: which body has none, and the option. */
+static void
+print_lacks(struct tool *t, const struct line *l, FILE *out)
+{
+    char missing[MISSING], name[MISSING];
+
+    (void)missing_of(t, l->effect.missing, "", missing);
+    for (const char *at = missing; *at != '\0'; at += strspn(at, " ")) {
+        const int length = (int)strcspn(at, " ");
+        snprintf(name, sizeof name, "%.*s", length, at);
+        at += length;
+        if (*materials_lack(name) == '\0')
+            return;
+    }
+    for (const char *at = missing; *at != '\0'; at += strspn(at, " ")) {
+        const int length = (int)strcspn(at, " ");
+        snprintf(name, sizeof name, "%.*s", length, at);
+        at += length;
+        fprintf(out, "  %s cannot be judged: %s: give --%s\n", l->effect.title,
+                materials_lack(name), name);
+    }
+}
+
 static void
 print_table(struct run *run, const struct rc_grid *g, const struct rc_contact *c,
             struct line *const line[], size_t n, const char *file)
@@ -703,6 +726,9 @@ print_table(struct run *run, const struct rc_grid *g, const struct rc_contact *c
         first = false;
     }
     fputs(first ? "" : "\n", out);
+    for (size_t k = 0; k < n; k++)
+        if (line[k]->verdict == RC_SCENE_MISSING)
+            print_lacks(&run->t, line[k], out);
 }
 
 static void

@@ -76,6 +76,26 @@ claim "  a material without a conductivity: the heat is missing, with its option
     'frictional heat \(--mu --speed --conductivity --diffusivity\)' rc-scene --quiet --load 0.5N --body1 cast-iron --body2 steel ball.rcg
 claim "  with data of friction only the conductivity and the diffusivity are" says 'frictional heat \(--conductivity --diffusivity\)' \
     rc-scene --quiet --load 0.5N --body1 cast-iron --body2 steel --mu 0.1 --speed 1m/s ball.rcg
+lack() { # lack "claim" "line" OPTIONS: the line is the whole line
+    rc-scene --quiet --load 0.5N ${@:3} ball.rcg >scene.txt
+    claim "$1" grep -qFx "  $2" scene.txt
+}
+lack "rc-scene: the body without a hardness, and the option" \
+    'hardness cannot be judged: the table has no hardness of steel, body 1; 100Cr6, body 2, has 848HV: give --hardness' --body1 steel --body2 100Cr6
+lack "  in the other order" \
+    'hardness cannot be judged: the table has no hardness of steel, body 2; 100Cr6, body 1, has 848HV: give --hardness' --body1 100Cr6 --body2 steel
+lack "  both bodies" 'hardness cannot be judged: the table has no hardness of steel, body 1, or of gold, body 2: give --hardness' \
+    --body1 steel --body2 gold
+lack "  and the yield stress" 'yield in the volume cannot be judged: the table has no yield stress of 100Cr6, body 1: give --yield' \
+    --body1 100Cr6 --body2 304
+lack "  and the heat, where nothing else is missing" \
+    'frictional heat cannot be judged: the table has no diffusivity of cast-iron, body 1; steel, body 2, has 17.7mm2/s: give --diffusivity' \
+    --body1 cast-iron --body2 steel --mu 0.1 --speed 1m/s
+rc-scene --quiet --load 0.5N --body1 304 --body2 rigid --report rigid.json ball.rcg >rigid.txt
+claim "  a rigid body limits no pressure: the hardness is that of the other" bash -c \
+    'grep -q "hardness 129HV (304)" rigid.json && ! grep "cannot be judged" rigid.txt && grep -q "^  hardness  " rigid.txt'
+rc-scene --quiet --load 0.5N --body1 steel --body2 100Cr6 --hardness 2GPa --yield 1GPa ball.rcg >given.txt
+claim "  a value of the line is enough" bash -c '! grep "cannot be judged" given.txt'
 
 # ---- a table of the user ----
 

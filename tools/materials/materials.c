@@ -10,14 +10,16 @@
 enum {
     BODIES = 2,
     LINE = 4096, /* most bytes of a line of a table */
-    NAME = 28    /* columns of a name in the printed table */
+    NAME = 28,   /* columns of a name in the printed table */
+    LACKS = 256  /* bytes of a sentence about a value that no table has */
 };
 
 static struct {
     const char *body[BODIES], *table;
-    char *both[MATERIAL_PROPERTIES]; /* values of two bodies, for options that take both */
-    char *told;                      /* the text of the report */
-    struct material *own;            /* rows of --materials FILE, as material_table; NULL: none */
+    char *both[MATERIAL_PROPERTIES];        /* values of two bodies, for options that take both */
+    char *told;                             /* the text of the report */
+    char lacks[MATERIAL_PROPERTIES][LACKS]; /* the materials without a value that an option needs */
+    struct material *own; /* rows of --materials FILE, as material_table; NULL: none */
 } asked;
 
 /* clang-format off */
@@ -379,6 +381,45 @@ of_both(struct tool *t, enum material_property p, const char *one, const char *t
     return asked.both[p];
 }
 
+static bool
+is_rigid(const struct material *m)
+{
+    const char *e = value_of(m, MATERIAL_E);
+
+    return e != NULL && strcmp(e, "rigid") == 0;
+}
+
+/* True if the line names the material of this body, and the table lacks the property. A rigid body does not
+ * yield. */
+static bool
+lacks(const struct material *m, enum material_property p)
+{
+    return m != NULL && value_of(m, p) == NULL &&
+           !(is_rigid(m) && (p == MATERIAL_HARDNESS || p == MATERIAL_YIELD));
+}
+
+/* Keeps "the table has no hardness of steel, body 1; 100Cr6 has 848HV". */
+static void
+keep_lack(const struct fill *f, const struct material *const m[BODIES])
+{
+    const enum material_property p = f->property;
+    const bool of[BODIES] = {f->of != SECOND && lacks(m[0], p), f->of != FIRST && lacks(m[1], p)};
+    const int without = of[0] ? 0 : 1, with = 1 - without;
+    char *text = asked.lacks[p];
+    size_t n;
+
+    if (!of[without])
+        return;
+    n = (size_t)snprintf(text, LACKS, "the table has no %s of %.64s, body %d",
+                         p == MATERIAL_YIELD ? "yield stress" : properties[p].name,
+                         asked.body[without], without + 1);
+    if (of[with])
+        snprintf(text + n, LACKS - n, ", or of %.64s, body %d", asked.body[with], with + 1);
+    else if (value_of(m[with], p) != NULL && n < LACKS && (f->of == SOFTER || f->of == BOTH))
+        snprintf(text + n, LACKS - n, "; %.64s, body %d, has %.64s", asked.body[with], with + 1,
+                 value_of(m[with], p));
+}
+
 static void
 fill(struct tool *t, const struct fill *f, const struct material *const m[BODIES])
 {
@@ -388,8 +429,7 @@ fill(struct tool *t, const struct fill *f, const struct material *const m[BODIES
                        : f->of == BOTH   ? of_both(t, f->property, one, two)
                                          : lower(one, two, properties[f->property].unit);
     /* the softer body may be the one without a value */
-    const bool unknown =
-        f->of == SOFTER && ((m[0] != NULL && one == NULL) || (m[1] != NULL && two == NULL));
+    const bool unknown = f->of == SOFTER && (lacks(m[0], f->property) || lacks(m[1], f->property));
 
     if (f->of == BOTH && text == NULL && m[0] != NULL && m[1] != NULL &&
         is_demanded(t, f->option) && !tool_given(t, f->option))
@@ -398,6 +438,8 @@ fill(struct tool *t, const struct fill *f, const struct material *const m[BODIES
             "the table has no %s of %s: give --%s K1,K2 with the values of both bodies, as in "
             "--%s 45W/mK,16W/mK",
             properties[f->property].name, asked.body[one == NULL ? 0 : 1], f->option, f->option);
+    if (!tool_given(t, f->option))
+        keep_lack(f, m);
     if (unknown || text == NULL || is_replaced(t, f))
         return;
     if (tool_given(t, f->option)) {
@@ -417,6 +459,15 @@ const char *
 materials_value(struct tool *t, enum material_property p)
 {
     return value_of(named(t, 0), p);
+}
+
+const char *
+materials_lack(const char *option)
+{
+    for (size_t k = 0; k < sizeof fills / sizeof *fills; k++)
+        if (strcmp(fills[k].option, option) == 0)
+            return asked.lacks[fills[k].property];
+    return "";
 }
 
 void

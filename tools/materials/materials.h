@@ -33,5 +33,8 @@ extern const struct opt material_options[], material_options_of_one[];
 void materials_fill(struct tool *tool);
 /* A property of the material of body 1, as on a command line, after materials_fill; NULL: it has none. */
 const char *materials_value(struct tool *tool, enum material_property property);
+/* After materials_fill: which body has no value for this option, as in "the table has no hardness of steel, body 1";
+ * "" if none lacks it. */
+const char *materials_lack(const char *option);
 
 #endif
