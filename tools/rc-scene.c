@@ -110,8 +110,10 @@ struct line {
     char why[SCENE_WHY];
 };
 enum {
-    LINES = 24
+    LINES = 24,
+    NODES = 20 /* in contact, below which an estimate decides nothing */
 };
+static const struct rc_relaxation *run_material; /* that of --relaxation; NULL: none */
 static const double strain = 0.1; /* pressure over E*, beyond which a solid is not linear elastic */
 
 /* ---- the command line ---- */
@@ -228,7 +230,7 @@ read_data(struct run *run)
         if (relaxation_law_read(&run->material, args.relaxation, NULL, &t->err) != RC_OK)
             tool_usage(t, "--relaxation %s: %s", args.relaxation, t->err.text);
         a->relaxes = 1 / run->material.material->instant;
-        d->material = run->material.material;
+        d->material = run_material = run->material.material;
     }
     physics_check(t, a);
     if (args.relaxation != NULL)
@@ -504,6 +506,22 @@ print_force(const struct line *l, FILE *out)
     fprintf(out, "%s times the load", amount(RC_SCENE_FRICTION, c->high, c->high, high));
 }
 
+/* Adhesion of a viscoelastic body is estimated as the load acts. */
+static void
+print_instant(const struct line *l, FILE *out)
+{
+    const struct rc_relaxation *r = run_material;
+    char text[64];
+
+    if (r == NULL || l->effect.nodes < NODES ||
+        (strcmp(l->effect.name, "adhesion") != 0 && strcmp(l->effect.name, "pull-off") != 0))
+        return;
+    fprintf(out, "; at once, with the modulus %s", shown_in_unit(1 / r->instant, "Pa"));
+    if (r->relaxed > 0)
+        fprintf(out, ": --E1 %s instead of --relaxation gives the row of the relaxed body",
+                scene_number_in_unit(r->relaxed, UNIT_PA, text));
+}
+
 static void
 print_change(const struct line *l, FILE *out)
 {
@@ -525,7 +543,7 @@ print_change(const struct line *l, FILE *out)
         print_leak(l, out);
     else if (most == 0)
         fputs(": changes nothing", out);
-    else if (l->effect.basis != RC_SCENE_EXACT && l->effect.nodes < 20)
+    else if (l->effect.basis != RC_SCENE_EXACT && l->effect.nodes < NODES)
         fprintf(out, ": %zu node%s in contact; refine the grid first", l->effect.nodes,
                 l->effect.nodes == 1 ? "" : "s");
     else if (l->figure == RC_SCENE_PULL_OFF || strcmp(name, "rolling") == 0)
@@ -552,6 +570,7 @@ print_change(const struct line *l, FILE *out)
         fprintf(out, ": changes the %s by %s", what, high);
     else
         fprintf(out, ": changes the %s by %s to %s", what, low, high);
+    print_instant(l, out);
     if (l->decided)
         fputs(" (computed)", out);
     fputc('\n', out);

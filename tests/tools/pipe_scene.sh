@@ -143,6 +143,17 @@ wears() { rc-scene --quiet --load 1N --E1 210GPa --nu1 0.3 --E2 rigid --coeffici
 claim "an interval that ends below 10 is in per cent" says 'changes the contact area by 2[0-9]* % to 4[0-9]* %' wears 30mm
 claim "  one that begins below 10 and ends above it is in times" says 'changes the contact area by 7\.6[0-9]* times to 16\.[0-9]* times' wears 10m
 
+# ---- adhesion of a viscoelastic body: at once, and the row says so ----
+
+rc-synth sphere --radius 1mm --nx 64 --ny 64 --dx 10um -o soft.rcg
+sticky="--load 100uN --nu1 0.5 --E2 rigid --adhesion 0.05,exponential,1um"
+adheres() { rc-scene --quiet $sticky "$@" --figures area,pull-off soft.rcg | grep '^  adhesion\|^  pull-off'; }
+adheres --relaxation 1MPa,1MPa:1ms --time 1s >rubber.txt
+claim "adhesion of a viscoelastic body names its modulus, and the one of the relaxed body" test \
+    "$(grep -c '; at once, with the modulus 2 MPa: --E1 1MPa instead of --relaxation gives the row of the relaxed body$' rubber.txt)" = 2
+claim "  its row is that of the modulus named" diff <(sed 's/; at once, with.*//' rubber.txt) <(adheres --E1 2MPa)
+claim "  a fluid has no relaxed modulus" test "$(adheres --relaxation 0,2MPa:1ms --time 1ms | grep -c '; at once, with the modulus 2 MPa$')" = 2
+
 # ---- relaxation: the contact grows under a constant load as an elastic one with J(t) ----
 
 material="--relaxation 1MPa,9MPa:1ms,2MPa:0.1s --nu1 0.5 --E2 rigid"
