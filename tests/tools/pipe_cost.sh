@@ -163,6 +163,9 @@ refused 'the command follows after --, as in rc-cost FILE -- rc-solve' "rough.rc
 refused "'sh' is not a program of this family: no shell runs it" "rough.rcg -- sh -c true"
 refused "'/bin/rc-solve' is not a program" "rough.rcg -- /bin/rc-solve"
 refused "'rc-nosuch' is not a program of this family: it cannot be run" "rough.rcg -- rc-nosuch"
+refused "'rc-slove' is not a program of this family: it cannot be run.*: did you mean rc-solve?" "rough.rcg -- rc-slove --load 1N"
+claim "no other program is offered for a name that is near none" bash -c \
+    '! rc-cost rough.rcg -- rc-nosuch 2>said.txt && ! grep "did you mean" said.txt'
 refused "'rc-cost' is not a program" "rough.rcg -- rc-cost rough.rcg"
 refused 'leave out -o of rc-solve: give it to rc-cost' "rough.rcg -- $contact -o x"
 refused 'leave out --report of rc-solve: it writes a file' "rough.rcg -- $contact --report x"

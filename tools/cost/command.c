@@ -192,19 +192,37 @@ cost_option_put(struct tool *t, const struct cost_program *p, const char *word[]
 
 /* ---- programs ---- */
 
+/* The program of this family that a misspelt name means. */
+static const char *
+program_meant(const char *typed, char text[NAME_MEANT])
+{
+    char nearest[NAME_SIZE] = "", one[NAME_SIZE];
+
+    for (const char *at = RC_PROGRAMS; *at != '\0'; at += strspn(at, " ")) {
+        const int length = (int)strcspn(at, " ");
+        snprintf(one, sizeof one, "%.*s", length, at);
+        at += length;
+        if (strcmp(one, "rc-cost") != 0)
+            name_nearer(typed, one, nearest);
+    }
+    return name_meant(nearest, text);
+}
+
 static void
 ask_program(struct cost_command *c, struct cost_program *p)
 {
     const char *const word[] = {p->name, "--completions", "json", NULL};
     struct process process = {.in = c->nowhere, .out = -1, .allowed = 60, .doing = p->name};
     enum process_end end = process_run(c->tool, word, &process);
+    char meant[NAME_MEANT];
     const char *why;
 
     if (end == PROCESS_INTERRUPTED)
         tool_die(c->tool, "interrupted before anything was measured");
     why = cost_message(process.said);
     if (end == PROCESS_FAILED && *why != '\0')
-        tool_usage(c->tool, "'%s' is not a program of this family: %s", p->name, why);
+        tool_usage(c->tool, "'%s' is not a program of this family: %s%s", p->name, why,
+                   program_meant(p->name, meant));
     if (end != PROCESS_ENDED || !json_is(json_member(process.said, "tool"), p->name))
         tool_die(c->tool, "%s does not say which options it has", p->name);
     p->json = process.said;
