@@ -699,6 +699,32 @@ class Page(str):
             out.write(self)
 
 
+class Verdicts(list):
+    """What rcg.scene() returns: a dict for each load, which interpreters and notebooks show as a table of its effects."""
+
+    def _rows(self):
+        return [(line, [(e['title'], e['sentence'] or 'data missing: %s' % ', '.join(python_name(n) + '=' for n in (e['missing'] or '').split()))
+                        for e in line['scene']]) for line in self]
+
+    @staticmethod
+    def _head(line):
+        return '%s, case %d, load %.4g N' % (line.get('source', 'surface'), line.get('case', 1), line['load'])
+
+    def __repr__(self):
+        return '\n'.join('\n'.join([self._head(line)] + ['  %-30s %s' % row for row in rows]) for line, rows in self._rows())
+
+    def _repr_html_(self):
+        import html
+        return ''.join('<p><b>%s</b></p><table>%s</table>' % (html.escape(self._head(line)), ''.join(
+            '<tr><td>%s</td><td>%s</td></tr>' % tuple(map(html.escape, row)) for row in rows)) for line, rows in self._rows())
+
+    def to_pandas(self):
+        """A DataFrame with a row for each load and effect."""
+        import pandas
+        return pandas.DataFrame([{'case': line.get('case', 1), 'load': line['load'], 'effect': e['effect'], 'verdict': e['verdict'],
+                                  'sentence': e['sentence'], 'missing': e['missing']} for line in self for e in line['scene']])
+
+
 # ---- calls ----
 
 def _has_report(row, given):
@@ -707,8 +733,10 @@ def _has_report(row, given):
     return option is not None and all(any(given.get(python_name(o['name'])) for o in rule['options']) for rule in option['needs'])
 
 
-def call(tool, surface=None, operands=(), spacing=None, timeout=None, progress=None, **given):
+def call(tool, surface=None, operands=(), spacing=None, timeout=None, progress=None, called=(), **given):
     """Runs a tool on a surface (see frames_from; spacing: of an array): a Result. See execute for timeout and progress.
+
+    called: what messages call temporary files, {name: words}.
 
     Warnings of the tool become ToolWarning; a failure becomes Error with the message of the tool and its exit
     status; a tool that stops short of the requested accuracy becomes NotConverged.
@@ -717,6 +745,8 @@ def call(tool, surface=None, operands=(), spacing=None, timeout=None, progress=N
     row = table(tool)
     data = None if surface is None else _data(surface, spacing)
     status, output, words, lines = _reported(command, data, _has_report(row, given), timeout, progress)
+    for name in called:
+        words = words.replace(name, called[name])
     if row['writes'] != 'stream' or not isinstance(output, _Stream):
         result = Result(tool, command, frames=[], lines=lines)
     else:
@@ -735,12 +765,16 @@ def _warn(text, tool):
 OPTION = re.compile(r'rc-[a-z]+(?: --?[A-Za-z]\S*)+|--([A-Za-z][A-Za-z0-9-]*)(?:(?:=| )(\w(?:[^\s,;:()]|,(?=\S))*))?')
 
 
-def _as_keywords(words, tool):
-    """A message of a tool with its options as keywords: --dx is dx=, --tilt free is tilt='free'."""
+def _as_keywords(words, tool, command=()):
+    """A message of a tool with its options as keywords: --dx is dx=, --tilt free is tilt='free'. A value of the command is quoted whole."""
     try:
         rows = {row['name']: (name, row) for name, row in options_of(tool).items()}
     except Error:
         return words
+    for dashed, value in zip(command[1:], command[2:]):
+        name = dashed[2:] if dashed.startswith('--') else ''
+        if name in rows and not rows[name][1]['argument'] is None and not value.startswith('--'):
+            words = words.replace('%s %s:' % (dashed, value), '%s=%r:' % (rows[name][0], value))
 
     def spoken(match):
         name, value = match.groups()
@@ -758,7 +792,7 @@ def _as_keywords(words, tool):
 
 def _settled(status, words, result):
     """The result, unless the tool failed; its warnings become warnings of Python."""
-    words = _as_keywords(words, result.tool)
+    words = _as_keywords(words, result.tool, result.command)
     said = [w[len(result.tool) + 2:] if w.startswith(result.tool + ': ') else w for w in words.splitlines()]
     if status not in (0, 3):
         raise Error(words or '%s ended with status %d' % (result.tool, status), status)
@@ -835,13 +869,15 @@ def draw(surface, path=None, dx=None, **given):
     curve = given.get('curve') is not None
     with tempfile.TemporaryDirectory() as folder:
         name = os.fspath(path) if path is not None else os.path.join(folder, 'picture.png')
-        command = ['rc-render'] + arguments('rc-render', given) + ['-o', name]
+        report = None
         if curve and isinstance(surface, Result):
+            given.setdefault('subtitle', _some(list(dict.fromkeys(str(line.get('source', surface.tool)) for line in surface.lines))))
             report = os.path.join(folder, 'report.json')
             with open(report, 'w', encoding='utf-8') as file:
                 file.writelines(json.dumps(line) + '\n' for line in surface.lines)
-            command.append(report)
+        command = ['rc-render'] + arguments('rc-render', given) + ['-o', name] + ([report] if report else [])
         status, _, words = execute(command, None if curve else _data(surface, dx))
+        words = words.replace(os.path.join(folder, 'report.json'), 'the report')
         _settled(status, words, Result('rc-render', command, frames=[]))
         with open(name, 'rb') as file:
             return Picture(file.read())
@@ -882,7 +918,7 @@ def add_two(a, b, dx=None, **given):
         for name, surface, frames in zip(names, (a, b), ready):
             own = frames is not None and None in ready  # dx= is for the other
             stream.write(name, frames_from(surface if frames is None else frames, None if own else dx))
-        return call('rc-add', None, names, **given)
+        return call('rc-add', None, names, called=dict(zip(names, ('the first surface', 'the second surface'))), **given)
 
 
 def make(shape, **given):
@@ -916,7 +952,7 @@ def verdicts(surface, dx=None, timeout=None, progress=None, **given):
     """
     words = ['rc-scene'] + arguments('rc-scene', given)
     status, _, said, lines = _reported(words, _data(surface, dx), True, timeout, progress)
-    return _settled(status, said, Result('rc-scene', words, frames=[], lines=lines)).lines
+    return Verdicts(_settled(status, said, Result('rc-scene', words, frames=[], lines=lines)).lines)
 
 
 SPECIAL = {'cost': costs, 'scene': verdicts, 'open': open_file, 'render': draw, 'report': page, 'export': save_as, 'add': add_two, 'synth': make}
@@ -946,7 +982,7 @@ def function(name):
     named = [inspect.Parameter(python, inspect.Parameter.KEYWORD_ONLY, default=None, annotation=_Hint(annotation(row) + ' | None'))
              for python, row in rows.items()]
     named += [p.replace(kind=inspect.Parameter.KEYWORD_ONLY) for p in own if p not in positional]
-    result = {'render': 'Picture', 'report': 'Page', 'export': 'None', 'cost': 'list[dict[str, Any]]', 'scene': 'list[dict[str, Any]]'}.get(name, 'Result')
+    result = {'render': 'Picture', 'report': 'Page', 'export': 'None', 'cost': 'list[dict[str, Any]]', 'scene': 'Verdicts'}.get(name, 'Result')
     made.__signature__ = _signature()(positional + named, return_annotation=_Hint(result))
     made.__name__ = made.__qualname__ = name
     made.__module__ = 'rcg'

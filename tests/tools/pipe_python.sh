@@ -71,6 +71,7 @@ claim "rcg.run returns the frames that the tool writes" check run ball.rcg
 claim "rcg.report returns the lines of --report, and those of rc-info" check report ball.rcg
 claim "a result shows the range of all cases, and numpy takes one map" check summaries ball.rcg
 claim "rcg.scene returns the verdicts of rc-scene" check scenes ball.rcg
+claim "messages quote values whole, and no temporary file is named" check messages ball.rcg
 claim "rcg.cost returns the trials of a command as a table" check costs ball.rcg
 claim "  and the figures of a measured map with their bars" check bars ball.rcg
 claim "options can be numbers, lists, flags, letters and files" check options ball.rcg

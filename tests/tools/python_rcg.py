@@ -867,6 +867,27 @@ def scenes(name):
     for hardness, verdict in ((1.1 * most, 'negligible'), (0.8 * most, 'calls for it')):
         effects = rcg.scene(name, hardness=hardness, **bodies)[0]['scene']
         assert [e['verdict'] for e in effects if e['effect'] == 'hardness'] == [verdict], effects
+    table = rcg.scene(name, hardness=hardness, **bodies)
+    row = next(e['sentence'] for e in table[0]['scene'] if e['effect'] == 'hardness')
+    assert row.startswith('calls for it: ') and ['hardness', row] in [line.split(None, 1) for line in repr(table).splitlines()], repr(table)
+    assert '<td>hardness</td><td>%s</td>' % row in table._repr_html_() and 'load 0.5 N' in table._repr_html_()
+    assert 'data missing: mu=, speed=, conductivity=, diffusivity=' in repr(table) and isinstance(table, list)
+
+
+def messages(name):
+    """Messages quote values whole, and name no temporary file; nor do pictures."""
+    for given, words in (({'load': '5 Newton', 'estar': '1GPa'}, "rc-solve: load='5 Newton': unknown unit 'Newton'"),
+                         ({'load': '1N', 'body1': 'my steel', 'body2': 'rigid'}, "rc-solve: body1='my steel': it is in no table")):
+        assert str(raised(rcg.Error, rcg.solve, name, **given)).startswith(words)
+    surfaces = [rcg.synth('sphere', radius='1mm', nx=32, dx=dx) for dx in ('1um', '2um')]
+    said = str(raised(rcg.Error, rcg.add, *surfaces))
+    assert tempfile.gettempdir() not in said and 'in the second surface of 2e-06' in said, said
+    solved = rcg.solve(surfaces[0], load=['0.1N', '0.2N', '0.3N'], estar='1GPa', quiet=True)
+    said = str(raised(rcg.Error, rcg.render, solved, curve='load:nosuch'))
+    assert said.startswith('rc-render: the report: there is no column nosuch'), said
+    with tempfile.TemporaryDirectory() as folder:
+        picture = rcg.render(solved, os.path.join(folder, 'curve.svg'), curve='load:contact_area')
+    assert b'>sphere<' in picture and b'report.json' not in picture
 
 
 def costs(name):
