@@ -441,6 +441,8 @@ page_show_limits(struct page *run, FILE *in, const char *a, const char *b)
           "<li>No fluid film carries load. Temperatures do not change the contact, and metals do "
           "not creep. "
           "Wear depends on the sliding distance alone.</li>\n"
+          "<li>No cantilever of an AFM: an approach is that of the bodies themselves, without the "
+          "snap-in and snap-off of a soft spring.</li>\n"
           "<li>You choose the filters, the form and the threshold of spikes. A scan too coarse for "
           "its contact "
           "gets a warning; nothing is corrected behind your back.</li>\n</ul>\n",
