@@ -197,7 +197,7 @@ for page in "$pages"/*.[15] $(printf "$pages/%s.7 " contact-mpi $effects); do
     name=$(basename "$page")
     blocks "$page" EXAMPLES "$scratch/$name.blocks"
     cp -r "$scratch/files" "$scratch/$name.run"
-    for block in $(ls -v "$scratch/$name.blocks"/*); do
+    for block in $(find "$scratch/$name.blocks" -type f | sort -V); do
         grep -q '^main(' "$block" && continue
         # many solutions each; those of 400 x 400 nodes run as printed in pipe_coated_case
         ! before_release && grep -q 'rc-cost\|--yield\|selfaffine --nx 400' "$block" && continue
