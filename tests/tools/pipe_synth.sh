@@ -51,6 +51,11 @@ near "$(field minimum info.json)" -5e-08 "$converted" "its lowest line"
 claim "a cylinder along the diagonal is made" info rc-synth cylinder --radius 1mm --nx 21 --dx 1um --direction -45
 # the other corners are sqrt(2) 10 um away: 2 (10 um)^2 / 2 mm
 near "$(field minimum info.json)" -1e-07 "$rounding" "its lowest corner"
+# the example of the page: a ball on a ring; by Hertz with elliptic integrals 1.258951 GPa on 1.191468e-7 m2
+rc-synth paraboloid --radius 2.857mm,104mm --nx 96 --ny 192 --dx 2.5um --dy 15um |
+    rc-solve --quiet --load 100N --body1 100Cr6 --body2 100Cr6 --report bearing.json -o /dev/null
+near "$(field max_pressure bearing.json)" 1.258951e9 1e-3 "an elliptic contact has Hertz's pressure"
+near "$(field contact_area bearing.json)" 1.191468e-7 0.01 "  and area"
 claim "a paraboloid is made" info rc-synth paraboloid --radius 1mm,0.5mm --nx 21 --dx 1um
 # (10 um)^2 / 2 mm + (10 um)^2 / 1 mm
 near "$(field minimum info.json)" -1.5e-07 "$rounding" "its lowest corner"
