@@ -138,14 +138,17 @@ claim "5% is 0.05" says '^rc-' rc-cost --quiet --error 5% tiny.rcg -- $contact
 claim "with --budget the command is the most accurate in time" bash -c "
     rc-cost --tol $nine --budget 20s rough.rcg -- $contact >budget.txt 2>budget.err && grep -Eq 'tol 1e-(9|10|11) ' budget.txt"
 claim "  its error is printed without a request" grep -Eq 's, pressure off by at most [0-9.e-]+ % \(its own estimate is' budget.err
-rc-synth selfaffine --nx 64 --dx 1um --hurst 0.8 --rms-slope 0.1 --seed 1 -o yields.rcg
+rc-synth selfaffine --nx 128 --dx 1um --hurst 0.8 --rms-slope 0.1 --seed 1 -o yields.rcg
 hard="rc-solve --quiet --periodic --mean-pressure 500MPa --estar 114GPa --hardness 3GPa"
-rc-cost --tol 1e-1,1e-2,1e-4 --error 5% yields.rcg -- ${hard/--quiet /} >proposed.txt 2>proposed.err
+for try in 1 2 3 4 5 6 7 8; do # a program beside this one can make a trial the fastest that is not
+    rc-cost --tol 1e-1,1e-2,1e-6 --error 5% yields.rcg -- ${hard/--quiet /} >proposed.txt 2>proposed.err
+    ! grep -q -- '--tol 1e-2' proposed.txt || break
+done
 $hard --tol "$(sed 's/.*--tol \([^ ]*\).*/\1/' proposed.txt)" --report quick.json -o x.rcg yields.rcg
 $hard --tol 1e-6 --report tight.json -o x.rcg yields.rcg
 near "$(sed -n 's/.*: other figures are off by more than 5 %: yielded_area \([0-9.]*\) %; --of NAME chooses one$/\1/p' proposed.err)" \
     "$(awk -v a="$(field yielded_area quick.json)" -v b="$(field yielded_area tight.json)" 'BEGIN { d = 100 * (a / b - 1); print d < 0 ? -d : d }')" 0.05 \
-    "the figure that is off by more than --error is named, with its error"
+    "the figure that is off by more than --error is named, with its error (try $try)"
 claim "  none where all are within" bash -c "rc-cost --tol 1e-2,1e-4 --error 30% yields.rcg -- ${hard/--quiet /} 2>said && ! grep -q 'other figures' said"
 claim "  nor the one that was chosen" bash -c "rc-cost --tol 1e-1,1e-2,1e-4 --error 30% --of yielded_area yields.rcg -- ${hard/--quiet /} 2>said && ! grep -q 'other figures' said"
 refuses 1 'no trial was fast enough: the best was .* s, error at most .*; raise --budget' "a budget that nothing meets, saying what was the quickest" \
