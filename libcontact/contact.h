@@ -1452,7 +1452,8 @@ struct rc_stress_options {
 };
 
 /* Work counters; tests use them to check that only requested fields are computed. An error, for each of enum
- * rc_component, is the sum of |error| over the sum of |stress|, over all nodes and depths. */
+ * rc_component, is the sum of |error| over the sum of |stress|, over all nodes and depths. error:
+ * NAN without `estimate`, if an error of the loads is unknown, and for a section whose loads have errors. */
 struct rc_stress_counts {
     size_t depths;
     size_t source_transforms;       /* transforms of the pressure and of maps of traction */
@@ -1466,9 +1467,7 @@ struct rc_stress_counts {
     size_t coarse_depths;           /* depths computed on a coarser grid */
     size_t strain_transforms;       /* transforms of maps of plastic strain to wave numbers */
     size_t strain_field_transforms; /* transforms of its stresses back to maps */
-    /* estimated, by tol and the errors of the loads; NAN without `estimate`, if an error of the loads
-     * is unknown, and for a section whose loads have errors */
-    double error[RC_STRESSES];
+    double error[RC_STRESSES];      /* estimated, by tol and the errors of the loads */
 };
 
 /* RC_FAIL, and *err says why, when rc_stress_new would refuse these options, except for short memory. */
