@@ -38,6 +38,12 @@ refuses 2 'from 0 to 1: a range by ratio needs both ends above 0' "an end at 0" 
 refuses 2 "a:b:log:n must be a whole number" "half a value" "rc-solve --load 1:2:log:2.5 --estar 1GPa ball.rcg"
 refuses 2 "a range is a:b:n, n values from a to b, or a:b:log:n" "no number of values" \
     "rc-solve --load 1:2:log --estar 1GPa ball.rcg"
+refuses 2 "'2.5' in a:b:n must be a whole number" "half a value before another number" "rc-solve --load 1:2:2.5,3 --estar 1GPa ball.rcg"
+refuses 2 'numbers with and without a unit in one list' "ranges with and without units" "rc-solve --load 1N:2N:2,3:4:2 --estar 1GPa ball.rcg"
+refuses 2 'a list has at most 1000000 numbers' "ranges without limit" "rc-solve --load 1:2:1000000,1:2:1000000 --estar 1GPa ball.rcg"
+refuses 2 "'0,5:2:3': the decimal mark is a point; .* write the range first, or '0.0'" "a decimal comma in a range" \
+    "rc-solve --load 0,5:2:3 --estar 1GPa ball.rcg"
+refuses 2 "'' is not a number" "a comma at the end" "rc-solve --load 1:2:2, --estar 1GPa ball.rcg"
 for option in 'rc-solve --load' 'rc-stress --depths'; do
     claim "$option: --help explains the range" \
         bash -c "${option% *} --help | grep -A 1 '^  $(sed 's/.* //' <<<"$option") ' | says a:b:log:n cat"

@@ -213,6 +213,8 @@ test_lists(void **state)
     check_list("0:50um:6", UNIT_M, 6, (double[]){0, 10e-6, 20e-6, 30e-6, 40e-6, 50e-6});
     check_list("10N:1N:4", UNIT_N, 4, (double[]){10, 7, 4, 1});
     check_list("1:2:2", UNIT_NONE, 2, (double[]){1, 2});
+    check_list("0N,1N:3N:3,5N:1N:2", UNIT_N, 6, (double[]){0, 1, 2, 3, 5, 1});
+    check_list("1um:100um:log:3,1mm", UNIT_M, 4, (double[]){1e-6, 1e-5, 1e-4, 1e-3});
 }
 
 /* Values with equal ratios are exact decimals where possible: powers of ten to the last bit. */
@@ -349,7 +351,10 @@ test_bad_lists(void **state)
                                       "0:1um:",
                                       "0:1um:3:4",
                                       "0:1um:1e9",
-                                      "1um,0:2um:3",
+                                      "1,0:2:3",
+                                      "0,5um:2um:4",
+                                      "1,5:2:3",
+                                      "3,2,5:9:3",
                                       "0:1um:nan",
                                       "1um:2um:log",
                                       "1um:2um:log:",
@@ -365,8 +370,7 @@ test_bad_lists(void **state)
                                       "1um:log:3",
                                       "log:3",
                                       "1um:2um:3:log",
-                                      "1um:2um:log:3um",
-                                      "1um,1um:2um:log:3"};
+                                      "1um:2um:log:3um"};
 
     (void)state;
     for (size_t k = 0; k < sizeof bad / sizeof *bad; k++) {

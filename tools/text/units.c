@@ -504,87 +504,126 @@ between(double a, double b, bool by_ratio, size_t k, double n)
     return decimal(by_ratio ? a * pow(b / a, part) : a + (b - a) * part);
 }
 
-/* a:b:n or a:b:log:n with the first colons at `first` and `second`. */
-static enum rc_status
-read_range(const char *text, const char *first, const char *second, struct list_state *state,
-           struct numbers *list, struct rc_err *err)
-{
-    bool by_ratio = strncmp(second + 1, "log:", 4) == 0;
-    const char *count = second + (by_ratio ? 5 : 1);
-    double a, b, n;
+enum {
+    MOST = 1000000 /* numbers of a list */
+};
 
-    if (read_piece(text, (size_t)(first - text), state, &a, err) != RC_OK ||
-        read_piece(first + 1, (size_t)(second - first - 1), state, &b, err) != RC_OK ||
-        unit_number(count, UNIT_NONE, &n, err) != RC_OK)
-        return RC_FAIL;
-    if (n != floor(n) || n < 2 || n > 1e6)
-        return rc_err_set(err, "'%s' in %s must be a whole number of values, at least 2", count,
-                          by_ratio ? "a:b:log:n" : "a:b:n");
-    if (by_ratio && !(a > 0 && b > 0))
-        return rc_err_set(err, "from %g to %g: a range by ratio needs both ends above 0", a, b);
-    list->n = (size_t)n;
-    list->v = malloc(list->n * sizeof *list->v);
-    list->no_memory = list->v == NULL;
-    if (list->no_memory)
-        return rc_err_set(err, "out of memory for %zu numbers", list->n);
-    for (size_t k = 0; k < list->n; k++)
-        list->v[k] = between(a, b, by_ratio, k, n);
+/* Room for n more numbers. */
+static enum rc_status
+add_room(struct numbers *list, double n, struct rc_err *err)
+{
+    double *v;
+
+    if (n > (double)(MOST - list->n))
+        return rc_err_set(err, "a list has at most %d numbers", MOST);
+    v = realloc(list->v, (list->n + (size_t)n) * sizeof *v);
+    list->no_memory = v == NULL;
+    if (v == NULL)
+        return rc_err_set(err, "out of memory for %.0f numbers", (double)list->n + n);
+    list->v = v;
     return RC_OK;
 }
 
-/* Values of text[0..n): those from A to B if it is A-B, two whole numbers; else one, and ends[0] is NAN. */
-static double
-piece_values(const char *text, size_t n, const struct list_state *state, double ends[2])
+/* a:b:n or a:b:log:n, with the first colon at `first`. */
+static enum rc_status
+read_range(const char *text, size_t length, const char *first, struct list_state *state,
+           struct numbers *list, struct rc_err *err)
+{
+    const char *end = text + length, *second = memchr(first + 1, ':', (size_t)(end - first - 1)),
+               *count;
+    struct seen seen = {0};
+    bool by_ratio;
+    double a, b, n;
+
+    if (second == NULL || (end - second == 4 && strncmp(second, ":log", 4) == 0))
+        return rc_err_set(err,
+                          "'%.*s': a range is a:b:n, n values from a to b, or a:b:log:n, the same "
+                          "by ratio",
+                          (int)length, text);
+    by_ratio = strncmp(second + 1, "log:", 4) == 0;
+    count = second + (by_ratio ? 5 : 1);
+    if (read_piece(text, (size_t)(first - text), state, &a, err) != RC_OK ||
+        read_piece(first + 1, (size_t)(second - first - 1), state, &b, err) != RC_OK ||
+        read_one(count, (size_t)(end - count), UNIT_NONE, &n, &seen, err) != RC_OK)
+        return RC_FAIL;
+    if (n != floor(n) || n < 2)
+        return rc_err_set(err, "'%.*s' in %s must be a whole number of values, at least 2",
+                          (int)(end - count), count, by_ratio ? "a:b:log:n" : "a:b:n");
+    if (by_ratio && !(a > 0 && b > 0))
+        return rc_err_set(err, "from %g to %g: a range by ratio needs both ends above 0", a, b);
+    if (add_room(list, n, err) != RC_OK)
+        return RC_FAIL;
+    for (size_t k = 0; k < (size_t)n; k++)
+        list->v[list->n++] = between(a, b, by_ratio, k, n);
+    return RC_OK;
+}
+
+/* True for A-B, two whole numbers. */
+static bool
+is_span(const char *text, size_t length, double ends[2])
 {
     const char *digits = "0123456789";
     const size_t first = strspn(text, digits);
 
-    ends[0] = NAN;
-    if (!state->spans || first == 0 || first + 1 >= n || text[first] != '-' ||
-        first + 1 + strspn(text + first + 1, digits) != n)
-        return 1;
+    if (first == 0 || first + 1 >= length || text[first] != '-' ||
+        first + 1 + strspn(text + first + 1, digits) != length)
+        return false;
     (void)rc_number_read(text, false, &ends[0]);
     (void)rc_number_read(text + first + 1, false, &ends[1]);
-    return ends[1] - ends[0] + 1;
+    return true;
+}
+
+static enum rc_status
+read_span(const char *text, size_t length, const double ends[2], struct numbers *list,
+          struct rc_err *err)
+{
+    const double n = ends[1] - ends[0] + 1;
+
+    if (!(n >= 1 && n <= MOST))
+        return rc_err_set(err, "'%.*s': a range goes up, and has at most %d numbers", (int)length,
+                          text, MOST);
+    if (add_room(list, n, err) != RC_OK)
+        return RC_FAIL;
+    for (double v = ends[0]; v <= ends[1]; v++)
+        list->v[list->n++] = v;
+    return RC_OK;
+}
+
+/* One number, or a range. */
+static enum rc_status
+read_entry(const char *text, size_t length, struct list_state *state, struct numbers *list,
+           struct rc_err *err)
+{
+    const char *colon = memchr(text, ':', length);
+    double ends[2], value;
+
+    if (colon != NULL)
+        return read_range(text, length, colon, state, list, err);
+    if (state->spans && is_span(text, length, ends))
+        return read_span(text, length, ends, list, err);
+    if (read_piece(text, length, state, &value, err) != RC_OK || add_room(list, 1, err) != RC_OK)
+        return RC_FAIL;
+    list->v[list->n++] = value;
+    return RC_OK;
 }
 
 static enum rc_status
 read_list(const char *text, struct list_state *state, struct numbers *list, struct rc_err *err)
 {
-    static const double most = 1e6; /* numbers */
-    const char *colon = strchr(text, ':');
-    double n = 0, ends[2];
+    const char *digits = "0123456789";
+    size_t whole = 0; /* digits of the last entry, if it has nothing else */
 
-    if (colon != NULL) {
-        const char *second = strchr(colon + 1, ':');
-        if (second == NULL || strcmp(second, ":log") == 0)
-            return rc_err_set(err,
-                              "'%s': a range is a:b:n, n values from a to b, or a:b:log:n, the "
-                              "same by ratio",
-                              text);
-        return read_range(text, colon, second, state, list, err);
-    }
     for (const char *s = text, *end; s != NULL; s = *end == ',' ? end + 1 : NULL) {
-        const double values = piece_values(s, strcspn(s, ","), state, ends);
-
         end = s + strcspn(s, ",");
-        if (!(values >= 1 && values <= most))
-            return rc_err_set(err, "'%.*s': a range goes up, and has at most %.0f numbers",
-                              (int)(end - s), s, most);
-        n += values;
-    }
-    list->v = malloc((size_t)n * sizeof *list->v);
-    list->no_memory = list->v == NULL;
-    if (list->no_memory)
-        return rc_err_set(err, "out of memory for %.0f numbers", n);
-    while (list->n < (size_t)n) {
-        size_t length = strcspn(text, ",");
-        if ((void)piece_values(text, length, state, ends), !isnan(ends[0]))
-            for (double v = ends[0]; v <= ends[1]; v++)
-                list->v[list->n++] = v;
-        else if (read_piece(text, length, state, &list->v[list->n++], err) != RC_OK)
+        if (whole > 0 && strspn(s, digits) > 0 && memchr(s, ':', (size_t)(end - s)) != NULL)
+            return rc_err_set(err,
+                              "'%.*s': the decimal mark is a point; for a number before a range "
+                              "write the range first, or '%.*s.0'",
+                              (int)((size_t)(end - s) + whole + 1), s - whole - 1, (int)whole,
+                              s - whole - 1);
+        whole = strspn(s, digits) == (size_t)(end - s) ? (size_t)(end - s) : 0;
+        if (read_entry(s, (size_t)(end - s), state, list, err) != RC_OK)
             return RC_FAIL;
-        text += length + 1;
     }
     return RC_OK;
 }
