@@ -303,11 +303,12 @@ kill_second() {
 # killed COMMAND: it prints its progress, and its second process is killed after the first lines.
 killed() {
     local launcher
+    rm -f no.rcg
     $run $1 --progress line -o no.rcg >/dev/null 2>killed.err &
     launcher=$!
     until [ "$(grep -ac '^rc-' killed.err)" -ge 2 ] || ! kill -0 "$launcher"; do sleep 0.05; done
     kill_second "$launcher" || return
-    wait "$launcher" && return 1
+    wait "$launcher" && echo "it ended first: $(tail -n 3 killed.err)" >&2 && return 1
     [ -z "$(ls no.rcg* 2>/dev/null)" ]
 }
 claim "a process that is killed among the increments ends all and leaves no file" \
@@ -315,11 +316,11 @@ claim "a process that is killed among the increments ends all and leaves no file
 further "  adhesion" killed "${stick/--quiet/} --periodic --estar 1GPa --approach 0:1um:400 rough.rcg"
 further "  creep" killed "${relax/--increments 2 --quiet/} --increments 400 rough.rcg"
 further "  sliding on rubber" killed "${speed/--quiet --speed/--speed} 1um/s:100um/s:40 --periodic --mean-pressure 20kPa rough.rcg"
-further "  travel" killed "${travel/--quiet/} --travel=-20um,20um,0.1um rough.rcg"
+further "  travel" killed "${travel/--quiet/} --travel=-20um:20um:400 rough.rcg"
 further "  friction" killed "rc-slip --mu 0.3 --nu 0.3 --tol 1e-6 --tangential 1mN --increments 200 pressed.rcg"
 further "  steady rolling" killed "${steady/--quiet --tol 3e-2/--tol 1e-6} --creep 1e-4:5e-2:log:60,0 rolls-alike.rcg"
 further "  wear" killed "rc-wear --coefficient 1e-3mm3/Nm --distance 1m --tol 1e-3 pressed.rcg"
-further "  heat" killed "${heat/--tol 0.1 --quiet/} --speed 1m/s --time 1us --time-steps 2000 pressed.rcg"
+further "  heat" killed "${heat/--tol 0.1 --quiet/} --speed 1m/s --time 1us --time-steps 900 pressed.rcg"
 further "  fatigue" killed "${fatigue/--quiet/} --pass x --depths 1um:40um:80 pressed.rcg"
 # The second process is killed after 5 states; the others continue from the last one.
 killed_states() {
