@@ -62,6 +62,8 @@ again() {
 study yield rough.rcg "--vary increments=8,16 --vary slabs=3,5" rc-solve --periodic --mean-pressure 0.5GPa --E1 210GPa --nu1 0.3 --E2 rigid --yield 2GPa,5GPa
 again yield increments=8 pressure
 claim "  the reference has twice the increments and slabs beyond the list" grep -q '^# reference: increments 32, slabs 8,' yield.txt
+claim "  the parts of an estimate do not replace it: few slabs that were given have none" \
+    bash -c "grep -E '^ *16 +3 ' yield.txt | grep -q 'unjudged'"
 claim "  the change along each list is known" bash -c 'grep -Eq "^ +16 +8 " yield.txt && grep -Eq "^ +32 +5 " yield.txt'
 study adhesion rough.rcg "--tol 1e-1,1e-3" rc-solve --periodic --mean-pressure 1MPa --estar 100MPa --adhesion 1J/m2,exponential,200nm
 again adhesion tol=0.1 pressure

@@ -715,7 +715,17 @@ cost_object_name(const struct cost_case *c, struct cost_object o)
     return !o.known ? "nothing" : o.frame ? c->channel[o.k].name : c->figure[o.k].shown;
 }
 
-/* An estimate counts if an option of its program, or the grid, lowers it. */
+/* True for an estimate that is named after what it belongs to: the others of this program are parts of it. */
+static bool
+is_whole(const struct cost_figure *e)
+{
+    const size_t n = strlen(e->of);
+
+    return strncmp(e->name, e->of, n) == 0 && strcmp(e->name + n, "_error_estimate") == 0;
+}
+
+/* An estimate counts if an option of its program, or the grid, lowers it. NAN also if that of the whole error
+ * is unknown, whatever its parts are. */
 double
 cost_estimate_of(const struct cost_case *c, const struct cost_trial *t, struct cost_object o,
                  bool any)
@@ -731,8 +741,11 @@ cost_estimate_of(const struct cost_case *c, const struct cost_trial *t, struct c
             continue;
         if (grid ? t->coarse == 1 : t->coarse > 1 && !any)
             continue;
-        if (grid || cost_option(&c->command.program[e->program], e->by) != NULL)
-            most = fmax(most, t->judged[k]);
+        if (!grid && cost_option(&c->command.program[e->program], e->by) == NULL)
+            continue;
+        if (is_whole(e) && isnan(t->judged[k]))
+            return NAN;
+        most = fmax(most, t->judged[k]);
     }
     return most;
 }
