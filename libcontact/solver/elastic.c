@@ -145,7 +145,7 @@ set_shape(struct elastic *e, const double *h, struct rc_err *err)
 {
     if (e->solver == NULL)
         return own_heights(e, h, err);
-    if (rc_solver_set_heights(e->solver, h, err) != RC_OK)
+    if (rc_solver_next_heights(e->solver, h, err) != RC_OK)
         return RC_FAIL;
     e->solver->posed.height_error = e->height_error;
     e->solver->posed.dents = e->off;

@@ -43,7 +43,7 @@ rc_solver_keep_shape(struct rc_solver *s, const struct rc_contact *c, double *h,
         return RC_OK;
     off += s->load.target > 0 ? RC_LOAD_TOL * s->posed.tol : 0;
     dents = s->posed.dents + off * c->load;
-    if (rc_solver_plastic(s, h, err) != RC_OK || rc_solver_set_heights(s, h, err) != RC_OK)
+    if (rc_solver_plastic(s, h, err) != RC_OK || rc_solver_next_heights(s, h, err) != RC_OK)
         return RC_FAIL;
     s->posed.height_error = height_error;
     s->posed.dents = dents;

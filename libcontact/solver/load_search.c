@@ -184,18 +184,30 @@ rc_load_first(struct rc_solver *s, const struct rc_problem *problem, struct rc_e
     return rc_load_set(s, guess < most ? guess : most, err);
 }
 
-enum rc_status
-rc_load_next(struct rc_solver *s, double load, double approach, struct rc_err *err)
+static enum rc_status
+set_next(struct rc_solver *s, double load, double approach, struct rc_err *err)
 {
     s->load.tol = s->posed.tol;
     s->load.target = 0;
     if (approach > 0) {
-        if (check_approach(s, approach, err) != RC_OK)
-            return RC_FAIL;
         begin_search(s, approach);
         load = s->load.load; /* first guess */
     }
     return rc_load_set(s, load, err);
+}
+
+enum rc_status
+rc_load_next(struct rc_solver *s, double load, double approach, struct rc_err *err)
+{
+    if (approach > 0 && check_approach(s, approach, err) != RC_OK)
+        return RC_FAIL;
+    return set_next(s, load, approach, err);
+}
+
+enum rc_status
+rc_load_again(struct rc_solver *s, struct rc_err *err)
+{
+    return set_next(s, s->load.load, s->load.target, err);
 }
 
 /* ---- the search ---- */

@@ -505,7 +505,7 @@ rc_solver_set_tol(struct rc_solver *s, double tol)
 }
 
 enum rc_status
-rc_solver_set_heights(struct rc_solver *s, const double *h, struct rc_err *err)
+rc_solver_next_heights(struct rc_solver *s, const double *h, struct rc_err *err)
 {
     bool untouched = rc_nested_untouched(s);
 
@@ -515,10 +515,18 @@ rc_solver_set_heights(struct rc_solver *s, const double *h, struct rc_err *err)
     rc_tilt_heights(s);
     if (!untouched)
         rc_nested_end(s);
-    if (rc_load_next(s, s->load.load, s->load.target, err) != RC_OK)
+    if (rc_load_again(s, err) != RC_OK)
         return RC_FAIL;
     begin_anew(s);
     return RC_OK;
+}
+
+enum rc_status
+rc_solver_set_heights(struct rc_solver *s, const double *h, struct rc_err *err)
+{
+    if (rc_solver_next_heights(s, h, err) != RC_OK)
+        return RC_FAIL;
+    return rc_load_next(s, s->load.load, s->load.target, err);
 }
 
 enum rc_status

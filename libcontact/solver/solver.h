@@ -290,6 +290,10 @@ void rc_working_set_forget(struct rc_solver *solver);
 
 /* The caller changed p or the load: drops all derived fields. */
 void rc_solver_restart(struct rc_solver *solver);
+/* rc_solver_set_heights for a caller that sets the load or the approach next. The present approach belongs to
+ * the former heights: with the new ones it may be beyond complete contact, and is not checked. */
+enum rc_status rc_solver_next_heights(struct rc_solver *solver, const double *h,
+                                      struct rc_err *err);
 /* rc_solver_new, with a compliance that differs along x; the caller keeps `along` as long as the solver. */
 struct rc_solver *rc_solver_new_along(const struct rc_shape *shape, const double *h,
                                       const struct rc_problem *problem,
@@ -336,6 +340,8 @@ enum rc_status rc_load_first(struct rc_solver *solver, const struct rc_problem *
 /* Sets another load: the given one or, with an approach > 0, a search that starts from the present load. */
 enum rc_status rc_load_next(struct rc_solver *solver, double load, double approach,
                             struct rc_err *err);
+/* The same load or approach for other heights, unchecked: it may be out of reach there. */
+enum rc_status rc_load_again(struct rc_solver *solver, struct rc_err *err);
 /* After a solution: RC_OK when it has the wanted shift, else sets the next load. */
 enum rc_status rc_load_search(struct rc_solver *solver);
 /* The estimated relative error of the load, which is that of the pressure, too: no pressure decreases as

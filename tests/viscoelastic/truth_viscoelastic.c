@@ -370,6 +370,60 @@ held_ball(void **state)
     keep_shape();
 }
 
+/* The same on a rough periodic map up to nearly complete contact, at a second and a year. The heights of each
+ * step have their own approach of complete contact. */
+static void
+held_rough(void **state)
+{
+    const struct rc_shape s = {32, 32, 1e-6, 1e-6};
+    const struct rc_selfaffine what = {
+        .hurst = 0.8, .rms_slope = 0.1, .seed = 5, .long_cut = 32e-6, .short_cut = 8e-6};
+    const double times[] = {0, 1, 3.15e7}, taus[][2] = {{1, 2}, {1e-3, 0.1}},
+                 parts[][2] = {{0.3, 0.2}, {0.6, 1.0 / 3}}, depths[] = {0.3, 0.7, 0.95};
+    double top = -INFINITY;
+    struct rc_err err;
+
+    (void)state;
+    assert_int_equal(rc_synth_selfaffine(&s, &what, h, &err), RC_OK);
+    for (size_t k = 0; k < 1024; k++)
+        top = fmax(top, h[k]); /* over the mean plane: the approach of complete contact */
+    for (int q = 0; q < 12; q++) {
+        const double depth = depths[q / 2 % 3] * top;
+        struct rc_problem contact = {
+            .boundary = RC_PERIODIC, .pair.estar = glass, .tol = 1e-8, .threads = 1};
+        struct bodies b = {.material = material_of(1 - parts[q % 2][0] - parts[q % 2][1], 2,
+                                                   parts[q % 2], taus[q % 2]),
+                           .n = 1024};
+        /* the times of the results as a caller knows them, or not */
+        const struct rc_viscoelastic_problem law = {.material = b.material,
+                                                    .share = 1,
+                                                    .shortest = q < 6 ? 0 : times[q % 2 + 1],
+                                                    .longest = q < 6 ? 0 : times[2]};
+        b.m = rc_viscoelastic_new(rc_elastic_new(&s, h, &contact, NULL, &err), h, &law, &err);
+        assert_non_null(b.m);
+        contact.approach = depth;
+        for (int k = 0; k < 3; k++) {
+            const double fallen = rc_relaxation_modulus(b.material, times[k]) / glass;
+            const struct rc_viscoelastic_figures *f;
+            struct solved elastic;
+            double worst = 0;
+            if (k == 1 && q >= 6 && q % 2 == 1)
+                continue; /* earlier than the shortest time */
+            f = press(&b, RC_APPROACH, depth, times[k], p);
+            elastic = solve(s, h, contact);
+            assert_true(elastic.status == RC_OK && f->contact.converged);
+            assert_true(f->contact.contact_fraction == elastic.c.contact_fraction);
+            for (size_t i = 0; i < b.n; i++) {
+                assert_int_equal(rc_in_contact(p[i]), rc_in_contact(elastic.p[i]));
+                worst = fmax(worst, fabs(p[i] / fallen - elastic.p[i]) / elastic.c.max_pressure);
+            }
+            assert_true(worst < f->increment_error + 1e-6 && f->increment_error <= 0.01);
+            solved_free(&elastic);
+        }
+        leave(&b);
+    }
+}
+
 /* Without a number of increments a load cycle takes more of them until the error is within the tolerance,
  * fewer than 160 here. */
 static void
@@ -584,6 +638,7 @@ main(void)
         cmocka_unit_test(creeping_ball),
         cmocka_unit_test(creeping_cylinder),
         cmocka_unit_test(held_ball),
+        cmocka_unit_test(held_rough),
         cmocka_unit_test(elastic),
         cmocka_unit_test(second_order),
         cmocka_unit_test(window),
