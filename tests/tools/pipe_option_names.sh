@@ -33,6 +33,20 @@ refuses 2 '^rc-solve: option --re is ambiguous: --relaxation, --report, --resume
 refuses 2 '^rc-solve: option --E is ambiguous: --E1, --E2$' "another" 'rc-solve --E=3'
 refuses 2 '^rc-solve: option --load needs an argument' "one without its argument" 'rc-solve --load'
 refuses 2 '^rc-solve: option --history=3 takes no argument' "one with too many" 'rc-solve --history=3'
+# forgets OPTION WORD: the option has lost its value, and the next word is an option
+forgets() {
+    refuses 2 "^rc-render: $1 needs a value; write $1${3-=}$2 for this one\$" "$1 before $2 has no value" "rc-render $1 $2 x.png ball.rcg"
+}
+forgets --title -o
+forgets --title --channel
+forgets --title --channel=height
+forgets --title --verbose
+forgets --channel -h
+forgets --memory --colourmap
+forgets -o --title ''
+claim "  by = every text is a value" rc-render --title=-o -o text.png ball.rcg
+claim "  and a word that is no option" rc-render --title --nothing -o text.png ball.rcg
+refuses 2 '^rc-solve: --load -3 N: it must be at least 0' "  a negative number is a value" 'rc-solve --load -3 ball.rcg'
 claim "a unique abbreviation of an option is accepted" rc-solve --loa 1 --est 1GPa --out pressure --quiet -o cut.rcg ball.rcg
 
 # ---- spelling ----

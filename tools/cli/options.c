@@ -679,6 +679,36 @@ bad_option(struct tool *t, int what, char **argv, const struct option *table)
     tool_usage(t, "unknown option %s: see %s --help", letter, t->info->name);
 }
 
+/* True if this word is an option of the tool; a negative number is none. */
+static bool
+is_option(const struct option *table, const char *word)
+{
+    const size_t n = strcspn(word, "=");
+
+    if (strcmp(word, "-o") == 0 || strcmp(word, "-h") == 0)
+        return true;
+    if (strncmp(word, "--", 2) != 0)
+        return false;
+    while (table->name != NULL &&
+           (strlen(table->name) != n - 2 || strncmp(table->name, word + 2, n - 2) != 0))
+        table++;
+    return table->name != NULL;
+}
+
+/* getopt takes any next word as the value of an option: in "--sheet -o FILE" the value is forgotten. */
+static void
+check_value(struct tool *t, int what, char **argv, const struct option *table)
+{
+    if (optarg == NULL || optarg != argv[optind - 1] || !is_option(table, optarg))
+        return;
+    if (what == 'o')
+        tool_usage(t, "-o needs a value; write -o%s for this one", optarg);
+    while (table->val != what)
+        table++;
+    tool_usage(t, "--%s needs a value; write --%s=%s for this one", table->name, table->name,
+               optarg);
+}
+
 /* True if the option takes one number as well as several. */
 static bool
 may_be_one_number(const struct opt *o)
@@ -776,6 +806,8 @@ options_read(struct tool *t, int argc, char **argv)
     opterr = 0;
     look_for_output(t, argc, argv, table);
     while ((what = getopt_long(argc, argv, letters, table, NULL)) != -1) {
+        if (what != ':' && what != '?')
+            check_value(t, what, argv, table);
         if (what == 'h')
             print_help(t, heading(t, 0) == NULL
                               ? NULL
