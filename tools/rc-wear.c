@@ -112,7 +112,7 @@ struct run {
     size_t written;             /* steps at the last row of --steps      */
     double slid;                /* m: distance of that row               */
     const struct numbers *list; /* of distances or cycles                              */
-    double path;                /* m: of the node that slips most in a cycle; 1: distances */
+    double path;                /* m: of the node that slips most in a cycle; 1: none */
     double k[2];                /* 1/Pa: of the options                                */
     struct rc_grid *map[MAPS];  /* of the case; NULL: none                             */
     struct tool_frame beside[MAPS + 1]; /* their channels */
@@ -461,6 +461,8 @@ find_law(struct run *run, const struct rc_grid *g)
     for (int b = 0; b < 2 && run->part != NULL; b++)
         run->law.k[b] *= most;
     run->law.part = least < most ? run->part : NULL;
+    if (args.cycles.n > 0)
+        run->d.shown = (struct drive_shown){RC_DISTANCE, "cycles", NULL, run->path};
     for (size_t k = 0; k < run->d.points; k++)
         rc_point_set(&run->d.point[k], RC_DISTANCE, run->list->v[k] * run->path);
 }
@@ -612,12 +614,24 @@ find_left(struct run *run, struct rc_model *m)
     run->left = -ranks_most(&run->d.t, -run->left);
 }
 
+/* "DISTANCE 1 m", or "after 1000 cycles". */
+static const char *
+way_text(const struct run *run, const char *words, double distance, char text[128])
+{
+    (void)drive_show_axis(&run->d, RC_DISTANCE, &distance);
+    if (args.cycles.n > 0)
+        snprintf(text, 128, "after %.9g cycles", distance);
+    else
+        snprintf(text, 128, "%s %s", words, shown_in_unit(distance, "m"));
+    return text;
+}
+
 /* Ends the case where the coat is worn through: the points before stay. */
 static void
 judge(struct drive *d, struct rc_model *m)
 {
     struct run *run = (struct run *)(void *)d;
-    char text[300];
+    char text[300], way[128];
 
     run->area = rc_model_number(m, "contact_fraction");
     run->depth = rc_wear_result(m)->max_wear_depth;
@@ -628,14 +642,14 @@ judge(struct drive *d, struct rc_model *m)
         return;
     }
     snprintf(text, sizeof text,
-             "after a distance of %s body 1 has lost %s of its coat, and %s was left: a coat that "
-             "is worn through is not implemented",
-             shown_in_unit(rc_wear_result(m)->distance, "m"),
+             "%s body 1 has lost %s of its coat, and %s was left: a coat that is worn through is "
+             "not implemented",
+             way_text(run, "after a distance of", d->is.at.at[RC_DISTANCE], way),
              shown_in_unit(run->coat - run->left, "m"), shown_in_unit(run->coat, "m"));
     if (d->at == 0)
         tool_refuse(&d->t, d->course.g, "%s", text);
-    tool_warn(&d->t, "%s: %s: the output ends with the distance before",
-              tool_where(&d->t, d->course.g), text);
+    tool_warn(&d->t, "%s: %s: the output ends with the %s before", tool_where(&d->t, d->course.g),
+              text, args.cycles.n > 0 ? "cycles" : "distance");
     tool_fails_with(&d->t, EXIT_SHORT);
     d->is.silent = d->is.ended = true;
     d->course.number--;
@@ -650,13 +664,10 @@ set_keys(struct drive *d, struct rc_model *m, struct rc_grid *g)
     if (run->coat > 0)
         tool_set_number(&d->t, g, "coat_left", run->left);
     d->is.ended = d->status != RC_MORE && f->distance < d->point[d->at].at[RC_DISTANCE];
+    tool_set(&d->t, g, args.cycles.n > 0 ? "distance" : "cycles", NULL); /* of an earlier run */
     tool_set_error(&d->t, g, "pressure.error", f->pressure_error);
     tool_set_number(&d->t, g, "wear_1", run->law.k[0]);
     tool_set_number(&d->t, g, "wear_2", run->law.k[1]);
-    if (run->energy != NULL)
-        tool_set_number(&d->t, g, "cycles", d->point[d->at].at[RC_DISTANCE]);
-    else if (run->map[SLIP] != NULL)
-        tool_set_number(&d->t, g, "cycles", f->distance / run->path);
     judge_map(run, m, g);
     if (run->law.two_bodies && f->pressure_error > args.tol)
         course_warn(
@@ -672,7 +683,7 @@ static void
 judge_until(struct run *run, const struct rc_grid *g)
 {
     const struct rc_wear_problem *law = &run->law;
-    char text[256] = "";
+    char text[256] = "", way[128];
     size_t at = 0;
 
     if (args.until == NULL || run->d.args->dry_run || run->d.is.ended || run->d.status == RC_MORE ||
@@ -691,9 +702,20 @@ judge_until(struct run *run, const struct rc_grid *g)
     if (law->until_spread > 0)
         snprintf(text + at, sizeof text - at, ": the spread of the pressure is %.3g, and not %.3g",
                  run->spread, law->until_spread);
-    tool_warn(&run->d.t, "%s: --until was not reached at the last distance, %s%s",
-              tool_where(&run->d.t, g),
-              shown_in_unit(run->d.point[run->d.points - 1].at[RC_DISTANCE], "m"), text);
+    tool_warn(&run->d.t, "%s: --until was not reached %s%s", tool_where(&run->d.t, g),
+              way_text(run, "at the last distance,",
+                       run->d.point[run->d.points - 1].at[RC_DISTANCE], way),
+              text);
+}
+
+/* The column of --cycles, where a step or a point has ended at this distance. */
+static void
+put_cycles(struct run *run, struct report *r, double distance)
+{
+    const struct drive_shown as = drive_show_axis(&run->d, RC_DISTANCE, &distance);
+
+    if (args.cycles.n > 0)
+        report_number(r, as.name, distance, as.unit);
 }
 
 /* A row of --steps after each step; none for a way that is taken again. */
@@ -711,6 +733,7 @@ put_step(struct course *c, struct rc_model *m)
     report_begin(&run->steps);
     report_count(&run->steps, "case", c->number, NULL);
     report_text(&run->steps, "source", rc_grid_get(c->g, "source"));
+    put_cycles(run, &run->steps, f->distance);
     rc_point_set(&at, RC_LOAD, run->d.point->at[RC_LOAD]);
     at.at[RC_APPROACH] = NAN; /* the contact within a step has other heights than the worn ones */
     report_model(&run->steps, m, &at, at.given);
@@ -722,6 +745,7 @@ asked(struct drive *d, const struct rc_model *m)
 {
     (void)m;
     report_number(&d->report, "tol", args.tol, NULL);
+    put_cycles((struct run *)(void *)d, &d->report, d->is.at.at[RC_DISTANCE]);
 }
 
 /* The effects: computed, or why not. */

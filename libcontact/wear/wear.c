@@ -1124,7 +1124,10 @@ progress(const struct rc_model *m, struct rc_loops *l)
 {
     const struct wear *v = (const struct wear *)m;
 
-    rc_loops_add(l, "distance", "m", v->way.s, v->way.end);
+    if (v->law.energy != NULL)
+        rc_loops_add(l, "cycles", NULL, v->way.s, v->way.end);
+    else
+        rc_loops_add(l, "distance", "m", v->way.s, v->way.end);
     rc_loops_add(l, "step", NULL, (double)v->f.steps, NAN);
 }
 

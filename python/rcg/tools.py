@@ -642,8 +642,8 @@ class Result:
 
 
 # Figures that a list on the command line varies from case to case.
-AXES = ('load', 'mean_pressure', 'approach', 'time', 'distance', 'position', 'creep_x', 'creep_y', 'spin', 'tangential_x',
-        'tangential_y', 'speed')
+AXES = ('load', 'mean_pressure', 'approach', 'time', 'distance', 'cycles', 'position', 'creep_x', 'creep_y', 'spin',
+        'tangential_x', 'tangential_y', 'speed')
 
 
 def _case(f):

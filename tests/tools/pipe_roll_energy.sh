@@ -80,6 +80,19 @@ rc-wear --energy 3e-5mm3/J --cycles 50 --report fretted.json -o fretted.rcg two.
 near "$(report wear_volume fretted.json)" "$(number "3e-14 * 50 * $energy")" 1e-9 "cycles of fretting wear the coefficient times their energy"
 paste -d ' ' <(values fretted.rcg wear 4) <(values two.rcg dissipation 3) <(values two.rcg dissipation 4) >three.txt
 claim "  at each node" awk '{ d = $1 - 3e-14 * 50 * ($2 + $3); if (d * d > 1e-18 * $1 * $1) exit bad = 1 } END { exit bad }' three.txt
+counts() { # FILE: the keys cycles and distance of its heights, a line each
+    rc-pick --channel height "$1" | rc-info --json | grep -oE '"(cycles|distance)": *"?[0-9.e+-]+'
+}
+claim "a number of cycles is no distance" warns 'case 2, load 100 N, cycles 100000: contact fraction' \
+    rc-wear --verbose --energy 3e-5mm3/J --cycles 50,100000 --report count.tsv -o count.rcg two.rcg
+claim "  nor in the keys" test "$(counts count.rcg | tr -d ' "')" = "$(printf 'cycles:50\ncycles:100000')"
+claim "  also beside the distance of an earlier run" bash -c "
+    rc-wear --quiet --coefficient 1e-9mm3/Nm --distance 1um ball.rcg | rc-slip --quiet --mu 0.3 --tangential 10N --output height,dissipation |
+        rc-wear --quiet --energy 1e-5mm3/J --cycles 7 -o later.rcg"
+claim "    the key distance is gone" test "$(counts later.rcg | tr -d ' "')" = cycles:7
+claim "  nor in pictures" bash -c 'rc-render --channel wear --case 2 -o count.svg count.rcg && grep -q "cycles 100000" count.svg && ! grep -q distance count.svg &&
+    rc-render --channel wear --case 1,2 -o counts.svg count.rcg && grep -q ">a) cycles 50<" counts.svg'
+claim "  and its curve is drawn" rc-render --curve cycles:max_wear_depth -o curve.svg count.tsv
 refuses 1 'friction of rc-slip, a frame traction-x.*--cycles instead of --distance' "full sliding beside tractions" \
     'rc-slip --mu 0.3 --tangential 10N --output height,traction-x ball.rcg | rc-wear --coefficient 1e-6mm3/Nm --distance 1m -o x.rcg'
 refuses 1 'friction of rc-slip, a frame state' "full sliding of a contact that rolls" \

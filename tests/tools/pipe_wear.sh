@@ -268,6 +268,13 @@ rc-slip --quiet --mu 0.3 --nu 0 --path '1N,0,0; 1N,0.2N,0; 1N,-0.2N,0; 1N,0.2N,0
     <(rc-pick --case 1 fretted.rcg)
 way() { rc-pick --case "$1" --channel slip loop.rcg | rc-export --format csv | grep -v '^#' | tr , '\n' | awk '{ s += $1 } END { print s }'; }
 near "$(way 3)" "$(way 4)" 0.02 "both ways of a loop slip equally far"
+claim "cycles name the point" warns 'case 2, load 1.06667 N, cycles 3000: contact fraction' \
+    rc-wear --verbose --coefficient 5e-4mm3/Nm --cycles 1000,3000 --report cycles.tsv --steps cycle-steps.tsv -o cycles.rcg slip.rcg
+claim "  in its key, without a distance" bash -c 'rc-pick --case 2 --channel height cycles.rcg | rc-info --json | tee keys.json | grep -qE "\"cycles\": *\"?3000\"?," && ! grep -q "\"distance\"" keys.json'
+near "$(awk "BEGIN { printf \"%.17g\", $(column distance 2 cycles.tsv) / 3000 }")" "$(plain slip slip.rcg | tr , '\n' | sort -g | tail -1)" 1e-9 \
+    "  the column distance has the way of the node that slips most"
+near "$(column cycles 2 cycles.tsv)" 3000 0 "  and the column cycles their number"
+claim "  whose curve is drawn" rc-render --curve cycles:max_wear_depth -o curve.svg cycle-steps.tsv
 refuses 2 'cycles needs a frame slip' "cycles without a slip" "$wear --cycles 10 -o x.rcg pressed.rcg"
 refuses 2 'give --cycles' "a slip without cycles" "$wear --distance 1m -o x.rcg slip.rcg"
 refuses 2 'larger than the one before' "cycles that fall" "$wear --cycles 10,1 -o x.rcg slip.rcg"

@@ -214,7 +214,7 @@ LOOSE = {'dissimilar': 'dissipated'}
 
 SKIPPED = set('report steps checkpoint resume interval dry-run o quiet verbose debug progress help version'.split())
 LISTS = {'load': 'load', 'mean-pressure': 'load', 'approach': 'approach', 'time': 'time', 'speed': 'speed', 'travel': 'position',
-         'distance': 'distance', 'cycles': 'distance'}
+         'distance': 'distance', 'cycles': 'cycles'}
 # option: other values; a list changes by 10 % and grows by itself. None: a flag
 OTHER = {
     'rc-solve': {
@@ -475,8 +475,8 @@ class Mode:
             channel = keys['channel']
             same = lambda x: 1 - x if channel == 'contact' else x * 1.05
             changed = frames[:f] + [(keys, array.array(v.typecode, map(same, v)))] + frames[f + 1:]
-            self.resume('frame %s changed' % channel, 'frame (%s|height|pressure)|(load|distance) was' % channel, self.args, stream(changed))
-            self.resume('frame %s left out' % channel, 'frame %s|(load|distance) was' % channel, self.args, stream(frames[:f] + frames[f + 1:]))
+            self.resume('frame %s changed' % channel, 'frame (%s|height|pressure)|(load|distance|cycles) was' % channel, self.args, stream(changed))
+            self.resume('frame %s left out' % channel, 'frame %s|(load|distance|cycles) was' % channel, self.args, stream(frames[:f] + frames[f + 1:]))
         for channel, unit in FRAMES.items():
             if not any(k['channel'] == channel for k, _ in frames):
                 keys = dict(frames[0][0], channel=channel, unit=unit, type='f64')

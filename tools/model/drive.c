@@ -190,6 +190,19 @@ mark_case(struct drive *d)
         d->calls.mark(d);
 }
 
+struct drive_shown
+drive_show_axis(const struct drive *d, enum rc_axis axis, double *value)
+{
+    const struct rc_axis_info *info = rc_axis_info(axis);
+    double v;
+
+    if (d->shown.name == NULL || d->shown.axis != axis)
+        return (struct drive_shown){axis, info->name, info->unit, 1};
+    v = *value / d->shown.one;
+    *value = round(v) * d->shown.one == *value ? round(v) : v; /* 1000 cycles and not 999.9... */
+    return d->shown;
+}
+
 /* The axes of the point, and all points before it. */
 static void
 mark_point(struct drive *d)
@@ -199,9 +212,11 @@ mark_point(struct drive *d)
 
     if (d->checkpoint == NULL)
         return;
-    for (enum rc_axis k = 0; k < RC_AXES; k++)
-        course_mark(&d->course, MARK_POINT, rc_axis_info(k)->name,
-                    (p->given >> k & 1) ? rc_number(p->at[k]) : "");
+    for (enum rc_axis k = 0; k < RC_AXES; k++) {
+        double value = p->at[k];
+        const struct drive_shown as = drive_show_axis(d, k, &value);
+        course_mark(&d->course, MARK_POINT, as.name, (p->given >> k & 1) ? rc_number(value) : "");
+    }
     for (size_t k = 0; k < d->at && !d->independent; k++) {
         crc = rc_crc32_add(crc, &d->point[k].given, sizeof d->point[k].given);
         crc = rc_crc32_add(crc, d->point[k].at, sizeof d->point[k].at);
@@ -233,11 +248,13 @@ set_keys(struct drive *d, struct rc_model *m, struct rc_grid *g, const struct rc
     tool_sign(&d->t, g);
     if (d->points > 1)
         tool_set_number(&d->t, g, "case", (double)d->course.number);
-    for (size_t k = 0; k < RC_AXES; k++) {
-        const struct rc_axis_info *axis = rc_axis_info(k);
-        if ((d->point[d->at].given >> k & 1 || d->point[d->at].given >> axis->partner & 1) &&
-            isfinite(at->at[k]))
-            tool_set_number(&d->t, g, axis->name, at->at[k]);
+    for (enum rc_axis k = 0; k < RC_AXES; k++) {
+        const unsigned given = d->point[d->at].given;
+        double value = at->at[k];
+        if ((given >> k & 1 || given >> rc_axis_info(k)->partner & 1) && isfinite(value)) {
+            const struct drive_shown as = drive_show_axis(d, k, &value);
+            tool_set_number(&d->t, g, as.name, value);
+        }
     }
     if (d->calls.keys != NULL)
         d->calls.keys(d, m, g);
@@ -350,10 +367,16 @@ drive_where(const struct drive *d, const struct rc_grid *g, char *text, size_t s
                                  d->course.number);
     char value[SHOWN_NUMBER];
 
-    for (size_t k = 0; k < RC_AXES && at < size; k++)
-        if (d->is.at.given >> k & 1)
-            at += (size_t)snprintf(text + at, size - at, ", %s %s", rc_axis_info(k)->name,
-                                   shown(value, d->is.at.at[k], rc_axis_info(k)->unit));
+    for (enum rc_axis k = 0; k < RC_AXES && at < size; k++)
+        if (d->is.at.given >> k & 1) {
+            double is = d->is.at.at[k];
+            const struct drive_shown as = drive_show_axis(d, k, &is);
+            if (as.unit == NULL && as.name == d->shown.name)
+                snprintf(value, sizeof value, "%.9g", is);
+            else
+                shown(value, is, as.unit);
+            at += (size_t)snprintf(text + at, size - at, ", %s %s", as.name, value);
+        }
 }
 
 void

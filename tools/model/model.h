@@ -126,6 +126,12 @@ struct drive_axis {
     enum rc_axis axis;
     const struct numbers *list; /* n = 0: the option was not given */
 };
+/* An axis that the tool shows as another quantity, such as a number of cycles. */
+struct drive_shown {
+    enum rc_axis axis;
+    const char *name, *unit; /* name NULL: no axis is shown so; unit NULL: a plain number */
+    double one;              /* value of the axis where the quantity is 1 */
+};
 /* What to do about a figure beyond its limit, naming options; advice NULL: the limit does not hold. The last
  * has no name. */
 struct drive_advice {
@@ -178,6 +184,7 @@ struct drive {
      * The lists end with NULL. */
     const struct tool_frame *beside;
     const char *const *reads, *const *changeable;
+    struct drive_shown shown;
     const char *bound;    /* option of a number that may rise; NULL: none */
     bool independent;     /* no point depends on those before it */
     const char *boundary; /* of the case; NULL: as the map says */
@@ -218,6 +225,8 @@ void drive_judge(struct course *c, const struct rc_model *m, const struct drive_
                  const char *where);
 /* Warns of an RMS slope in contact that is not small. */
 void drive_judge_slope(struct course *c, double slope, const char *where);
+/* The quantity by which an axis is shown; *value, of the axis, becomes a value of it. */
+struct drive_shown drive_show_axis(const struct drive *d, enum rc_axis axis, double *value);
 /* "surface.rcg, case 2, load 3 N, time 0.1 s": the point of a warning. */
 void drive_where(const struct drive *d, const struct rc_grid *g, char *text, size_t size);
 

@@ -65,6 +65,7 @@ static const struct {
               {"case", "case ", NULL, false},
               {"load", "load ", "N", true},
               {"distance", "distance ", "m", true},
+              {"cycles", "cycles ", NULL, true},
               {"time", "time ", "s", true},
               {"speed", "speed ", "m/s", true},
               {"position", "position ", "m", true},
