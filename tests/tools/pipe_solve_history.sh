@@ -43,6 +43,19 @@ for k in 0 1 2 4 5 6; do
     near "$(of_case yielded_area $((k + 1)))" "$(field yielded_area hand.json)" 0.01 "  area that yields"
 done
 
+# An approach that flattens so much that every node of the shape it leaves would be at its hardness there.
+soft=${physics/150MPa/5MPa}
+# shellcheck disable=SC2086
+claim "an approach is not judged by the shape that it leaves" rc-solve $soft --history --approach 1.2um,0.1um --output pressure --report deep.json s.rcg -o deep.rcg
+cp s.rcg now.rcg
+for k in 1 2; do
+    # shellcheck disable=SC2086
+    rc-solve $soft --approach "$(cut -d ' ' -f $k <<<'1.2um 0.1um')" --output pressure,plastic --report hand.json now.rcg -o hand.rcg
+    rc-pick --channel plastic --set channel=height hand.rcg -o now.rcg
+    sed -n ${k}p deep.json >case.json
+    near "$(field load case.json)" "$(field load hand.json)" 1e-4 "  load $k by hand"
+done
+
 claim "without a hardness a warning says that --history has no effect" warns '--history has no effect, because nothing yields' \
     rc-solve --periodic --estar 3GPa --history --load 2mN,1mN --output pressure s.rcg -o p.rcg
 claim "--dry-run lists it among the effects" says 'history +on: each load acts on the shape' \
