@@ -636,6 +636,20 @@ rc_elastic_own(const struct rc_model *m)
     return e->solver != NULL ? e->solver->op->diagonal : 0;
 }
 
+enum rc_status
+rc_elastic_reach(const struct rc_model *m, const double *h, double approach, struct rc_err *err)
+{
+    const struct elastic *e = (const struct elastic *)m;
+    const struct rc_ranks *ranks = e->base.rows.ranks;
+
+    if (e->solver == NULL || !rc_load_completes(e->solver))
+        return RC_OK;
+    return rc_load_reach(approach,
+                         rc_ranks_highest(ranks, h, e->n) -
+                             rc_ranks_sum_of(ranks, h, e->n) / (double)e->solver->posed.nodes,
+                         err);
+}
+
 double
 rc_elastic_top(const struct rc_model *m)
 {

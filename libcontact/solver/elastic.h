@@ -27,6 +27,10 @@ const double *rc_elastic_pressure(const struct rc_model *m);
 double rc_elastic_top(const struct rc_model *m);
 /* m/Pa: displacement of a node under unit pressure on its own cell; 0 before the first contact. */
 double rc_elastic_own(const struct rc_model *m);
+/* RC_FAIL for an approach, m, at which the contact of these heights is complete; RC_OK before the first
+ * contact. For an outer model whose contacts have other heights and approaches. */
+enum rc_status rc_elastic_reach(const struct rc_model *m, const double *h, double approach,
+                                struct rc_err *err);
 /* u = K p as the iteration follows it, or the same added to u. */
 void rc_elastic_displacement(const struct rc_model *m, bool add, double *u);
 /* The same by a fresh convolution in double precision or, not `fresh`, as the iteration follows it, in a map

@@ -135,13 +135,30 @@ check_datum(const struct rc_solver *s, struct rc_err *err)
     return RC_OK;
 }
 
+enum rc_status
+rc_load_reach(double approach, double full, struct rc_err *err)
+{
+    if (!(approach >= full))
+        return RC_OK;
+    return rc_err_set(err,
+                      "approach %.9g m: the contact of this periodic surface is complete at %.9g "
+                      "m, and a larger load does not change the approach; give the load instead",
+                      approach, full);
+}
+
+bool
+rc_load_completes(const struct rc_solver *s)
+{
+    return s->tilt == NULL && s->op->mean_free && !rc_bounded(&s->posed.bounds);
+}
+
 /* RC_FAIL where complete contact is reached before this approach: a larger load does not increase the
  * approach. */
 static enum rc_status
 check_approach(struct rc_solver *s, double approach, struct rc_err *err)
 {
     bool bounded = rc_bounded(&s->posed.bounds);
-    double total[RC_SUMS], full;
+    double total[RC_SUMS];
 
     if (check_datum(s, err) != RC_OK)
         return RC_FAIL;
@@ -150,14 +167,7 @@ check_approach(struct rc_solver *s, double approach, struct rc_err *err)
     rc_reduce_blocks(s, depth_block, s, total);
     if (bounded)
         return check_yield(s, approach, total[RC_MOST], err);
-    full = -total[0] / (double)s->posed.nodes;
-    if (approach >= full)
-        return rc_err_set(
-            err,
-            "approach %.9g m: the contact of this periodic surface is complete at %.9g m, and a "
-            "larger load does not change the approach; give the load instead",
-            approach, full);
-    return RC_OK;
+    return rc_load_reach(approach, -total[0] / (double)s->posed.nodes, err);
 }
 
 /* Where the load is sought, the given load is a first guess. Without one, the guess is the load of a flat

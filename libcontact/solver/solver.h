@@ -334,6 +334,10 @@ enum rc_status rc_load_check(double load, const struct rc_bounds *bounds, double
                              struct rc_err *err);
 /* Sets the load and its derived numbers; RC_FAIL when there is no solution. */
 enum rc_status rc_load_set(struct rc_solver *solver, double load, struct rc_err *err);
+/* True if there is an approach from which on the contact is complete. */
+bool rc_load_completes(const struct rc_solver *solver);
+/* RC_FAIL for an approach from `full` on, where the contact is complete: the highest node over the mean. */
+enum rc_status rc_load_reach(double approach, double full, struct rc_err *err);
 /* Sets the first load: the given one or, in a search, a guess. */
 enum rc_status rc_load_first(struct rc_solver *solver, const struct rc_problem *problem,
                              struct rc_err *err);

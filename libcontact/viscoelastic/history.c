@@ -846,6 +846,8 @@ go(struct rc_model *m, struct rc_err *err)
 
     if (m->to.at[RC_APPROACH] < 0 && by_approach(v))
         return rc_err_set(err, "approach %g m: it must be at least 0", m->to.at[RC_APPROACH]);
+    if (by_approach(v) && rc_elastic_reach(m->inner, v->h, m->to.at[RC_APPROACH], err) != RC_OK)
+        return RC_FAIL;
     if (allocate(v, err) != RC_OK)
         return RC_FAIL;
     v->leg.tried = INFINITY;

@@ -371,7 +371,7 @@ held_ball(void **state)
 }
 
 /* The same on a rough periodic map up to nearly complete contact, at a second and a year. The heights of each
- * step have their own approach of complete contact. */
+ * step have their own approach of complete contact; a refusal names that of the bodies. */
 static void
 held_rough(void **state)
 {
@@ -380,7 +380,8 @@ held_rough(void **state)
         .hurst = 0.8, .rms_slope = 0.1, .seed = 5, .long_cut = 32e-6, .short_cut = 8e-6};
     const double times[] = {0, 1, 3.15e7}, taus[][2] = {{1, 2}, {1e-3, 0.1}},
                  parts[][2] = {{0.3, 0.2}, {0.6, 1.0 / 3}}, depths[] = {0.3, 0.7, 0.95};
-    double top = -INFINITY;
+    double top = -INFINITY, said[2];
+    struct rc_point to = {0};
     struct rc_err err;
 
     (void)state;
@@ -420,6 +421,15 @@ held_rough(void **state)
             assert_true(worst < f->increment_error + 1e-6 && f->increment_error <= 0.01);
             solved_free(&elastic);
         }
+        rc_point_set(&to, RC_APPROACH, 1.01 * top);
+        rc_point_set(&to, RC_TIME, 2 * times[2]);
+        assert_int_equal(rc_model_run(b.m, &to, &err), RC_FAIL);
+        assert_int_equal(sscanf(err.text,
+                                "approach %lf m: the contact of this periodic surface is complete "
+                                "at %lf m",
+                                &said[0], &said[1]),
+                         2);
+        assert_true(fabs(said[0] / top - 1.01) < 1e-8 && fabs(said[1] / top - 1) < 1e-8);
         leave(&b);
     }
 }
