@@ -87,6 +87,10 @@ claim "  a message about an option is said once" test "$(grep -c -- '--hardness 
 claim "  also on the page" test "$(sed -n '/<h2>Accuracy/,/<h2>Limits/p' typed.html | grep -c -- '--hardness 129HV is')" = 1
 claim "  like bodies do not feel friction" grep -q 'friction of dissimilar bodies</th><td>negligible: changes nothing' effects.html
 claim "  and the data that other effects need" grep -q 'Data are missing for: .*partial slip (--tangential)' effects.html
+rc-report --quiet --load 20N --body1 steel --body2 100Cr6 -o named.html steel.rcg
+claim "  the sentence of an effect that cannot be judged is whole" bash -c '
+    grep -q "<tr><th>yield in the volume</th><td>cannot be judged: the table has no yield stress of steel, body 1: give --yield</td>" named.html &&
+    grep -q "<tr><th>hardness</th><td>cannot be judged: the table has no hardness of steel, body 1; " named.html'
 claim "  rc-solve does not get them" bash -c '! grep "^rc-solve.*--yield" steel.html | grep -v "<pre>"'
 rc-report --quiet --load 1N --E1 rigid --layer 5um,3GPa,0.4 --E2 rigid -o layers.html steel.rcg
 claim "layers on a rigid body 1: no verdicts" lacks '<h2>Effects' layers.html

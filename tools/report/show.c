@@ -496,14 +496,26 @@ put_command(const struct page *run, const char *line)
     page_text(out, line);
 }
 
+static void
+put_verdict(FILE *out, const char *title, const char *verdict)
+{
+    fputs("<tr><th>", out);
+    page_text(out, title);
+    fputs("</th><td>", out);
+    page_text(out, verdict);
+    fputs("</td></tr>\n", out);
+}
+
 /* Shows the verdicts of rc-scene: the lines of effects, indented by two blanks, with their commands, indented
- * further, and what is missing. Expected times depend on the machine and are left out. */
+ * further, and what is missing. Expected times depend on the machine and are left out. The sentence of an
+ * effect that cannot be judged follows its title after one blank, verdicts begin in a column of their own. */
 void
 page_show_effects(struct page *run, FILE *in, const char *a, const char *b)
 {
     enum {
         TITLE = 33 /* the verdict begins here */
     };
+    static const char unjudged[] = " cannot be judged: ";
     FILE *out = run->page.file;
     RC_OWNED char *line = NULL;
     RC_OWNED char *missing = NULL;
@@ -524,15 +536,14 @@ page_show_effects(struct page *run, FILE *in, const char *a, const char *b)
             fputs("<tr><td></td><td><pre>", out);
             put_command(run, line + 6);
             fputs("</pre></td></tr>\n", out);
+        } else if (lines > 0 && (end = strstr(line, unjudged)) != NULL) {
+            *end = '\0';
+            put_verdict(out, line + 2, end + 1);
         } else if (lines > 0 && n > TITLE) {
             line[TITLE - 1] = '\0';
             for (char *c = line + TITLE - 2; c > line && *c == ' '; c--)
                 *c = '\0';
-            fputs("<tr><th>", out);
-            page_text(out, line + 2);
-            fputs("</th><td>", out);
-            page_text(out, line + TITLE);
-            fputs("</td></tr>\n", out);
+            put_verdict(out, line + 2, line + TITLE);
         }
     }
     fputs("</table>\n", out);
