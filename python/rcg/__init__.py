@@ -16,10 +16,10 @@ grid stream, run calls a tool by its name, and so does report with the name of a
 sample('rough-steel.x3p') is the path of a sample surface; materials() is the table behind body1='steel'. Long runs show their progress in terminals and notebooks.
 """
 from .stream import Error, Frame, dumps, frame, loads, read, write
-from .tools import FUNCTIONS, NotConverged, Page, Picture, Result, ToolWarning, Verdicts, function, materials, run, sample
+from .tools import FUNCTIONS, NotConverged, Page, Picture, Result, ToolWarning, Trials, Verdicts, function, materials, run, sample
 
 __version__ = '0.1.0'
-__all__ = ['Error', 'Frame', 'NotConverged', 'Page', 'Picture', 'Result', 'ToolWarning', 'Verdicts', 'frame', 'loads', 'read',
+__all__ = ['Error', 'Frame', 'NotConverged', 'Page', 'Picture', 'Result', 'ToolWarning', 'Trials', 'Verdicts', 'frame', 'loads', 'read',
            'dumps', 'write', 'run', 'sample', 'materials'] + sorted(FUNCTIONS)
 
 

@@ -12,7 +12,7 @@ from typing import Any, Callable, Literal, overload
 import numpy
 
 from .stream import Error as Error, Frame as Frame, dumps as dumps, frame as frame, loads as loads, read as read, write as write
-from .tools import NotConverged as NotConverged, Page as Page, Picture as Picture, Result as Result, ToolWarning as ToolWarning, Verdicts as Verdicts
+from .tools import NotConverged as NotConverged, Page as Page, Picture as Picture, Result as Result, ToolWarning as ToolWarning, Trials as Trials, Verdicts as Verdicts
 from .tools import materials as materials, run as run, sample as sample
 
 __version__: str

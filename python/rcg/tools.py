@@ -725,6 +725,45 @@ class Verdicts(list):
                                   'sentence': e['sentence'], 'missing': e['missing']} for line in self for e in line['scene']])
 
 
+class Trials(list):
+    """What rcg.cost() returns: a dict for each trial or figure, which interpreters and notebooks show as a table.
+
+    proposal: the command that budget= or error= selects, as text for a shell, without the surface; None without these
+    options.
+    """
+    SHOWN = {'figure': ('name', 'value', 'unit', 'bar_relative', 'dominant', 'why'), 'run': ('name', 'seconds', 'why')}
+
+    def __init__(self, rows=(), proposal=None):
+        super().__init__(rows)
+        self.proposal = proposal
+
+    def _table(self):
+        """Lines of cells; the first of each kind of rows are their titles."""
+        found, heads = [], None
+        for row in self:
+            names = list(row)
+            lists = names[names.index('what') + 1:names.index('nx')] if 'nx' in names else []  # what rc-cost varied
+            keys = self.SHOWN.get(row['what']) or ('what', *lists, 'seconds', 'memory', 'error', 'bound', 'why')
+            if keys != heads:
+                found.append(keys)
+                heads = keys
+            cells = [row.get(key) for key in keys]
+            found.append(['' if cell is None else '%.4g' % cell if isinstance(cell, float) else str(cell) for cell in cells])
+        return found
+
+    def __repr__(self):
+        table = self._table()
+        widths = [max(len(line[k]) for line in table if k < len(line)) for k in range(max(map(len, table), default=0))]
+        lines = ['  '.join(cell.ljust(width) for cell, width in zip(line, widths)).rstrip() for line in table]
+        return '\n'.join(lines + (['proposal: ' + self.proposal] if self.proposal else []))
+
+    def _repr_html_(self):
+        import html
+        table = '<table>%s</table>' % ''.join(
+            '<tr>%s</tr>' % ''.join('<td>%s</td>' % html.escape(cell) for cell in line) for line in self._table())
+        return table + ('<p>Proposal: <code>%s</code></p>' % html.escape(self.proposal) if self.proposal else '')
+
+
 # ---- calls ----
 
 def _has_report(row, given):
@@ -939,10 +978,15 @@ def costs(surface, command, dx=None, timeout=None, progress=None, **given):
     their bars (what == 'figure') and then the maps that were run (what == 'run').
 
     command: 'rc-solve --load 60N --estar 114GPa | rc-leak', or a list of its words. vary: 'increments=8,16', or a list of such texts.
+
+    With error='1%' the attribute proposal is the fastest command whose error is at most this; with budget='5s' it is the
+    most accurate one that takes at most this time. The proposal is shown below the table.
     """
     words = ['rc-cost'] + arguments('rc-cost', given) + ['--'] + ([command] if isinstance(command, str) else [os.fspath(w) for w in command])
-    status, _, said, lines = _reported(words, _data(surface, dx), True, timeout, progress)
-    return _settled(status, said, Result('rc-cost', words, frames=[], lines=lines)).lines
+    status, output, said, lines = _reported(words, _data(surface, dx), True, timeout, progress)
+    selects = given.get('error') is not None or given.get('budget') is not None
+    proposal = bytes(output).decode().strip() if selects and output else None
+    return Trials(_settled(status, said, Result('rc-cost', words, frames=[], lines=lines)).lines, proposal)
 
 
 def verdicts(surface, dx=None, timeout=None, progress=None, **given):
@@ -982,7 +1026,7 @@ def function(name):
     named = [inspect.Parameter(python, inspect.Parameter.KEYWORD_ONLY, default=None, annotation=_Hint(annotation(row) + ' | None'))
              for python, row in rows.items()]
     named += [p.replace(kind=inspect.Parameter.KEYWORD_ONLY) for p in own if p not in positional]
-    result = {'render': 'Picture', 'report': 'Page', 'export': 'None', 'cost': 'list[dict[str, Any]]', 'scene': 'Verdicts'}.get(name, 'Result')
+    result = {'render': 'Picture', 'report': 'Page', 'export': 'None', 'cost': 'Trials', 'scene': 'Verdicts'}.get(name, 'Result')
     made.__signature__ = _signature()(positional + named, return_annotation=_Hint(result))
     made.__name__ = made.__qualname__ = name
     made.__module__ = 'rcg'

@@ -902,6 +902,11 @@ def costs(name):
     words = ['rc-solve', '--load', '0.5N', '--estar', '114GPa', '|', 'rc-stress', '--nu', '0.3', '--depths', '1um,2um']
     assert len(rcg.cost(name, words, vary=['1.tol=1e-2,1e-3', '2.kernel=fft,mlms'], quiet=True)) == 5
     assert 'no shell' in str(raised(rcg.Error, rcg.cost, name, 'sh -c true'))
+    fast = rcg.cost(name, 'rc-solve --load 0.5N --estar 114GPa', tol=[1e-2, 1e-4], error='1%', quiet=True)
+    near = [row for row in fast if row['what'] == 'trial' and row['bound'] <= 0.01]
+    assert fast.proposal == min(near, key=lambda row: row['seconds'])['command'], (fast.proposal, near)
+    assert repr(fast).endswith('proposal: ' + fast.proposal) and '<code>%s</code>' % fast.proposal in fast._repr_html_(), fast
+    assert rows.proposal is None and 'proposal' not in repr(rows) and repr(rows).count('\n') == 3, rows
 
 
 def bars(name):
