@@ -52,6 +52,8 @@ done
 # ---- forces over a length ----
 
 refuses 2 'N and N/m in one list' "forces of two kinds" "rc-solve --load 1N/m,2N --estar 1GPa ball.rcg"
+refuses 2 "--coefficient 1e-7: the number has no unit: m2/N is expected, .*, or mm3/Nm or 1/GPa" "a wear coefficient without its unit" \
+    "rc-scene --load 1N --estar 1GPa --coefficient 1e-7 --distance 1m </dev/null"
 refuses 2 "unknown unit 'N/s': N or N/m is expected" "a force over a time" \
     "rc-solve --load 1N/s --estar 1GPa ball.rcg"
 refuses 2 'load -1 N/m: it must be at least 0' "a negative one, in its own unit" \

@@ -353,7 +353,7 @@ other_scale(const char *suffix, size_t n)
     return NULL;
 }
 
-/* Says which units are accepted instead of suffix[0..n). */
+/* Says which units are accepted instead of suffix[0..n), which is empty for a number that needs its unit. */
 static enum rc_status
 unknown_unit(const char *suffix, size_t n, enum unit unit, bool per_metre, struct rc_err *err)
 {
@@ -373,10 +373,9 @@ unknown_unit(const char *suffix, size_t n, enum unit unit, bool per_metre, struc
                           "unknown unit '%.*s': a plain number or a percentage is expected, as in "
                           "0.5%%",
                           (int)n, suffix);
-    return rc_err_set(err,
-                      "unknown unit '%.*s': %s%s is expected, with or without one of the prefixes "
-                      "%s%s%s",
-                      (int)n, suffix, unit_name(unit), per_metre ? " or N/m" : "",
+    return rc_err_set(err, "%s%.*s%s: %s%s is expected, with or without one of the prefixes %s%s%s",
+                      n == 0 ? "the number has no unit" : "unknown unit '", (int)n, suffix,
+                      n == 0 ? "" : "'", unit_name(unit), per_metre ? " or N/m" : "",
                       prefix_list(list, sizeof list), also != NULL ? ", or " : "",
                       also != NULL ? also : "");
 }
