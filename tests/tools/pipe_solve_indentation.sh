@@ -9,6 +9,10 @@ loads=20mN,0.2N,0.6N,1N,0.8N,0.6N,0.4N,0.2N,0.1N,20mN,1mN,0,1mN,20mN,0.1N,0.2N,0
 rc-solve --quiet --history --estar 114GPa --hardness 1GPa --tol 1e-6 --load $loads --output pressure,gap,displacement,height,plastic \
     --report ball.tsv ball.rcg -o result.rcg
 
+rc-solve --verbose --history --estar 114GPa --hardness 1GPa --load 1N,0.8N ball.rcg -o two.rcg --report two.json 2>notes.txt
+dent=$(grep -o '"indentation": [^,]*' two.json | tail -1)
+near "$(sed -n 's/.*load 800 mN: indentation \([0-9.]*\) nm from the first touch of the initial shape.*/\1e-9/p' notes.txt)" "${dent#*: }" 1e-4 "--verbose notes an indentation that is not the approach"
+claim "  but none where both are equal" lacks 'load 1 N: indentation' notes.txt
 claim "each of 25 cases has its five frames" test "$(channels result.rcg)" = "$(for _ in {1..25}; do echo pressure gap displacement height plastic; done | xargs)"
 
 # cell COLUMN ROW

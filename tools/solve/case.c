@@ -98,6 +98,7 @@ keep_shape(struct drive *d, struct rc_model *m)
     struct run *run = (struct run *)(void *)d;
     struct solution *s = &run->solution;
     struct rc_grid *g = run->g;
+    char where[512];
 
     if (!run->physics->history)
         return;
@@ -109,6 +110,11 @@ keep_shape(struct drive *d, struct rc_model *m)
     drive_keep(d, m);
     s->indentation = rc_model_number(m, "indentation");
     s->residual_indentation = rc_model_number(m, "residual_indentation");
+    if (fabs(s->indentation - s->contact.approach) > 1e-6 * fabs(s->contact.approach))
+        tool_note(&d->t,
+                  "%s: indentation %s from the first touch of the initial shape; the approach "
+                  "counts from that of the dented one",
+                  solve_where(run, g, where, sizeof where), shown_in_unit(s->indentation, "m"));
 }
 
 /* Finds the contact inside the taper of a tapered map (key `taper`); touch is NULL for separated bodies. */
