@@ -35,6 +35,9 @@ claim "a layer of metres on a map of micrometres causes a warning" warns 'thickn
     rc-solve --load 1mN --E1 210GPa --nu1 0.3 --E2 rigid --layer 2,400GPa,0.2 ball.rcg -o p.rcg
 claim "  with its unit it causes none" bash -c 'rc-solve --load 1mN --E1 210GPa --nu1 0.3 --E2 rigid --layer 2um,400GPa,0.2 ball.rcg -o p.rcg 2>err; ! grep -q "without a unit" err'
 rc-synth wave --nx 64 --dx 10um --amplitude 1nm --wavelength 640um -o flat.rcg
+claim "a tip that is smaller than the spacing causes a warning" warns 'a radius of 2 nm is smaller than the spacing of the nodes, [0-9.]* [nu]m: the grid does not resolve this tip' \
+    rc-solve --load 1uN --estar 114GPa --radius 2nm flat.rcg -o p.rcg
+claim "  a larger one does not" bash -c 'rc-solve --load 1mN --estar 114GPa --radius 3.75mm flat.rcg -o p.rcg 2>err; ! grep -q "this tip" err'
 claim "a radius of metres causes a warning" warns 'radius of 3.75 m on a map 640 um wide: .* write 3.75mm' rc-solve --load 1mN --estar 114GPa --radius 3.75 flat.rcg -o p.rcg
 claim "  with its unit it causes none" bash -c 'rc-solve --load 1mN --estar 114GPa --radius 3.75mm flat.rcg -o p.rcg 2>err; ! grep -q "without a unit" err'
 claim "--nu2 with a rigid body is refused" warns 'nu2 has no effect beside --E2 rigid' rc-solve --load 1mN --E1 210GPa --nu1 0.3 --E2 rigid --nu2 0.3 ball.rcg -o p.rcg

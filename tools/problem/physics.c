@@ -457,6 +457,19 @@ warn_of_metres(struct tool *t, const struct physics *a, const struct rc_grid *g,
                   rc_number(radius));
 }
 
+/* Warns of a tip that lies between the nodes. */
+static void
+warn_of_tip(struct tool *t, const struct physics *a, const struct rc_grid *g, const char *where)
+{
+    const double spacing = fmax(g->nx > 1 ? g->dx : 0, g->ny > 1 ? g->dy : 0);
+
+    if (a->radius < spacing)
+        tool_warn(t,
+                  "%s: --radius: a radius of %s is smaller than the spacing of the nodes, %s: the "
+                  "grid does not resolve this tip: take a finer grid",
+                  where, shown_in_unit(a->radius, "m"), shown_in_unit(spacing, "m"));
+}
+
 static void
 warn(struct tool *t, const struct physics *a, const struct rc_grid *g)
 {
@@ -468,6 +481,7 @@ warn(struct tool *t, const struct physics *a, const struct rc_grid *g)
         surface.y = surface.y && isnan(a->radius) && physics_cylinder_axis(a, g) == RC_Y;
     }
     warn_of_metres(t, a, g, where);
+    warn_of_tip(t, a, g, where);
     if (rc_repeats(a->boundary) == 0 && rc_repeats(surface) > 0)
         tool_warn(t,
                   "%s: the surface is periodic%s, but the solution has no material beyond the "
