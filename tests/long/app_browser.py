@@ -356,6 +356,9 @@ def effects(page):
     solve = command('rc-solve')
     ok('  a yield stress replaces the options that exclude it, and says so', '--body1 steel --body2 steel --yield 300MPa' in solve
        and 'It replaces “Hardness”, “Discretization”.' in page.inner_text('#said'), solve + page.inner_text('#said'))
+    mark = lambda effect: page.locator('#verdicts tr:has(th:text-is("%s")) td' % effect).last.inner_text()
+    ok('  the table marks what the steps have now', (mark('hardness'), mark('yield in the volume')) == ('Add', 'in the steps'),
+       page.inner_text('#verdicts'))
     page.click('details:has(> summary code:text("rc-solve")) button[aria-label="Remove Yield stress"]')
     names = page.locator('select[aria-label="Add an option of rc-solve"] option').all_text_contents()
     ok('  an option that is excluded says by what', any(name.startswith('Time (needs “Relaxation”): ') for name in names), str(names))
@@ -370,6 +373,21 @@ def effects(page):
     ok('a study that fails says why below the result', '300kg' in page.inner_text('#verdicts'), page.inner_text('#verdicts'))
     page.locator('#known [data-name=yield] input').fill('')
     page.click('details:has(> summary code:text("rc-wear")) > button:text-is("Remove")')
+    page.locator('#known [data-name=mu] input').fill('0.25')
+    page.locator('#known [data-name=yield] input').fill('310MPa')
+    page.click('#accuracy summary')
+    page.fill('#noise', '3nm')
+    with page.expect_download() as download:
+        page.click('#save [name="report.html"]')
+    download.value.save_as(place('effects.html'))
+    report, line = open(place('effects.html')).read(), page.inner_text('#made code')
+    ok('the saved report has the data of the effects and the noise', '--mu 0.25' in report and '310 MPa' in report
+       and 'Noise of 3 nm' in report, line)
+    ok('  and its command is listed as it ran', line.startswith('rc-report ') and '--coefficient 1e-6mm3/Nm --distance 1m' in line
+       and '--mu 0.25' in line and '--yield 310MPa' in line and '--noise 3nm' in line, line)
+    page.locator('#known [data-name=yield] input').fill('')
+    page.fill('#noise', '5nm')
+    page.click('#accuracy summary')
 
 
 def queue(page):

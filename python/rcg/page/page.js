@@ -85,7 +85,10 @@ const trying = act => async (...given) => {
 // jobs: the tools of those that have not ended. Their messages have a line of their own, beside that of the runs.
 const jobs = [];
 let lastJob = Promise.resolve();
-function note(textContent, className = '') { Object.assign($('job'), {textContent, className}); }
+function note(textContent, className = '', ...line) {
+  Object.assign($('job'), {textContent, className});
+  $('made').replaceChildren(...line);
+}
 function queued(tool, act) {
   const at = place();
   jobs.push(tool);
@@ -225,6 +228,7 @@ function drawSteps() {
 function changed() {
   const kept = steps.map(({tool, options, open}) => ({tool, options, open}));
   sessionStorage.setItem('work', JSON.stringify({file, steps: kept}));
+  mark();
   clearTimeout(changed.later);
   changed.later = setTimeout(trying(async () => {
     const all = used(), {commands} = await ordered(all, false);
@@ -511,25 +515,33 @@ function showPoint(heads, row, columns) {
 }
 const save = (tool, options, name) => queued(tool, async at => {
   note(`${tool} makes ${name} …`);
-  const href = URL.createObjectURL(await (await made(tool, options, name, at)).blob());
+  const answer = await made(tool, options, name, at), href = URL.createObjectURL(await answer.blob());
   make('a', {href, download: name}).click();
-  note(`${name} is saved.`);
+  note(`${name} is saved.`, '', command(decodeURIComponent(answer.headers.get('X-Command'))));
   setTimeout(() => URL.revokeObjectURL(href), 60000);
 });
 function downloads() {
-  const {output, report} = runShown().steps[frame.step], contact = steps.find(step => step.tool === 'rc-solve');
+  const {output, report} = runShown().steps[frame.step];
   const link = (download, of) => make('a', {className: 'button', textContent: download, download,
     href: address('file', {...place(), of})});
-  const known = tables['rc-report'].options.map(row => row.name);
-  const page = given(contact?.options ?? []).filter(([name]) => known.includes(name));
   const all = ['png', 'svg', 'pdf'].map(suffix => [suffix.toUpperCase(), 'rc-render',
     framed(view === 'Numbers' ? [] : VIEWS[view]), `${frame.channel}-${view.toLowerCase()}.${suffix}`]);
-  all.push(['Report page', 'rc-report', page, 'report.html']);
+  all.push(['Report page', 'rc-report', null, 'report.html']);
   const formats = tables['rc-export'].options.find(row => row.name === 'format').words;
   $('save').replaceChildren('Save: ', link(output, 'stream'), ...(report ? [link(report, 'report')] : []),
-    ...all.map(([text, ...what]) => button(text, () => save(...what), {name: what[2]})),
+    ...all.map(([text, tool, options, name]) => button(text, () => save(tool, options ?? ofReport(), name), {name})),
     choice('Other format', formats,
       format => save('rc-export', framed([['format', format]], false), `${frame.channel}.${format}`)));
+}
+
+// The options of the report: those of the contact, the data typed below Effects and the noise. Of the data, a hardness
+// and layers are options of the contact itself, which is the one that was pressed.
+function ofReport() {
+  const takes = name => tables['rc-report'].options.some(row => row.name === name);
+  const data = given(known).filter(([name]) => !/^(hardness|layer)$/.test(name)), names = data.map(([name]) => name);
+  const contact = given(pressed()?.options ?? []).filter(([name]) => !names.includes(name));
+  const noise = $('noise').value.trim();
+  return [...contact, ...data, ...(noise ? [['noise', noise]] : [])].filter(([name]) => takes(name));
 }
 
 // ---- effects: the verdicts of rc-scene on the contact, and buttons that add an effect to the steps ----
@@ -573,9 +585,9 @@ const judge = studying('verdicts', 'rc-scene', async at => {
       `${effects.map(name => `“${named(name, 'rc-solve')}”`).join(', ')} of the step “Press”.`)] : []),
     make('table', {}, ...scene.filter(e => e.sentence).map(e => make('tr', {}, make('th', {textContent: e.title}),
       make('td', {textContent: e.sentence}),
-      make('td', {}, ...(!e.command.length ? [] : present(e) ? ['in the steps'] :
-        [button('Add', () => addEffect(e), {name: e.effect})]))))),
+      offered(e)))),
     hint(missing.length ? 'Data are missing for: ' + missing.map(lacking).join(', ') + '.' : ''));
+  mark();
   document.body.dataset.judged = scene.length;
   note('The table below has the verdicts.');
 });
@@ -604,6 +616,19 @@ function brought(e) {
 }
 const present = e => brought(e).every(([tool, options]) => steps.some(step => step.tool === tool &&
   options.every(([name, value]) => step.options.some(option => option[0] === name && option[1] === value))));
+// The cell of an effect that a command computes: whether the steps have it now, or a button that adds it.
+const offers = new Map();
+function offered(e) {
+  const cell = make('td');
+  if (e.command.length) offers.set(cell, e);
+  return cell;
+}
+function mark() {
+  for (const [cell, e] of offers) {
+    if (!cell.isConnected) offers.delete(cell);
+    else cell.replaceChildren(present(e) ? 'in the steps' : button('Add', () => addEffect(e), {name: e.effect}));
+  }
+}
 function addEffect(e) {
   const bodies = withBodies(e), lost = [];
   for (const [tool, options] of brought(e)) {
