@@ -280,6 +280,8 @@ limited() {
     [ "$(wc -l <slow.runs)" -le 5 ] && grep -q 'left of --limit' slow.txt
 }
 claim "--limit holds for all trials, also those before the reference and beside it" limited
+refuses 1 'no reference: .*stopped after .* \(tol 0.001\): raise --limit, or give lists that end at less accurate values' \
+    "a reference that takes too long, with what to do" "slowly/rc-cost --limit 0.3s --tol 1e-1,1e-2 tiny.rcg -- rc-solve --load 1N --estar 1GPa"
 rc-cost --tol 1e-8,1e-1,1e-4 --plot line.svg --quiet -o line.txt rough.rcg -- $contact
 claim "the line of the picture does not turn back in time" awk '
     /<path d="M.*stroke-width="2.2"/ { gsub(/.*d="M|" fill.*/, ""); n = split($0, point, "L"); lines += n == 4

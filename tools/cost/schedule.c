@@ -263,6 +263,25 @@ try_reference(struct cost_case *c, const size_t pick[COST_LISTS])
     return &c->trial[c->reference];
 }
 
+/* Ends the tool. A reference that was stopped needs more time, or less accuracy. */
+static void
+no_reference(const struct cost_case *c, const struct cost_trial *t)
+{
+    const bool late = strstr(t->why, "stopped after") != NULL;
+    char name[160], more[320] = "";
+
+    if (late && c->lists > 0)
+        snprintf(more, sizeof more,
+                 " (%s): raise --limit, or give lists that end at less accurate values, as in "
+                 "--tol 1e-1,1e-2",
+                 cost_name(c, t, false, name));
+    else if (late)
+        snprintf(more, sizeof more, ": raise --limit");
+    tool_die_at(c->tool, c->usage ? NULL : c->first, c->usage ? EXIT_USAGE : EXIT_IMPOSSIBLE,
+                "no reference: %s%s", strncmp(t->why, "left out: ", 10) == 0 ? t->why + 10 : t->why,
+                more);
+}
+
 /* Runs the reference. If the step beyond the tightest values fails, these are the reference. */
 static void
 run_reference(struct cost_case *c)
@@ -285,9 +304,7 @@ run_reference(struct cost_case *c)
         t = try_reference(c, pick);
     }
     if (t->state != COST_DONE)
-        tool_die_at(c->tool, c->usage ? NULL : c->first, c->usage ? EXIT_USAGE : EXIT_IMPOSSIBLE,
-                    "no reference: %s",
-                    strncmp(t->why, "left out: ", 10) == 0 ? t->why + 10 : t->why);
+        no_reference(c, t);
 }
 
 void
