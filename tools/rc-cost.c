@@ -292,7 +292,8 @@ check_of(struct tool *t, const struct cost_case *c)
     for (size_t k = 0; k < c->channels; k++)
         name_nearer(c->of, c->channel[k].name, nearest);
     for (size_t k = 0; k < c->figures; k++)
-        name_nearer(c->of, c->figure[k].shown, nearest);
+        if (!isnan(c->trial[c->reference].figure[k])) /* the reports have it */
+            name_nearer(c->of, c->figure[k].shown, nearest);
     tool_usage(t, "--of %s: the command gives no such frame or figure%s", c->of,
                name_meant(nearest, meant));
 }

@@ -207,6 +207,12 @@ refuses 1 'contains a height and results computed from it' "results beside the h
 claim "--dry-run lists the maps and runs none" bash -c "rc-cost --dry-run --noise 1nm --resolution true.rcg -- rc-solve $contact >dry.txt && grep -q '^7 runs on 128 x 128 nodes, about' dry.txt && grep -q '^  grid 1/4' dry.txt"
 claim "loads are rows of their own" bash -c "rc-cost --quiet --noise 10nm true.rcg -- rc-solve --periodic --mean-pressure 10MPa,20MPa --estar 1GPa >loads.txt && grep -Eq '^contact_area +2 ' loads.txt"
 rc-synth selfaffine --nx 400 --dx 1um --hurst 0.8 --rms-slope 0.1 --seed 1 -o large.rcg
+rc-synth sphere --nx 32 --dx 10um --radius 7.5mm -o few.rcg
+rc-cost --quiet --noise 10nm --repeats 2 few.rcg -- rc-solve --load 1N --E1 210GPa --nu1 0.3 --E2 rigid '|' rc-stress --depths 20um >stress.txt
+claim "a program without single figures is named" grep -q '^# rc-stress: no bars: its report has values by component or depth' stress.txt
+claim "  and no other one" bash -c '! grep -q "# rc-solve: no bars" stress.txt'
+refuses 2 'of max_mises: the command gives no such frame or figure$' "no figure that the reports lack is proposed" \
+    "rc-cost --quiet --tol 1e-1 --of max_mises few.rcg -- rc-solve --load 1N --E1 210GPa --nu1 0.3 --E2 rigid '|' rc-stress --depths 20um"
 claim "trials beyond --limit are left out and named" bash -c "rc-cost --quiet --limit 3s --noise 10nm --repeats 64 large.rcg -- rc-solve $contact >limit.txt && grep -q '^# noise 64: left out: .* left of --limit' limit.txt"
 interrupted() {
     local tool status late

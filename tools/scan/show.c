@@ -149,6 +149,23 @@ put_given(const struct scan *s, FILE *out)
         putc('\n', out);
 }
 
+/* Names the programs whose reports have values by component or depth only. */
+static void
+put_figureless(const struct cost_case *c, FILE *out)
+{
+    for (size_t p = 0; p < c->command.programs; p++) {
+        bool has = !c->command.program[p].reports;
+
+        for (size_t k = 0; k < c->figures; k++)
+            has = has || c->figure[k].program == p;
+        if (!has)
+            fprintf(out,
+                    "# %s: no bars: its report has values by component or depth, no single "
+                    "figures\n",
+                    c->command.program[p].name);
+    }
+}
+
 void
 scan_show_table(const struct scan *s, FILE *out)
 {
@@ -170,6 +187,7 @@ scan_show_table(const struct scan *s, FILE *out)
     fputs(" dominant note\n", out);
     put_rows(s, width, cases, out);
     put_given(s, out);
+    put_figureless(s->c, out);
     for (size_t k = 0; k < s->variants; k++) {
         const struct cost_trial *t = &s->c->trial[s->variant[k].trial];
 
