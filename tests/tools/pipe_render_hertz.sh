@@ -85,6 +85,7 @@ near "$(value_at law.svg dashed 1)" "$(perl -e '$x = sqrt(2) * 1e9 / (100e9 * sh
 # ---- refusals ----
 
 refuses 1 '--hertz needs the keys load, estar and form=sphere RADIUS: give what is missing with --estar and --radius' "a ball of unknown radius" "$draw --hertz <(rc-synth sphere --place 1um,0 --nx 129 --dx 10um --radius 7.5mm | rc-solve --quiet --load 60N --estar 114GPa --output pressure)"
+refuses 1 'an elliptic contact has no such circle, so there --radius does not help' "an ellipse" "$draw --hertz <(rc-synth paraboloid --nx 129 --dx 10um --radius 5mm,10mm | rc-solve --quiet --load 60N --estar 114GPa --output pressure)"
 refuses 1 '--radius is that of a sphere, but this is the contact of a cylinder \(form=cylinder 0.008\): leave out --radius' "the radius of a sphere for a cylinder" "$draw --hertz --radius 8mm along_y.rcg"
 refuses 1 '--radius is that of a sphere, but this is the contact of a cylinder \(form=cylinder 0.008\)' "the same on a cut" "$draw --cut y=0 --hertz --radius 8mm along_y.rcg"
 refuses 1 '--radius is that of a sphere, but this is the contact of a cylinder \(boundary=periodic-y\)' "the same of a cylinder in the heights" "$draw --hertz --radius 8mm <(rc-synth cylinder --nx 65 --ny 9 --dx 20um --radius 8mm | rc-solve --quiet --periodic=y --load 400N/mm --estar 115.38GPa --output pressure)"

@@ -97,7 +97,8 @@ read_circle(struct tool *t, const struct rc_grid *g, const struct law_given *giv
     if (!(r > 0) || !(estar > 0) || !rc_grid_number(g, "load", &load) || !(load > 0))
         tool_refuse(t, g,
                     "--hertz needs the keys load, estar and form=sphere RADIUS: give what is "
-                    "missing with --estar and --radius, or leave out --hertz");
+                    "missing with --estar and --radius, or leave out --hertz; an elliptic contact "
+                    "has no such circle, so there --radius does not help");
     h->across = '\0';
     h->half = cbrt(0.75 * load * r / estar);
     h->peak = 1.5 * load / (FIGURE_PI * h->half * h->half);
