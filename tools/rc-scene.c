@@ -194,13 +194,25 @@ read_difference(struct tool *t)
     return v;
 }
 
+static bool
+creeps(const struct run *run)
+{
+    const struct rc_scene_data *d = &run->data;
+
+    return d->creep[0] != 0 || d->creep[1] != 0 || d->spin != 0;
+}
+
+static bool
+wears_by_rolling(const struct run *run, const struct line *l)
+{
+    return creeps(run) && strcmp(l->effect.name, "wear") == 0;
+}
+
 /* True if --speed is the speed of rolling. */
 static bool
 rolls(const struct run *run)
 {
-    const struct rc_scene_data *d = &run->data;
-
-    return d->speed > 0 && (d->creep[0] != 0 || d->creep[1] != 0 || d->spin != 0);
+    return run->data.speed > 0 && creeps(run);
 }
 
 static double
@@ -416,6 +428,8 @@ name_commands(struct run *run, const struct rc_grid *g, struct line line[], size
         l->seconds = l->convolutions = NAN;
         l->why[0] = '\0';
         if (l->verdict == RC_SCENE_NEGLIGIBLE || l->verdict == RC_SCENE_MISSING)
+            continue;
+        if (wears_by_rolling(run, l))
             continue;
         l->commanded = scene_command(
             &run->t, number_of(&l->effect, "time") > 0 ? "leak in time" : l->effect.name, load,
@@ -935,6 +949,19 @@ make_rolling(const struct run *run, double slides, struct rc_scene_effect *e)
         (struct rc_interval){0, local * fmin(1.02 * still, 3 * rolling)};
 }
 
+/* The wear of a contact that stays and slides is not that of one that rolls, which needs a number of passes. */
+static void
+leave_wear(struct rc_scene_effect *e)
+{
+    if (e->missing != NULL)
+        return;
+    for (int f = 0; f < RC_SCENE_FIGURES; f++)
+        e->change[f] = (struct rc_interval){NAN, NAN};
+    snprintf(e->unfit, sizeof e->unfit,
+             "a rolling contact slides by its creepage alone: rc-slip --steady --output "
+             "height,pressure,slip, then rc-wear --cycles instead of --distance");
+}
+
 static void
 do_load(struct run *run, const struct rc_grid *g, size_t step)
 {
@@ -990,6 +1017,8 @@ do_load(struct run *run, const struct rc_grid *g, size_t step)
         tool_must(t, g, rc_scene_estimate(s, k, &l->effect, &t->err));
         if (rolls(run) && strcmp(l->effect.name, "heat") == 0)
             make_rolling(run, slides, &l->effect);
+        if (wears_by_rolling(run, l))
+            leave_wear(&l->effect);
         l->verdict = rc_scene_judge(&l->effect, &run->bounds, &l->figure);
         if (strcmp(l->effect.name, "relaxation") == 0)
             warn_of_creep(run, g, &l->effect);

@@ -47,6 +47,11 @@ scene --load 240N $quarter --mu 0.3 --creep 0.1,0 ball.rcg >rolls.json
 claim "with much creepage it is called for" test "$(of rolling rolls.json verdict)" = "calls for it"
 near "$(of rolling rolls.json figures friction high)" 0.3 1e-6 "  the force is the coefficient of friction times the load"
 claim "  and the table says so" says "the tangential force is 0.3 times the load" rc-scene --quiet --load 240N $quarter --mu 0.3 --creep 0.1,0 ball.rcg
+claim "wear of a rolling contact is not that of one that stays and slides" bash -c "
+    rc-scene --quiet --load 240N $quarter --mu 0.3 --creep 0.1,0 --coefficient 1e-8mm3/Nm --distance 1km ball.rcg >wears.txt
+    grep -q 'wear .*not decided: a rolling contact slides by its creepage alone: .* --cycles' wears.txt && ! grep -q 'rc-wear --coefficient' wears.txt"
+rc-solve --quiet --load 240N $quarter ball.rcg | rc-slip --quiet --mu 0.3 --steady --creep 0.1,0 --output height,pressure,slip -o wears.rcg
+claim "  the programs that it names compute it" rc-wear --quiet --coefficient 1e-8mm3/Nm --cycles 10 wears.rcg -o worn.rcg
 claim "rolling of a contact at the edge of the map has no estimate" bash -c "rc-scene --quiet --load 100kN $quarter --mu 0.3 --creep 1e-3,0 ball.rcg | grep -q 'reaches the right edge of the map'"
 claim "  nor on a periodic map" bash -c "rc-scene --quiet --periodic --load 240N $quarter --mu 0.3 --creep 1e-3,0 ball.rcg | grep -q 'needs a map that is free along x'"
 
