@@ -949,7 +949,7 @@ make_rolling(const struct run *run, double slides, struct rc_scene_effect *e)
         (struct rc_interval){0, local * fmin(1.02 * still, 3 * rolling)};
 }
 
-/* The wear of a contact that stays and slides is not that of one that rolls, which needs a number of passes. */
+/* Wear of a contact that rolls needs a number of passes; a contact that stays and slides wears otherwise. */
 static void
 leave_wear(struct rc_scene_effect *e)
 {

@@ -117,9 +117,9 @@ slip_set_keys(struct slip_run *run, struct rc_grid *g, bool converged, double lo
     tool_set_number(t, g, "tau_max", run->args->tau_max);
 }
 
-/* The error of the pressure of a state that was solved. Under dissimilar bodies the tractions, of which |q| is at
- * most mu p, change the pressure by about beta |q|, and so do their errors: in 12 random contacts by 0.35 to 0.78
- * of this. */
+/* The error of the pressure of a state that was solved. Between dissimilar bodies the tractions change the
+ * pressure by about beta |q|, where |q| is at most mu p. Their errors change it likewise: in 12 random
+ * contacts by 0.35 to 0.78 of beta times the error. */
 static double
 pressure_error(const struct slip_run *run, const struct rc_model *m)
 {

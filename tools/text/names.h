@@ -18,8 +18,8 @@ bool name_same(const char *a, size_t n, const char *b, size_t m);
 
 /* Replaces `nearest`, initially "", by the name if the name is nearer to the typed one. */
 void name_nearer(const char *typed, const char *name, char nearest[NAME_SIZE]);
-/* True if `typed` is a misspelling of `name`: at most one mistake in five letters, and none in a digit. For names
- * that stand for values, where a wrong guess would be accepted by trust. */
+/* True if `typed` is a misspelling of `name`: at most one mistake in five letters, and none in a digit. For
+ * names that stand for values: a wrong guess would be accepted by trust. */
 bool name_misspelt(const char *typed, const char *name);
 /* Returns ": did you mean NAME?" for the end of a message; "" where no name is near. */
 const char *name_meant(const char *nearest, char text[NAME_MEANT]);

@@ -71,8 +71,9 @@ size_sum(size_t a, size_t b)
     return b < SIZE_MAX - a ? a + b : SIZE_MAX;
 }
 
-/* `a,b,c`, where an entry may be a range: `a:b:n` (n values, both ends included) or `a:b:log:n` (the same with
- * equal ratios). Numbers with and without a unit in one list are an error, except 0. The caller frees list->v. */
+/* `a,b,c`, where an entry may be a range: `a:b:n` (n values, both ends included) or `a:b:log:n` (the same
+ * with equal ratios). Numbers with and without a unit in one list are an error, except 0. The caller frees
+ * list->v. */
 enum rc_status unit_numbers(const char *text, enum unit unit, struct numbers *list,
                             struct rc_err *err);
 /* The same without units; a piece `A-B` has the whole numbers from A to B. */
